@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+# Script of embed_files(): writes a C++ file with the bytes of every named file.
+string(REPLACE "|" ";" NAMES "${NAMES}")
+set(text "// Generated; do not edit.\n#include \"embedded_file.h\"\nnamespace raybundle {\nnamespace {\n")
+set(table "")
+set(index 0)
+foreach(name ${NAMES})
+    file(READ ${BASE}/${name} bytes HEX)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+    string(APPEND text "const unsigned char bytes_${index}[] = {${bytes}0};\n")
+    string(APPEND table "    {\"${name}\", {reinterpret_cast<const char*>(bytes_${index}), sizeof(bytes_${index}) - 1}},\n")
+    math(EXPR index "${index} + 1")
+endforeach()
+string(APPEND text "const EmbeddedFile files[] = {\n${table}};\n}\n")
+string(APPEND text "std::span<const EmbeddedFile> ${SYMBOL}() { return files; }\n}\n")
+file(WRITE ${OUTPUT} "${text}")
