@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Generator of the shipped scenes. Lengths in metres, Y up, right-handed, as in glTF."""
