@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/edge_refinement.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "scene/point_index.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t no_point = 0xffffffffU;
+
+/// Numbers pairs of points in the order of their first use: an open-addressing hash table, as this
+/// is where tessellation spends its time.
+class EdgeTable {
+  public:
+    explicit EdgeTable(std::size_t max_edges)
+        : slots_(std::bit_ceil(2 * max_edges + 2)), mask_(slots_.size() - 1) {}
+
+    /// Number of the edge, and whether it is new.
+    std::pair<std::uint32_t, bool> number_of(std::uint32_t low, std::uint32_t high) {
+        const std::uint64_t key = (std::uint64_t{low} << 32U) | high;
+        for (std::size_t at = mix_bits(key) & mask_;; at = (at + 1) & mask_) {
+            if (slots_[at].number == no_point) {
+                slots_[at] = {key, count_};
+                return {count_++, true};
+            }
+            if (slots_[at].key == key) {
+                return {slots_[at].number, false};
+            }
+        }
+    }
+
+  private:
+    struct Slot {
+        std::uint64_t key = 0;
+        std::uint32_t number = no_point;
+    };
+    std::vector<Slot> slots_;
+    std::size_t mask_;
+    std::uint32_t count_ = 0;
+};
+
+/// The triangles at each edge: of edge e, triangles[first[e]] to triangles[first[e + 1]].
+struct EdgeTriangles {
+    std::vector<std::uint32_t> first, triangles;
+};
+
+EdgeTriangles triangles_at_edges(const std::vector<std::array<std::uint32_t, 3>>& of_triangle,
+                                 std::size_t edge_count) {
+    EdgeTriangles result{std::vector<std::uint32_t>(edge_count + 1, 0),
+                         std::vector<std::uint32_t>(of_triangle.size() * 3)};
+    for (const auto& edges : of_triangle) {
+        for (const std::uint32_t edge : edges) {
+            ++result.first[edge + 1];
+        }
+    }
+    for (std::size_t e = 0; e < edge_count; ++e) {
+        result.first[e + 1] += result.first[e];
+    }
+    std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
+    for (std::size_t t = 0; t < of_triangle.size(); ++t) {
+        for (const std::uint32_t edge : of_triangle[t]) {
+            result.triangles[next[edge]++] = static_cast<std::uint32_t>(t);
+        }
+    }
+    return result;
+}
+
+EdgeRefinement::Corner midway(const EdgeRefinement::Corner& a, const EdgeRefinement::Corner& b,
+                              std::uint32_t point) {
+    // Sums commute, so that both neighbours of the edge get the same bits.
+    const glm::vec3 sum = a.normal + b.normal;
+    const float length = glm::length(sum);
+    return {point, length > 1e-6F ? sum / length : a.normal, 0.5F * (a.uv + b.uv)};
+}
+
+}  // namespace
+
+EdgeRefinement::EdgeRefinement(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        world_from_object_.emplace_back(object.world_from_object());
+    }
+    for (const Material& material : scene.materials) {
+        double_sided_.push_back(material.double_sided);
+    }
+    std::vector<PointIndex> numbers(scene.objects.size());
+    std::vector<std::vector<std::uint32_t>> global(scene.objects.size());
+    triangles_.reserve(scene.triangles.size());
+    for (const Triangle& triangle : scene.triangles) {
+        RefinedTriangle refined;
+        refined.material = triangle.material;
+        refined.object = triangle.object;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vertex& vertex = scene.vertices[triangle.vertex[k]];
+            const std::uint32_t local = numbers[triangle.object].id_of(vertex.position);
+            if (local == global[triangle.object].size()) {
+                global[triangle.object].push_back(static_cast<std::uint32_t>(points_.size()));
+                points_.push_back(vertex.position + 0.0F);
+                point_object_.push_back(triangle.object);
+                world_points_.emplace_back(world_from_object_[triangle.object] *
+                                           glm::dvec4(glm::dvec3(points_.back()), 1.0));
+            }
+            // -0 becomes 0, so that equal corners have equal bits.
+            refined.corners[k] = {global[triangle.object][local], vertex.normal + 0.0F,
+                                  vertex.uv + 0.0F};
+        }
+        patch_count_ += sides(refined);
+        triangles_.push_back(refined);
+    }
+}
+
+bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
+    while (patch_count_ <= max_patches) {
+        Edges edges = find_edges();
+        const std::vector<bool> marked = mark_edges(edges, target_edge);
+        if (std::find(marked.begin(), marked.end(), true) == marked.end()) {
+            return true;
+        }
+        patch_count_ = patches_after(edges, marked);
+        if (patch_count_ <= max_patches) {
+            add_midpoints(marked, edges);
+            split_triangles(edges);
+        }
+    }
+    return false;
+}
+
+EdgeRefinement::Edges EdgeRefinement::find_edges() const {
+    Edges edges;
+    EdgeTable table(triangles_.size() * 3);
+    edges.of_triangle.reserve(triangles_.size());
+    for (const RefinedTriangle& triangle : triangles_) {
+        std::array<std::uint32_t, 3> numbers{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = triangle.corners[k].point;
+            const std::uint32_t b = triangle.corners[(k + 1) % 3].point;
+            const std::uint32_t low = std::min(a, b);
+            const std::uint32_t high = std::max(a, b);
+            const auto [number, is_new] = table.number_of(low, high);
+            if (is_new) {
+                const glm::dvec3 along = world_points_[high] - world_points_[low];
+                edges.points.push_back({low, high});
+                edges.squared_length.push_back(glm::dot(along, along));
+            }
+            numbers[k] = number;
+        }
+        edges.of_triangle.push_back(numbers);
+    }
+    edges.midpoint.assign(edges.points.size(), no_point);
+    return edges;
+}
+
+/// Ties go to the edge with the smaller number: then neighbours agree, and marking cannot run in
+/// circles.
+int EdgeRefinement::longest_edge(const Edges& edges, std::size_t triangle) const {
+    const std::array<std::uint32_t, 3>& e = edges.of_triangle[triangle];
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+        const std::uint32_t candidate = e[static_cast<std::size_t>(k)];
+        const std::uint32_t best = e[static_cast<std::size_t>(longest)];
+        const double difference = edges.squared_length[candidate] - edges.squared_length[best];
+        if (difference > 0.0 || (difference == 0.0 && candidate < best)) {
+            longest = k;
+        }
+    }
+    return longest;
+}
+
+/// Edges to split: the too long ones, and with any edge of a triangle also its longest one.
+std::vector<bool> EdgeRefinement::mark_edges(const Edges& edges, double target_edge) const {
+    std::vector<bool> marked(edges.points.size(), false);
+    std::vector<std::uint32_t> pending;
+    for (std::size_t e = 0; e < marked.size(); ++e) {
+        if (edges.squared_length[e] > target_edge * target_edge) {
+            marked[e] = true;
+            pending.push_back(static_cast<std::uint32_t>(e));
+        }
+    }
+    if (pending.empty()) {
+        return marked;
+    }
+    const EdgeTriangles at = triangles_at_edges(edges.of_triangle, edges.points.size());
+    while (!pending.empty()) {
+        const std::uint32_t edge = pending.back();
+        pending.pop_back();
+        for (std::uint32_t i = at.first[edge]; i < at.first[edge + 1]; ++i) {
+            const std::size_t triangle = at.triangles[i];
+            const std::uint32_t longest =
+                edges
+                    .of_triangle[triangle][static_cast<std::size_t>(longest_edge(edges, triangle))];
+            if (!marked[longest]) {
+                marked[longest] = true;
+                pending.push_back(longest);
+            }
+        }
+    }
+    return marked;
+}
+
+std::size_t EdgeRefinement::patches_after(const Edges& edges,
+                                          const std::vector<bool>& marked) const {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        std::size_t pieces = 1;
+        for (const std::uint32_t edge : edges.of_triangle[t]) {
+            pieces += marked[edge] ? 1 : 0;
+        }
+        count += pieces * sides(triangles_[t]);
+    }
+    return count;
+}
+
+void EdgeRefinement::add_midpoints(const std::vector<bool>& marked, Edges& edges) {
+    for (std::size_t e = 0; e < marked.size(); ++e) {
+        if (!marked[e]) {
+            continue;
+        }
+        const auto [a, b] = edges.points[e];
+        edges.midpoint[e] = static_cast<std::uint32_t>(points_.size());
+        const std::uint32_t object = point_object_[a];
+        points_.push_back(0.5F * (points_[a] + points_[b]));
+        point_object_.push_back(object);
+        world_points_.emplace_back(world_from_object_[object] *
+                                   glm::dvec4(glm::dvec3(points_.back()), 1.0));
+    }
+}
+
+void EdgeRefinement::split_triangles(const Edges& edges) {
+    std::vector<RefinedTriangle> refined;
+    refined.reserve(patch_count_);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const RefinedTriangle& triangle = triangles_[t];
+        const auto first = static_cast<std::size_t>(longest_edge(edges, t));
+        const auto mid = [&](std::size_t k) {
+            return edges.midpoint[edges.of_triangle[t][(first + k) % 3]];
+        };
+        if (mid(0) == no_point) {
+            refined.push_back(triangle);
+            continue;
+        }
+        const auto add = [&](const Corner& p, const Corner& q, const Corner& r) {
+            refined.push_back({{p, q, r}, triangle.material, triangle.object});
+        };
+        // a to b is the longest edge; bisect it, then each half whose own outer edge is marked.
+        const Corner& a = triangle.corners[first];
+        const Corner& b = triangle.corners[(first + 1) % 3];
+        const Corner& c = triangle.corners[(first + 2) % 3];
+        const Corner m = midway(a, b, mid(0));
+        if (mid(2) == no_point) {
+            add(a, m, c);
+        } else {
+            const Corner n = midway(a, c, mid(2));
+            add(a, m, n);
+            add(n, m, c);
+        }
+        if (mid(1) == no_point) {
+            add(m, b, c);
+        } else {
+            const Corner n = midway(b, c, mid(1));
+            add(m, b, n);
+            add(m, n, c);
+        }
+    }
+    triangles_ = std::move(refined);
+}
+
+}  // namespace raybundle

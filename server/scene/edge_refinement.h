@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Longest-edge bisection of a scene's triangles (Rivara, "Algorithms for refining triangular grids
+/// suitable for adaptive and multigrid techniques", 1984). Neighbours are found through welded
+/// positions inside each object, whatever their normals and uv, and an edge is always split on both
+/// sides at the same point, so that no T-junction arises. Deterministic.
+class EdgeRefinement {
+  public:
+    struct Corner {
+        std::uint32_t point = 0;  ///< index into points()
+        glm::vec3 normal{0.0F};   ///< object space, unit
+        glm::vec2 uv{0.0F};
+    };
+    struct RefinedTriangle {
+        std::array<Corner, 3> corners;
+        std::uint32_t material = 0;
+        std::uint32_t object = 0;
+    };
+
+    explicit EdgeRefinement(const Scene& scene);
+
+    /// Splits until no edge is longer than `target_edge` (m, world space). False, with the work
+    /// half done, as soon as there would be more than `max_patches`.
+    bool refine(double target_edge, std::size_t max_patches);
+
+    [[nodiscard]] const std::vector<RefinedTriangle>& triangles() const { return triangles_; }
+    [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
+    /// Front sides and the back sides of doubleSided materials.
+    [[nodiscard]] std::size_t patch_count() const { return patch_count_; }
+
+  private:
+    /// The edges of the present triangles.
+    struct Edges {
+        std::vector<std::array<std::uint32_t, 3>> of_triangle;  // edge k joins corners k and k+1
+        std::vector<std::array<std::uint32_t, 2>> points;       // smaller number first
+        std::vector<double> squared_length;                     // m², world
+        std::vector<std::uint32_t> midpoint;                    // no_point where not split
+    };
+
+    [[nodiscard]] Edges find_edges() const;
+    [[nodiscard]] int longest_edge(const Edges& edges, std::size_t triangle) const;
+    [[nodiscard]] std::vector<bool> mark_edges(const Edges& edges, double target_edge) const;
+    [[nodiscard]] std::size_t patches_after(const Edges& edges,
+                                            const std::vector<bool>& marked) const;
+    void add_midpoints(const std::vector<bool>& marked, Edges& edges);
+    void split_triangles(const Edges& edges);
+    [[nodiscard]] std::size_t sides(const RefinedTriangle& triangle) const {
+        return double_sided_[triangle.material] ? 2 : 1;
+    }
+
+    std::vector<RefinedTriangle> triangles_;
+    std::vector<glm::vec3> points_;  // object space
+    std::vector<glm::dvec3> world_points_;
+    std::vector<std::uint32_t> point_object_;
+    std::vector<glm::dmat4> world_from_object_;
+    std::vector<bool> double_sided_;  // by material
+    std::size_t patch_count_ = 0;
+};
+
+}  // namespace raybundle

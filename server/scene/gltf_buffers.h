@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_json.h"
+
+namespace raybundle {
+
+/// The bytes behind a file's buffers and buffer views, all ranges checked, meshopt-compressed views
+/// (EXT_meshopt_compression) decoded.
+class GltfBuffers {
+  public:
+    /// Throws SceneError for a missing file, a buffer shorter than it says, a view outside of its
+    /// buffer, or compressed data that cannot be decoded.
+    GltfBuffers(const std::string& file, const Json& json,
+                std::optional<std::vector<std::uint8_t>> glb_binary);
+
+    /// Bytes of a buffer view, by its index in "bufferViews".
+    [[nodiscard]] std::span<const std::uint8_t> view(int index) const {
+        return views_[static_cast<std::size_t>(index)];
+    }
+
+  private:
+    void load_buffers(const std::string& file, const Json& json,
+                      std::optional<std::vector<std::uint8_t>> glb_binary);
+    void slice_views(const std::string& file, const Json& json);
+    std::span<const std::uint8_t> slice(const std::string& file, const std::string& json_path,
+                                        const Json& range) const;
+    std::span<const std::uint8_t> decode_meshopt(const std::string& file,
+                                                 const std::string& json_path, const Json& view,
+                                                 const Json& compression);
+
+    std::vector<std::vector<std::uint8_t>> buffers_;
+    std::vector<std::vector<std::uint8_t>> decoded_;
+    std::vector<std::span<const std::uint8_t>> views_;
+    std::size_t decoded_bytes_ = 0;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_container.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+
+#include "scene/gltf_loader.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint64_t max_scene_file_bytes = 2ULL << 30U;
+// Deeper than any exporter nests; bounds the recursion of everything that walks the JSON.
+constexpr int max_json_depth = 128;
+constexpr std::uint32_t glb_magic = 0x46546C67;
+constexpr std::uint32_t chunk_json = 0x4E4F534A;
+constexpr std::uint32_t chunk_binary = 0x004E4942;
+constexpr std::size_t glb_header_bytes = 12;
+constexpr std::size_t chunk_header_bytes = 8;
+
+std::uint32_t little_endian_u32(std::span<const std::uint8_t> bytes, std::size_t at) {
+    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8U |
+           static_cast<std::uint32_t>(bytes[at + 2]) << 16U |
+           static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
+}
+
+/// "[json.exception.parse_error.101] parse error at line 1 ..." without the bracket.
+std::string without_exception_id(const std::string& what) {
+    const std::size_t end = what.find("] ");
+    return end == std::string::npos ? what : what.substr(end + 2);
+}
+
+Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
+    const auto bound_depth = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > max_json_depth) {
+            throw SceneError(path, "", fmt::format("JSON nested deeper than {}", max_json_depth));
+        }
+        return true;
+    };
+    try {
+        Json json = Json::parse(text.begin(), text.end(), bound_depth);
+        if (!json.is_object()) {
+            throw SceneError(path, "", "not glTF: the JSON is not an object");
+        }
+        return json;
+    } catch (const Json::exception& error) {
+        throw SceneError(path, "", "not glTF: " + without_exception_id(error.what()));
+    }
+}
+
+/// Next chunk of a GLB at `at`, which moves behind it.
+struct Chunk {
+    std::uint32_t type;
+    std::span<const std::uint8_t> bytes;
+};
+
+Chunk take_chunk(const std::string& path, std::span<const std::uint8_t> file, std::size_t& at) {
+    if (file.size() - at < chunk_header_bytes) {
+        throw SceneError(path, "", fmt::format("GLB chunk header at byte {} is cut off", at));
+    }
+    const std::uint32_t length = little_endian_u32(file, at);
+    const std::uint32_t type = little_endian_u32(file, at + 4);
+    at += chunk_header_bytes;
+    if (length > file.size() - at) {
+        throw SceneError(path, "",
+                         fmt::format("GLB chunk at byte {} has length {}, but {} bytes are left",
+                                     at - chunk_header_bytes, length, file.size() - at));
+    }
+    const Chunk chunk{type, file.subspan(at, length)};
+    at += length;
+    return chunk;
+}
+
+std::span<const std::uint8_t> checked_glb(const std::string& path,
+                                          std::span<const std::uint8_t> file) {
+    if (file.size() < glb_header_bytes + chunk_header_bytes) {
+        throw SceneError(path, "", "GLB header is cut off");
+    }
+    if (const std::uint32_t version = little_endian_u32(file, 4); version != 2) {
+        throw SceneError(path, "", fmt::format("GLB version {}, only 2 is supported", version));
+    }
+    const std::uint32_t length = little_endian_u32(file, 8);
+    if (length > file.size() || length < glb_header_bytes + chunk_header_bytes) {
+        throw SceneError(
+            path, "",
+            fmt::format("GLB header says {} bytes, the file has {}", length, file.size()));
+    }
+    return file.first(length);
+}
+
+GltfContainer read_glb(const std::string& path, std::span<const std::uint8_t> whole) {
+    const std::span<const std::uint8_t> file = checked_glb(path, whole);
+    std::size_t at = glb_header_bytes;
+    const Chunk text = take_chunk(path, file, at);
+    if (text.type != chunk_json) {
+        throw SceneError(path, "", "the first GLB chunk is not JSON");
+    }
+    GltfContainer container{parse_json(path, text.bytes), std::nullopt};
+    // Chunks of unknown type are for extensions and are skipped, as the specification demands.
+    while (file.size() - at >= chunk_header_bytes) {
+        const Chunk chunk = take_chunk(path, file, at);
+        if (chunk.type == chunk_binary && !container.binary) {
+            container.binary.emplace(chunk.bytes.begin(), chunk.bytes.end());
+        }
+    }
+    return container;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> read_file_bounded(const std::string& path, std::uint64_t max_bytes,
+                                            const std::string& scene_file,
+                                            const std::string& json_path) {
+    // A device or a pipe would never end: only regular files.
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        throw SceneError(scene_file, json_path, fmt::format("file \"{}\" not found", path));
+    }
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (error || size > max_bytes) {
+        throw SceneError(scene_file, json_path,
+                         fmt::format("file \"{}\" is larger than {} bytes", path, max_bytes));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::vector<std::uint8_t> bytes(size);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!stream) {
+        throw SceneError(scene_file, json_path, fmt::format("file \"{}\" cannot be read", path));
+    }
+    return bytes;
+}
+
+GltfContainer read_gltf_container(const std::string& path) {
+    const std::vector<std::uint8_t> file = read_file_bounded(path, max_scene_file_bytes, path, "");
+    if (file.size() >= 4 && little_endian_u32(file, 0) == glb_magic) {
+        return read_glb(path, file);
+    }
+    return {parse_json(path, file), std::nullopt};
+}
+
+}  // namespace raybundle

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_document.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_container.h"
+#include "scene/gltf_extensions.h"
+#include "scene/gltf_loader.h"
+#include "scene/gltf_schema.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::size_t max_notices = 100;
+
+// Before any buffer is read: an unreadable extension is the better message than its symptoms.
+Json checked(const std::string& path, Json json) {
+    check_schema(path, json);
+    check_required_extensions(path, json);
+    return json;
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(const std::string& path)
+    : GltfDocument(path, read_gltf_container(path)) {}
+
+GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
+    : path_(path),
+      json_(checked(path, std::move(container.json))),
+      buffers_(path, json_, std::move(container.binary)) {
+    check_accessors(*this);
+    note_ignored_extensions(*this);
+}
+
+void GltfDocument::note(const std::string& text) {
+    const bool is_new = std::find(notices_.begin(), notices_.end(), text) == notices_.end();
+    if (is_new && notices_.size() < max_notices) {
+        notices_.push_back(text);
+    } else if (is_new && notices_.size() == max_notices) {
+        notices_.emplace_back("there are more notices like these");
+    }
+}
+
+void GltfDocument::fail(const std::string& json_path, const std::string& reason) const {
+    throw SceneError(path_, json_path, reason);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_image.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "scene/gltf_uri.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint64_t max_image_file_bytes = 512ULL << 20U;
+constexpr std::int64_t max_image_pixels = 64LL << 20U;
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view magic,
+                 std::size_t offset = 0) {
+    return bytes.size() >= offset + magic.size() &&
+           std::memcmp(bytes.data() + offset, magic.data(), magic.size()) == 0;
+}
+
+/// OpenImageIO's name of the format. Only what glTF allows: other decoders need not meet bytes from
+/// outside.
+const char* format_of(std::span<const std::uint8_t> bytes) {
+    if (starts_with(bytes, "\x89PNG")) {
+        return "png";
+    }
+    if (starts_with(bytes, "\xff\xd8\xff")) {
+        return "jpeg";
+    }
+    return starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8) ? "webp" : nullptr;
+}
+
+[[noreturn]] void fail_unknown_format(const GltfDocument& document, const std::string& path,
+                                      std::span<const std::uint8_t> bytes) {
+    if (starts_with(bytes, "\xabKTX 2")) {
+        document.fail(path, "KTX2 images (KHR_texture_basisu) are not supported");
+    }
+    document.fail(path, "is not a PNG, JPEG or WebP image");
+}
+
+/// Grey, grey and alpha, RGB or RGBA to RGBA.
+std::vector<std::uint8_t> expand_to_rgba(const std::vector<std::uint8_t>& pixels,
+                                         std::size_t channels) {
+    const std::size_t count = pixels.size() / channels;
+    std::vector<std::uint8_t> rgba(count * 4);
+    const bool grey = channels < 3;
+    const bool has_alpha = channels == 2 || channels == 4;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* in = pixels.data() + i * channels;
+        for (std::size_t c = 0; c < 3; ++c) {
+            rgba[i * 4 + c] = in[grey ? 0 : c];
+        }
+        rgba[i * 4 + 3] = has_alpha ? in[channels - 1] : 255;
+    }
+    return rgba;
+}
+
+std::vector<std::uint8_t> image_bytes(const GltfDocument& document, int image,
+                                      const std::string& path) {
+    const Json& json = document.item("images", image);
+    if (const int view = index_or_none(json, "bufferView"); view >= 0) {
+        const std::span<const std::uint8_t> bytes = document.view_bytes(view);
+        return {bytes.begin(), bytes.end()};
+    }
+    return read_uri(document.path(), path + ".uri", json.at("uri").get<std::string>(),
+                    max_image_file_bytes);
+}
+
+void check_spec(const GltfDocument& document, const std::string& path,
+                const OIIO::ImageSpec& spec) {
+    const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
+    if (spec.width < 1 || spec.height < 1 || pixels > max_image_pixels) {
+        document.fail(path, fmt::format("{} x {} pixels; the limit is {} pixels", spec.width,
+                                        spec.height, max_image_pixels));
+    }
+    if (spec.nchannels < 1 || spec.nchannels > 4) {
+        document.fail(path, fmt::format("has {} channels", spec.nchannels));
+    }
+}
+
+}  // namespace
+
+void check_images(const GltfDocument& document) {
+    const Json& images = document.array("images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const std::string path = item_path("images", i);
+        const Json* uri = find_member(images[i], "uri");
+        if (uri != nullptr) {
+            check_uri(document.path(), path + ".uri", uri->get_ref<const std::string&>());
+        } else if (find_member(images[i], "bufferView") == nullptr) {
+            document.fail(path, "has neither uri nor bufferView");
+        }
+    }
+}
+
+DecodedImage decode_image(const GltfDocument& document, int image) {
+    const std::string path = item_path("images", static_cast<std::size_t>(image));
+    const std::vector<std::uint8_t> bytes = image_bytes(document, image, path);
+    const char* format = format_of(bytes);
+    if (format == nullptr) {
+        fail_unknown_format(document, path, bytes);
+    }
+    OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+    OIIO::ImageSpec hints;
+    hints["oiio:UnassociatedAlpha"] = 1;
+    // The name only chooses the decoder: the bytes come from the reader, which has to be among the
+    // hints (beside hints without it, OpenImageIO 2.4 forgets a reader given as an argument).
+    OIIO::Filesystem::IOProxy* proxy = &reader;
+    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
+    const auto input = OIIO::ImageInput::open(std::string("image.") + format, &hints);
+    if (!input) {
+        document.fail(path, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    check_spec(document, path, spec);
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(spec.width) *
+                                     static_cast<std::size_t>(spec.height) * channels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data())) {
+        document.fail(path, fmt::format("cannot be decoded: {}", input->geterror()));
+    }
+    return {spec.width, spec.height, expand_to_rgba(pixels, channels)};
+}
+
+}  // namespace raybundle

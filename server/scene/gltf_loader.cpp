@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_loader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <new>
+
+#include "scene/default_camera.h"
+#include "scene/geometry_defects.h"
+#include "scene/gltf_bake.h"
+#include "scene/gltf_camera.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_geometry.h"
+#include "scene/gltf_material.h"
+#include "scene/gltf_node_tree.h"
+#include "scene/gltf_objects.h"
+#include "scene/gltf_primitive.h"
+#include "scene/lights.h"
+
+namespace raybundle {
+namespace {
+
+/// glTF's default material is only kept where a triangle uses it, or as the only one.
+void drop_unused_default_material(Scene& scene, std::uint32_t default_material) {
+    for (const Triangle& triangle : scene.triangles) {
+        if (triangle.material == default_material) {
+            return;
+        }
+    }
+    if (scene.materials.size() > 1) {
+        scene.materials.pop_back();
+    }
+}
+
+void name_materials(Scene& scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (scene.materials[i].name.empty()) {
+            scene.materials[i].name = fmt::format("material {}", i + 1);
+        }
+    }
+}
+
+void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
+    if (settings.sky_luminance) {
+        scene.sky_radiance = glm::vec3(*settings.sky_luminance);
+    } else if (scene.lights.empty()) {
+        scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
+        document.note(
+            fmt::format("nothing in the scene emits light: it is lit by a uniform sky "
+                        "of {} cd/m²",
+                        settings.default_sky_luminance));
+    }
+}
+
+/// What the simplified shading of the used materials leaves out.
+void note_materials(GltfDocument& document, const Scene& scene) {
+    for (const Triangle& triangle : scene.triangles) {
+        if (scene.materials[triangle.material].metallic > 0.0F) {
+            document.note("glossy reflection of metals is approximated as diffuse");
+            return;
+        }
+    }
+}
+
+Scene load_checked(const std::string& path, const SceneSettings& settings) {
+    GltfDocument document(path);
+    Scene scene;
+    scene.path = path;
+    scene.name = std::filesystem::path(path).stem().string();
+    const GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
+    const std::uint32_t default_material = read_materials(document, scene);
+    check_meshes(document);
+    const std::vector<NodeGeometry> geometries =
+        read_geometry(document, tree, settings.metres_per_unit);
+    bake_objects(document, tree, geometries, plan_objects(document, tree, geometries),
+                 default_material, scene);
+    scene.removed.duplicate_faces = remove_duplicate_faces(scene);
+    if (scene.removed.duplicate_faces > 0) {
+        document.note(
+            fmt::format("{} duplicate faces are left out", scene.removed.duplicate_faces));
+    }
+    drop_unused_default_material(scene, default_material);
+    scene.lights = find_lights(scene);
+    name_materials(scene);
+    scene.cameras = read_cameras(document, tree, scene.bounds);
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(default_camera(scene));
+        document.note("the file has no usable camera: a default one is used");
+    }
+    note_materials(document, scene);
+    set_sky(document, settings, scene);
+    scene.notices = document.notices();
+    return scene;
+}
+
+}  // namespace
+
+Scene load_gltf(const std::string& path, const SceneSettings& settings) {
+    try {
+        return load_checked(path, settings);
+    } catch (const std::bad_alloc&) {
+        throw SceneError(path, "", "not enough memory to load the scene");
+    } catch (const std::length_error& error) {
+        throw SceneError(path, "", fmt::format("too large: {}", error.what()));
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// A scene file that cannot be used: which file, where in it (JSON path such as
+/// "meshes[2].primitives[0].indices", empty if the whole file), and why. Exit status 3.
+class SceneError : public std::runtime_error {
+  public:
+    SceneError(std::string file, std::string json_path, std::string reason);
+    [[nodiscard]] const std::string& file() const { return file_; }
+    [[nodiscard]] const std::string& json_path() const { return json_path_; }
+    [[nodiscard]] const std::string& reason() const { return reason_; }
+
+  private:
+    std::string file_, json_path_, reason_;
+};
+
+struct SceneSettings {
+    float metres_per_unit = 1.0F;           ///< --unit
+    std::optional<float> sky_luminance;     ///< --sky, cd/m²
+    float default_sky_luminance = 1000.0F;  ///< where a scene has no emitter at all, cd/m²
+};
+
+/// Reads a .gltf or .glb file. Throws SceneError; never returns a half-read scene.
+Scene load_gltf(const std::string& path, const SceneSettings& settings = {});
+
+}  // namespace raybundle

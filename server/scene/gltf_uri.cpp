@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_uri.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "scene/gltf_container.h"
+#include "scene/gltf_loader.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint8_t not_base64 = 0xff;
+
+constexpr std::array<std::uint8_t, 256> base64_values() {
+    std::array<std::uint8_t, 256> values{};
+    values.fill(not_base64);
+    constexpr std::string_view alphabet =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < alphabet.size(); ++i) {
+        values[static_cast<std::uint8_t>(alphabet[i])] = static_cast<std::uint8_t>(i);
+    }
+    // RFC 4648 section 5, the URL-safe alphabet.
+    values['-'] = 62;
+    values['_'] = 63;
+    return values;
+}
+
+/// False if the text is not base64.
+bool decode_base64(std::string_view text, std::vector<std::uint8_t>& bytes) {
+    static constexpr std::array<std::uint8_t, 256> values = base64_values();
+    while (!text.empty() && text.back() == '=') {
+        text.remove_suffix(1);
+    }
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const std::uint8_t value = values[static_cast<std::uint8_t>(c)];
+        if (value == not_base64) {
+            return false;
+        }
+        bits = (bits << 6U) | value;
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(count)));
+        }
+    }
+    return text.size() % 4 != 1;
+}
+
+std::vector<std::uint8_t> decode_data_uri(const std::string& scene_file,
+                                          const std::string& json_path, std::string_view uri) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) {
+        throw SceneError(scene_file, json_path, "data URI without a comma");
+    }
+    const std::string_view header = uri.substr(0, comma);
+    const std::string_view body = uri.substr(comma + 1);
+    if (!header.ends_with(";base64")) {
+        const std::string plain = percent_decoded(body);
+        return {plain.begin(), plain.end()};
+    }
+    std::vector<std::uint8_t> bytes;
+    // Some exporters escape "+", "/" and "=" inside the base64 text.
+    const bool escaped = body.find('%') != std::string_view::npos;
+    if (!decode_base64(escaped ? percent_decoded(body) : body, bytes)) {
+        throw SceneError(scene_file, json_path, "data URI is not valid base64");
+    }
+    return bytes;
+}
+
+bool has_scheme(std::string_view uri) {
+    const std::size_t colon = uri.find(':');
+    return colon != std::string_view::npos && colon > 0 && uri.find('/') > colon;
+}
+
+/// The file that a relative reference names.
+std::string local_path(const std::string& scene_file, const std::string& json_path,
+                       const std::string& uri) {
+    if (uri.empty()) {
+        throw SceneError(scene_file, json_path, "empty URI");
+    }
+    const std::filesystem::path relative(percent_decoded(uri));
+    if (has_scheme(uri) || relative.is_absolute()) {
+        throw SceneError(
+            scene_file, json_path,
+            fmt::format("\"{}\": only data URIs and relative paths are read", uri.substr(0, 200)));
+    }
+    if (relative.native().find('\0') != std::string::npos) {
+        throw SceneError(scene_file, json_path, "URI contains a zero byte");
+    }
+    const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
+    // Files whose names contain a literal "%" are looked for as written, too.
+    std::error_code error;
+    if (!std::filesystem::exists(folder / relative, error) &&
+        std::filesystem::exists(folder / uri, error)) {
+        return (folder / uri).string();
+    }
+    return (folder / relative).string();
+}
+
+int hex_digit(char c) {
+    const int lower = std::tolower(static_cast<unsigned char>(c));
+    if (lower >= '0' && lower <= '9') {
+        return lower - '0';
+    }
+    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+}  // namespace
+
+std::string percent_decoded(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
+            hex_digit(text[i + 2]) >= 0) {
+            decoded.push_back(
+                static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2])));
+            i += 2;
+        } else {
+            decoded.push_back(text[i]);
+        }
+    }
+    return decoded;
+}
+
+std::vector<std::uint8_t> read_uri(const std::string& scene_file, const std::string& json_path,
+                                   const std::string& uri, std::uint64_t max_bytes) {
+    if (uri.starts_with("data:")) {
+        return decode_data_uri(scene_file, json_path, uri);
+    }
+    return read_file_bounded(local_path(scene_file, json_path, uri), max_bytes, scene_file,
+                             json_path);
+}
+
+void check_uri(const std::string& scene_file, const std::string& json_path,
+               const std::string& uri) {
+    if (uri.starts_with("data:")) {
+        return;
+    }
+    const std::string path = local_path(scene_file, json_path, uri);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        throw SceneError(scene_file, json_path, fmt::format("file \"{}\" not found", path));
+    }
+}
+
+}  // namespace raybundle

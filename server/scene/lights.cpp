@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/lights.h"
+
+#include <string>
+
+#include "scene/patch_colour.h"
+
+namespace raybundle {
+namespace {
+
+/// What the triangles of one emitting material add up to.
+struct Emitter {
+    double area = 0.0;               // m²
+    glm::dvec3 power{0.0};           // radiance times area
+    const Object* object = nullptr;  // the first that uses it
+};
+
+double world_area(const Scene& scene, const Triangle& triangle, const glm::mat4& world) {
+    glm::dvec3 p[3];
+    for (int k = 0; k < 3; ++k) {
+        p[k] = glm::dmat4(world) *
+               glm::dvec4(glm::dvec3(scene.vertices[triangle.vertex[k]].position), 1.0);
+    }
+    return 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+}
+
+}  // namespace
+
+std::vector<Light> find_lights(const Scene& scene) {
+    std::vector<Emitter> emitters(scene.materials.size());
+    std::vector<glm::mat4> world;
+    for (const Object& object : scene.objects) {
+        world.push_back(object.world_from_object());
+    }
+    for (const Triangle& triangle : scene.triangles) {
+        const Material& material = scene.materials[triangle.material];
+        if (material.emission == glm::vec3(0.0F)) {
+            continue;
+        }
+        Emitter& emitter = emitters[triangle.material];
+        const double area = world_area(scene, triangle, world[triangle.object]);
+        const glm::vec3 radiance = patch_emission(
+            scene, material,
+            {scene.vertices[triangle.vertex[0]].uv, scene.vertices[triangle.vertex[1]].uv,
+             scene.vertices[triangle.vertex[2]].uv});
+        emitter.area += area;
+        emitter.power += area * glm::dvec3(radiance);
+        if (emitter.object == nullptr) {
+            emitter.object = &scene.objects[triangle.object];
+        }
+    }
+    std::vector<Light> lights;
+    for (std::size_t m = 0; m < emitters.size(); ++m) {
+        const Emitter& emitter = emitters[m];
+        if (emitter.power == glm::dvec3(0.0)) {
+            continue;
+        }
+        const std::string& name = scene.materials[m].name;
+        lights.push_back({static_cast<std::uint32_t>(lights.size() + 1),
+                          name.empty() ? emitter.object->name : name, static_cast<int>(m),
+                          glm::vec3(emitter.power / emitter.area)});
+    }
+    return lights;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// The luminaires of a scene: one for each material that emits and is used, in the order of the
+/// materials. Named after the material, or after the first object that uses it. Radiance is the
+/// area mean over its triangles.
+std::vector<Light> find_lights(const Scene& scene);
+
+}  // namespace raybundle

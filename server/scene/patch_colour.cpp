@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/patch_colour.h"
+
+#include <optional>
+
+#include "scene/lambert_albedo.h"
+#include "scene/texture_mean.h"
+
+namespace raybundle {
+namespace {
+
+const Texture* texture_of(const Scene& scene, const TextureSlot& slot) {
+    return slot.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(slot.texture)];
+}
+
+/// The cutoff for the texture's alpha alone: glTF compares factor * texture with alphaCutoff.
+std::optional<float> texture_cutoff(const Material& material) {
+    if (material.alpha_mode != AlphaMode::mask) {
+        return std::nullopt;
+    }
+    return material.alpha > 0.0F ? material.alpha_cutoff / material.alpha : 2.0F;
+}
+
+}  // namespace
+
+PatchColour patch_colour(const Scene& scene, const Material& material,
+                         const std::array<glm::vec2, 3>& mesh_uv) {
+    PatchColour result;
+    glm::vec3 colour = material.base_colour;
+    const std::optional<float> cutoff = texture_cutoff(material);
+    if (const Texture* texture = texture_of(scene, material.base_colour_texture)) {
+        const TextureMean mean =
+            texture_mean(*texture, material.base_colour_texture.uv_from_mesh_uv, mesh_uv, cutoff);
+        colour *= mean.colour;
+        result.coverage = mean.coverage;
+    } else if (cutoff && *cutoff > 1.0F) {
+        result.coverage = 0.0F;
+    }
+    result.albedo = lambert_albedo(material, colour);
+    result.albedo_was_clamped = exceeds_max_albedo(material, colour);
+    result.emission = patch_emission(scene, material, mesh_uv);
+    return result;
+}
+
+glm::vec3 patch_emission(const Scene& scene, const Material& material,
+                         const std::array<glm::vec2, 3>& mesh_uv) {
+    const Texture* texture = texture_of(scene, material.emission_texture);
+    if (texture == nullptr || material.emission == glm::vec3(0.0F)) {
+        return material.emission;
+    }
+    return material.emission *
+           texture_mean(*texture, material.emission_texture.uv_from_mesh_uv, mesh_uv).colour;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Area means over one patch.
+struct PatchColour {
+    glm::vec3 albedo{0.0F};    ///< lambert_albedo() of the covered part
+    glm::vec3 emission{0.0F};  ///< radiance, cd/m²
+    float coverage = 1.0F;     ///< share that alpha MASK leaves, 0: nothing is there
+    bool albedo_was_clamped = false;
+};
+
+/// Colours of a patch with this material and these mesh uv at its corners.
+PatchColour patch_colour(const Scene& scene, const Material& material,
+                         const std::array<glm::vec2, 3>& mesh_uv);
+
+/// Only the emission, cd/m².
+glm::vec3 patch_emission(const Scene& scene, const Material& material,
+                         const std::array<glm::vec2, 3>& mesh_uv);
+
+}  // namespace raybundle

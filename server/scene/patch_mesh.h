@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// The tessellated scene: what is rasterised (triangles) and what carries radiance (patches).
+/// A patch is one side of a triangle: patches [0, triangles) are the front sides, in the order of
+/// the triangles; the back sides of doubleSided triangles follow.
+struct PatchMesh {
+    static constexpr std::uint32_t no_patch = 0xffffffffU;
+
+    // Vertices, welded: equal position, normal, uv and object are one vertex, so that the patches
+    // round a vertex are the ones to interpolate over (a smoothing group).
+    std::vector<glm::vec3> positions;          ///< object space, metres
+    std::vector<glm::vec3> normals;            ///< object space, unit
+    std::vector<glm::vec2> uvs;                ///< mesh uv, before the slot's transform
+    std::vector<std::uint32_t> vertex_object;  ///< index into Scene::objects
+
+    // Triangles.
+    std::vector<glm::uvec3> triangles;  ///< vertex indices, counter-clockwise from the front
+    std::vector<std::uint32_t> triangle_material;
+    std::vector<std::uint32_t> back_patch;  ///< patch of the back side, or no_patch
+
+    // Patches.
+    std::vector<std::uint32_t> patch_triangle;
+    std::vector<glm::vec3> albedo;    ///< diffuse, linear, area mean over the patch, <= 0.999
+    std::vector<glm::vec3> emission;  ///< radiance, cd/m², area mean over the patch
+
+    [[nodiscard]] std::size_t patch_count() const { return patch_triangle.size(); }
+    [[nodiscard]] std::size_t triangle_count() const { return triangles.size(); }
+};
+
+struct TessellationSettings {
+    float patch_size = 0.0F;  ///< target edge, metres; 0: chosen for target_patches
+    std::size_t target_patches = 25'000;
+    std::size_t max_patches = 4'000'000;  ///< a larger result is an error, not a hang
+};
+
+/// Splits longest edges until none is longer than the target edge (in world space, at the objects'
+/// initial transforms), without T-junctions inside a mesh; welds; averages textures over patches.
+/// Appends to scene.notices what it did to odd input. Deterministic. Throws SceneError if too
+/// large.
+PatchMesh tessellate(Scene& scene, const TessellationSettings& settings = {});
+
+}  // namespace raybundle

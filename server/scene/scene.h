@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+namespace raybundle {
+
+/// Axis-aligned box; empty while min > max.
+struct Bounds {
+    glm::vec3 min{1e30F};
+    glm::vec3 max{-1e30F};
+
+    void add(const glm::vec3& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+    [[nodiscard]] bool empty() const { return min.x > max.x; }
+    [[nodiscard]] glm::vec3 centre() const { return 0.5F * (min + max); }
+    [[nodiscard]] glm::vec3 extent() const { return empty() ? glm::vec3(0) : max - min; }
+};
+
+/// Image of a texture, 8 bits a channel, RGBA, row 0 first as in the file (glTF: v = 0 is row 0).
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    bool repeat_u = true;  ///< else clamped to the edge
+    bool repeat_v = true;
+    std::vector<std::uint8_t> rgba;  ///< width * height * 4; colour is sRGB-encoded
+};
+
+/// A use of a texture by a material, with KHR_texture_transform already folded into
+/// uv_from_mesh_uv.
+struct TextureSlot {
+    int texture = -1;                 ///< index into Scene::textures, -1: none
+    glm::mat3 uv_from_mesh_uv{1.0F};  ///< homogeneous 2D transform
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// glTF 2.0 metallic-roughness material. Colours are linear Rec. 709.
+struct Material {
+    std::string name;
+    glm::vec3 base_colour{1.0F};  ///< factor, linear
+    TextureSlot base_colour_texture;
+    float alpha = 1.0F;  ///< factor of the base colour's alpha
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5F;
+    float metallic = 1.0F;
+    float roughness = 1.0F;
+    float specular = 1.0F;     ///< KHR_materials_specular specularFactor; 0: pure Lambert
+    glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
+    TextureSlot emission_texture;
+    bool double_sided = false;
+};
+
+/// Translation, rotation, scale: local transform of a node, as in glTF.
+struct Transform {
+    glm::vec3 translation{0.0F};
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};  ///< glm order: w, x, y, z
+    glm::vec3 scale{1.0F};
+
+    [[nodiscard]] glm::mat4 matrix() const;
+};
+
+/// A glTF node subtree that is moved as a whole. Objects are not nested in one another.
+struct Object {
+    std::uint32_t id = 0;  ///< 1-based and equal to its index in Scene::objects plus one
+    std::string name;
+    bool movable = false;
+    Transform transform;                ///< local, relative to world_from_parent
+    glm::mat4 world_from_parent{1.0F};  ///< fixed: product of the ancestors' matrices
+    Bounds bounds;                      ///< object space, of its triangles
+
+    [[nodiscard]] glm::mat4 world_from_object() const {
+        return world_from_parent * transform.matrix();
+    }
+};
+
+/// Perspective camera. Lengths in metres, world space.
+struct Camera {
+    std::string name;
+    glm::vec3 eye{0.0F};
+    glm::vec3 target{0.0F, 0.0F, -1.0F};
+    glm::vec3 up{0.0F, 1.0F, 0.0F};
+    float vertical_fov = 0.7F;  ///< radians
+};
+
+/// An emitting material seen as a luminaire: what the protocol lists under `lights`.
+struct Light {
+    std::uint32_t id = 0;  ///< 1-based
+    std::string name;
+    int material = -1;         ///< index of the emitting material
+    glm::vec3 radiance{0.0F};  ///< cd/m², RGB
+};
+
+/// One triangle of the file, in the space of its object. Indices into Scene::vertices.
+struct Triangle {
+    std::uint32_t vertex[3] = {0, 0, 0};
+    std::uint32_t material = 0;
+    std::uint32_t object = 0;  ///< index into Scene::objects (not id)
+};
+
+struct Vertex {
+    glm::vec3 position{0.0F};  ///< object space, metres
+    glm::vec3 normal{0.0F};    ///< object space, unit
+    glm::vec2 uv{0.0F};        ///< TEXCOORD_0 (or the set that the base colour uses)
+};
+
+/// What loading left out because nothing could ever see it.
+struct RemovedGeometry {
+    std::size_t degenerate_triangles = 0;  ///< without area
+    std::size_t duplicate_faces = 0;       ///< the same three positions and side once more
+};
+
+/// What a glTF file says, checked, in metres, rest pose, every node's geometry in its object's
+/// space.
+struct Scene {
+    std::string name;  ///< file name without extension
+    std::string path;
+    std::vector<Vertex> vertices;
+    std::vector<Triangle> triangles;  ///< no zero-area ones
+    std::vector<Material> materials;  ///< at least one
+    std::vector<Texture> textures;
+    std::vector<Object> objects;  ///< at least one
+    std::vector<Camera> cameras;  ///< at least one: a framing default where the file has none
+    std::vector<Light> lights;
+    glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
+    Bounds bounds;                 ///< world space
+    RemovedGeometry removed;
+    std::vector<std::string> notices;  ///< what a user should know about how the file was read
+};
+
+/// Rec. 709 luminance of a linear RGB colour.
+inline float luminance(const glm::vec3& rgb) {
+    return glm::dot(rgb, glm::vec3(0.2126F, 0.7152F, 0.0722F));
+}
+
+}  // namespace raybundle

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace raybundle {
+namespace {
+
+constexpr float largest_plausible = 1000.0F;  // m
+constexpr float smallest_plausible = 0.01F;   // m
+
+struct Unit {
+    const char* name;
+    float metres;
+};
+constexpr Unit smaller_units[] = {{"ft", 0.3048F}, {"in", 0.0254F}, {"cm", 0.01F}, {"mm", 0.001F}};
+
+double triangle_area(const Scene& scene, const Triangle& triangle, const glm::dmat4& world) {
+    glm::dvec3 p[3];
+    for (int k = 0; k < 3; ++k) {
+        p[k] = world * glm::dvec4(glm::dvec3(scene.vertices[triangle.vertex[k]].position), 1.0);
+    }
+    return 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+}
+
+}  // namespace
+
+std::optional<std::string> unit_hint(const Bounds& bounds) {
+    const glm::vec3 extent = bounds.extent();
+    const float size = std::max({extent.x, extent.y, extent.z});
+    if (size > largest_plausible) {
+        // The largest unit that makes it a building of at most 100 m, else millimetres.
+        const auto* fits = std::find_if(
+            std::begin(smaller_units), std::end(smaller_units) - 1,
+            [&](const Unit& unit) { return size * unit.metres <= 0.1F * largest_plausible; });
+        return fmt::format(
+            "the scene is {:.4g} m large: if it was drawn in another unit, try "
+            "--unit {}",
+            size, fits->name);
+    }
+    if (size < smallest_plausible && size > 0.0F) {
+        return fmt::format(
+            "the scene is only {:.4g} m large: if its file is not in the unit that "
+            "--unit names, try --unit m",
+            size);
+    }
+    return std::nullopt;
+}
+
+SceneReport make_scene_report(const Scene& scene, const PatchMesh& mesh) {
+    SceneReport report;
+    std::unordered_set<std::uint32_t> referenced;
+    for (const Triangle& triangle : scene.triangles) {
+        referenced.insert(std::begin(triangle.vertex), std::end(triangle.vertex));
+        report.area += triangle_area(
+            scene, triangle, glm::dmat4(scene.objects[triangle.object].world_from_object()));
+    }
+    report.referenced_vertices = referenced.size();
+    for (const Material& material : scene.materials) {
+        report.textured_materials += material.base_colour_texture.texture >= 0 ? 1 : 0;
+        report.double_sided_materials += material.double_sided ? 1 : 0;
+    }
+    for (const Texture& texture : scene.textures) {
+        report.texture_bytes += texture.rgba.size();
+    }
+    report.edges = count_edge_defects(scene);
+    report.unit_hint = unit_hint(scene.bounds);
+    report.patches = mesh.patch_count();
+    report.patch_triangles = mesh.triangle_count();
+    report.patch_vertices = mesh.positions.size();
+    return report;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "scene/scene_report.h"
+
+namespace raybundle {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const glm::vec3& v) {
+    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v.x, v.y, v.z);
+}
+
+Json json_of(const glm::vec3& v) {
+    return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
+}
+
+Json json_of(const Bounds& bounds) {
+    return {{"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}};
+}
+
+const char* name_of(AlphaMode mode) {
+    switch (mode) {
+        case AlphaMode::mask:
+            return "MASK";
+        case AlphaMode::blend:
+            return "BLEND";
+        default:
+            return "OPAQUE";
+    }
+}
+
+void print_summary(std::ostream& out, const Scene& scene, const SceneReport& report) {
+    out << fmt::format("{} ({})\n", scene.name, scene.path);
+    out << fmt::format("bounds      {}  to  {}  ({} m)\n", text_of(scene.bounds.min),
+                       text_of(scene.bounds.max), text_of(scene.bounds.extent()));
+    if (report.unit_hint) {
+        out << fmt::format("unit        {}\n", *report.unit_hint);
+    }
+    out << fmt::format("file        {} triangles, {} vertices, {:.4g} m²\n", scene.triangles.size(),
+                       report.referenced_vertices, report.area);
+    out << fmt::format("patches     {} on {} triangles, {} vertices\n", report.patches,
+                       report.patch_triangles, report.patch_vertices);
+    out << fmt::format("left out    {} triangles without area, {} duplicate faces\n",
+                       scene.removed.degenerate_triangles, scene.removed.duplicate_faces);
+    out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
+                       report.edges.boundary, report.edges.non_manifold);
+    out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
+}
+
+void print_lists(std::ostream& out, const Scene& scene) {
+    out << fmt::format("objects     {}\n", scene.objects.size());
+    for (const Object& object : scene.objects) {
+        out << fmt::format("  {:4} {}{}\n", object.id, object.name,
+                           object.movable ? "  (movable)" : "");
+    }
+    out << fmt::format("materials   {}\n", scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        out << fmt::format("  {:4} {}  base colour {}{}{}\n", i + 1, material.name,
+                           text_of(material.base_colour),
+                           material.base_colour_texture.texture >= 0 ? " * texture" : "",
+                           material.double_sided ? ", double sided" : "");
+    }
+    out << fmt::format("lights      {}\n", scene.lights.size());
+    for (const Light& light : scene.lights) {
+        out << fmt::format("  {:4} {}  {:.4g} cd/m²  (RGB {})\n", light.id, light.name,
+                           luminance(light.radiance), text_of(light.radiance));
+    }
+    out << fmt::format("cameras     {}\n", scene.cameras.size());
+    for (const Camera& camera : scene.cameras) {
+        out << fmt::format("       {}  eye {}  target {}  vertical fov {:.4g} rad\n", camera.name,
+                           text_of(camera.eye), text_of(camera.target), camera.vertical_fov);
+    }
+    out << fmt::format("textures    {}\n", scene.textures.size());
+    for (const Texture& texture : scene.textures) {
+        out << fmt::format("       {}  {} x {}\n", texture.name, texture.width, texture.height);
+    }
+    for (const std::string& notice : scene.notices) {
+        out << fmt::format("notice      {}\n", notice);
+    }
+}
+
+Json objects_json(const Scene& scene) {
+    Json result = Json::array();
+    for (const Object& object : scene.objects) {
+        result.push_back({{"id", object.id},
+                          {"name", object.name},
+                          {"movable", object.movable},
+                          {"bounds", json_of(object.bounds)}});
+    }
+    return result;
+}
+
+Json materials_json(const Scene& scene) {
+    Json result = Json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        result.push_back({{"id", i + 1},
+                          {"name", material.name},
+                          {"baseColour", json_of(material.base_colour)},
+                          {"metallic", material.metallic},
+                          {"roughness", material.roughness},
+                          {"specular", material.specular},
+                          {"emission", json_of(material.emission)},
+                          {"textured", material.base_colour_texture.texture >= 0},
+                          {"alphaMode", name_of(material.alpha_mode)},
+                          {"doubleSided", material.double_sided}});
+    }
+    return result;
+}
+
+Json lights_json(const Scene& scene) {
+    Json result = Json::array();
+    for (const Light& light : scene.lights) {
+        result.push_back({{"id", light.id},
+                          {"name", light.name},
+                          {"luminance", luminance(light.radiance)},
+                          {"radiance", json_of(light.radiance)}});
+    }
+    return result;
+}
+
+Json cameras_json(const Scene& scene) {
+    Json result = Json::array();
+    for (const Camera& camera : scene.cameras) {
+        result.push_back({{"name", camera.name},
+                          {"eye", json_of(camera.eye)},
+                          {"target", json_of(camera.target)},
+                          {"up", json_of(camera.up)},
+                          {"verticalFov", camera.vertical_fov}});
+    }
+    return result;
+}
+
+Json textures_json(const Scene& scene) {
+    Json result = Json::array();
+    for (const Texture& texture : scene.textures) {
+        result.push_back(
+            {{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
+    }
+    return result;
+}
+
+}  // namespace
+
+void print_scene_report(std::ostream& out, const Scene& scene, const SceneReport& report) {
+    print_summary(out, scene, report);
+    print_lists(out, scene);
+}
+
+Json scene_report_json(const Scene& scene, const SceneReport& report) {
+    Json json = {{"name", scene.name},
+                 {"path", scene.path},
+                 {"bounds", json_of(scene.bounds)},
+                 {"triangles", scene.triangles.size()},
+                 {"vertices", report.referenced_vertices},
+                 {"area", report.area},
+                 {"patches", report.patches},
+                 {"patchTriangles", report.patch_triangles},
+                 {"patchVertices", report.patch_vertices},
+                 {"degenerateTriangles", scene.removed.degenerate_triangles},
+                 {"duplicateFaces", scene.removed.duplicate_faces},
+                 {"boundaryEdges", report.edges.boundary},
+                 {"nonManifoldEdges", report.edges.non_manifold},
+                 {"texturedMaterials", report.textured_materials},
+                 {"doubleSidedMaterials", report.double_sided_materials},
+                 {"textureBytes", report.texture_bytes},
+                 {"skyRadiance", json_of(scene.sky_radiance)},
+                 {"objects", objects_json(scene)},
+                 {"materials", materials_json(scene)},
+                 {"lights", lights_json(scene)},
+                 {"cameras", cameras_json(scene)},
+                 {"textures", textures_json(scene)},
+                 {"notices", scene.notices}};
+    if (report.unit_hint) {
+        json["unitHint"] = *report.unit_hint;
+    }
+    return json;
+}
+
+}  // namespace raybundle

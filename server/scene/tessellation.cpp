@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "scene/edge_refinement.h"
+#include "scene/gltf_loader.h"
+#include "scene/patch_colour.h"
+#include "scene/patch_mesh.h"
+#include "scene/point_index.h"
+
+namespace raybundle {
+namespace {
+
+// Longest-edge bisection leaves edges between about half the target and the target; measured on
+// boxes, the mean patch area is this many squared target edges.
+constexpr double mean_area = 0.18;
+constexpr int max_search_steps = 7;
+constexpr double close_enough = 0.05;  // relative, of the patch count
+constexpr std::size_t max_named_materials = 8;
+
+/// Area of all patches, m².
+double total_area(const Scene& scene) {
+    double area = 0.0;
+    for (const Triangle& triangle : scene.triangles) {
+        const glm::dmat4 world(scene.objects[triangle.object].world_from_object());
+        glm::dvec3 p[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = world * glm::dvec4(glm::dvec3(scene.vertices[triangle.vertex[k]].position), 1.0);
+        }
+        const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
+        area += sides * 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+    return area;
+}
+
+/// Patches to aim for. A file whose triangles alone use up the target still gets half as many on
+/// top, so that its large walls are not left whole.
+std::size_t goal_of(const TessellationSettings& settings, std::size_t unrefined) {
+    const std::size_t target = settings.target_patches;
+    return std::min(settings.max_patches, std::max(target, unrefined + target / 2));
+}
+
+/// Finds the target edge whose patch count comes closest to the goal, by a bracketed search that
+/// takes the number of added patches as proportional to edge^-2.
+EdgeRefinement refine_to_count(const Scene& scene, const EdgeRefinement& unrefined,
+                               std::size_t goal_count) {
+    const auto base = static_cast<double>(unrefined.patch_count());
+    const auto goal = static_cast<double>(goal_count);
+    const std::size_t give_up = goal_count + goal_count / 2;
+    double too_fine = 0.0;
+    double too_coarse = 1e30;
+    double edge = std::sqrt(total_area(scene) / (mean_area * goal));
+    EdgeRefinement best = unrefined;
+    double best_error = std::abs(std::log(base / goal));
+    for (int step = 0; step < max_search_steps && best_error > close_enough; ++step) {
+        EdgeRefinement attempt = unrefined;
+        const bool finished = attempt.refine(edge, give_up);
+        const auto count = static_cast<double>(attempt.patch_count());
+        (count > goal ? too_fine : too_coarse) = edge;
+        if (finished && std::abs(std::log(count / goal)) < best_error) {
+            best_error = std::abs(std::log(count / goal));
+            best = std::move(attempt);
+        }
+        edge *= std::sqrt(std::clamp((count - base) / std::max(goal - base, 1.0), 0.1, 10.0));
+        if (edge <= too_fine || edge >= too_coarse) {
+            edge = std::sqrt(too_fine * too_coarse);
+        }
+    }
+    return best;
+}
+
+EdgeRefinement refine(const Scene& scene, const TessellationSettings& settings) {
+    EdgeRefinement refinement(scene);
+    if (refinement.patch_count() > settings.max_patches) {
+        throw SceneError(scene.path, "",
+                         fmt::format("{} patches without any tessellation; the limit is {}",
+                                     refinement.patch_count(), settings.max_patches));
+    }
+    if (!(settings.patch_size > 0.0F)) {
+        return refine_to_count(scene, refinement, goal_of(settings, refinement.patch_count()));
+    }
+    if (!refinement.refine(double{settings.patch_size}, settings.max_patches)) {
+        throw SceneError(scene.path, "",
+                         fmt::format("patch size {} m gives more than {} patches",
+                                     settings.patch_size, settings.max_patches));
+    }
+    return refinement;
+}
+
+struct CornerHash {
+    std::size_t operator()(const EdgeRefinement::Corner& c) const {
+        const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+        std::uint64_t hash = mix_bits(bits(c.normal.x) << 32U | bits(c.normal.y));
+        hash = mix_bits(hash ^ (bits(c.uv.x) << 32U | bits(c.uv.y)));
+        return mix_bits(hash ^ (bits(c.normal.z) << 32U | c.point));
+    }
+};
+
+struct CornerEqual {
+    bool operator()(const EdgeRefinement::Corner& a, const EdgeRefinement::Corner& b) const {
+        return a.point == b.point && a.normal == b.normal && a.uv == b.uv;
+    }
+};
+
+/// Colours of patches; those of materials without textures are computed once.
+class PatchPainter {
+  public:
+    explicit PatchPainter(const Scene& scene)
+        : scene_(scene),
+          constant_(scene.materials.size()),
+          clamped_(scene.materials.size(), false) {}
+
+    PatchColour colour_of(const EdgeRefinement::RefinedTriangle& triangle) {
+        const Material& material = scene_.materials[triangle.material];
+        const std::array<glm::vec2, 3> uv = {triangle.corners[0].uv, triangle.corners[1].uv,
+                                             triangle.corners[2].uv};
+        if (material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0) {
+            const PatchColour colour = patch_colour(scene_, material, uv);
+            clamped_[triangle.material] = clamped_[triangle.material] || colour.albedo_was_clamped;
+            return colour;
+        }
+        std::optional<PatchColour>& known = constant_[triangle.material];
+        if (!known) {
+            known = patch_colour(scene_, material, uv);
+            clamped_[triangle.material] = known->albedo_was_clamped;
+        }
+        return *known;
+    }
+
+    /// Names the materials whose albedo was cut down, if any.
+    [[nodiscard]] std::optional<std::string> clamp_notice() const {
+        std::string names;
+        std::size_t count = 0;
+        for (std::size_t m = 0; m < clamped_.size(); ++m) {
+            if (clamped_[m] && ++count <= max_named_materials) {
+                names += fmt::format("{}\"{}\"", count > 1 ? ", " : "", scene_.materials[m].name);
+            }
+        }
+        if (count == 0) {
+            return std::nullopt;
+        }
+        if (count > max_named_materials) {
+            names += fmt::format(" and {} more", count - max_named_materials);
+        }
+        return fmt::format("albedo clamped to 0.999 for {} {}",
+                           count > 1 ? "materials" : "material", names);
+    }
+
+  private:
+    const Scene& scene_;
+    std::vector<std::optional<PatchColour>> constant_;
+    std::vector<bool> clamped_;
+};
+
+/// Fills a PatchMesh from refined triangles: welds corners to vertices, adds patches.
+class MeshBuilder {
+  public:
+    MeshBuilder(Scene& scene, const EdgeRefinement& refinement)
+        : scene_(scene), refinement_(refinement), painter_(scene) {
+        vertices_.reserve(refinement.points().size() * 2);
+    }
+
+    PatchMesh build() {
+        for (const EdgeRefinement::RefinedTriangle& triangle : refinement_.triangles()) {
+            const PatchColour colour = painter_.colour_of(triangle);
+            if (colour.coverage > 0.0F) {
+                add_triangle(triangle, colour);
+            } else {
+                ++invisible_;
+            }
+        }
+        add_back_patches();
+        add_notices();
+        if (mesh_.triangles.empty()) {
+            throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
+        }
+        return std::move(mesh_);
+    }
+
+  private:
+    void add_triangle(const EdgeRefinement::RefinedTriangle& triangle, const PatchColour& colour) {
+        glm::uvec3 corners;
+        for (int k = 0; k < 3; ++k) {
+            corners[k] = vertex_of(triangle.corners[static_cast<std::size_t>(k)], triangle.object);
+        }
+        mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
+        mesh_.triangles.push_back(corners);
+        mesh_.triangle_material.push_back(triangle.material);
+        mesh_.albedo.push_back(colour.albedo);
+        mesh_.emission.push_back(colour.emission);
+    }
+
+    std::uint32_t vertex_of(const EdgeRefinement::Corner& corner, std::uint32_t object) {
+        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto [it, inserted] = vertices_.try_emplace(corner, next);
+        if (inserted) {
+            mesh_.positions.push_back(refinement_.points()[corner.point]);
+            mesh_.normals.push_back(corner.normal);
+            mesh_.uvs.push_back(corner.uv);
+            mesh_.vertex_object.push_back(object);
+        }
+        return it->second;
+    }
+
+    void add_back_patches() {
+        const std::size_t front_count = mesh_.triangles.size();
+        mesh_.back_patch.assign(front_count, PatchMesh::no_patch);
+        for (std::size_t t = 0; t < front_count; ++t) {
+            if (!scene_.materials[mesh_.triangle_material[t]].double_sided) {
+                continue;
+            }
+            mesh_.back_patch[t] = static_cast<std::uint32_t>(mesh_.patch_triangle.size());
+            mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(t));
+            mesh_.albedo.push_back(glm::vec3(mesh_.albedo[t]));
+            mesh_.emission.push_back(glm::vec3(mesh_.emission[t]));
+        }
+    }
+
+    void add_notices() {
+        if (const auto notice = painter_.clamp_notice()) {
+            scene_.notices.push_back(*notice);
+        }
+        if (invisible_ > 0) {
+            scene_.notices.push_back(
+                fmt::format("{} triangles wholly cut away by alpha MASK are left out", invisible_));
+        }
+    }
+
+    Scene& scene_;
+    const EdgeRefinement& refinement_;
+    PatchPainter painter_;
+    PatchMesh mesh_;
+    std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
+    std::size_t invisible_ = 0;
+};
+
+}  // namespace
+
+PatchMesh tessellate(Scene& scene, const TessellationSettings& settings) {
+    const EdgeRefinement refinement = refine(scene, settings);
+    return MeshBuilder(scene, refinement).build();
+}
+
+}  // namespace raybundle
