@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/hemicube.h"
+
+#include <algorithm>
+
+namespace raybundle {
+
+namespace {
+
+/// Axes of a face in bundle coordinates; the same table as hemicube_face() in
+/// shaders/hemicube.glsl.
+struct FaceAxes {
+    glm::vec3 right, up, forward;
+};
+
+FaceAxes face_axes(int face) {
+    const glm::vec3 z(0, 0, 1);
+    if (face == 0) {
+        return {glm::vec3(0, 1, 0), glm::vec3(1, 0, 0), z};
+    }
+    const std::array<glm::vec3, 4> sides = {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0),
+                                            glm::vec3(0, 1, 0), glm::vec3(0, -1, 0)};
+    const glm::vec3 forward = sides[static_cast<std::size_t>(face - 1)];
+    return {glm::cross(forward, z), z, forward};
+}
+
+/// Rows of clip_from_bundle for a face: reversed infinite depth; sides show their upper half only.
+glm::mat4 clip_from_world(const BundleFrame& frame, int face, float near_distance) {
+    const FaceAxes axes = face_axes(face);
+    const glm::mat3 world_from_bundle(frame.x, frame.y, frame.z);
+    const glm::vec3 right = world_from_bundle * axes.right;
+    const glm::vec3 up = world_from_bundle * axes.up;
+    const glm::vec3 forward = world_from_bundle * axes.forward;
+    const auto row = [&](const glm::vec3& v) { return glm::vec4(v, -glm::dot(v, frame.origin)); };
+    const glm::vec4 w = row(forward);
+    const glm::vec4 y = face == 0 ? row(up) : 2.0F * row(up) - w;
+    return glm::transpose(glm::mat4(row(right), y, glm::vec4(0, 0, 0, near_distance), w));
+}
+
+bool contains(const Bounds& box, const glm::vec3& p) {
+    return glm::all(glm::greaterThanEqual(p, box.min)) && glm::all(glm::lessThanEqual(p, box.max));
+}
+
+}  // namespace
+
+Hemicube::Hemicube(int n)
+    : n_((n + 15) / 16 * 16),
+      surface_ids_(create_texture_2d("hemicube surface ids", GL_R32UI, n_, 3 * n_)),
+      depths_(create_texture_2d("hemicube depths", GL_DEPTH_COMPONENT32F, n_, 3 * n_)),
+      framebuffer_(create_framebuffer("hemicube", surface_ids_.get(), depths_.get())),
+      raster_({"bundle_raster.vert", "bundle_nearest.frag"}) {}
+
+Hemicube::FaceRectangles Hemicube::full() const {
+    FaceRectangles result;
+    for (int face = 0; face < face_count; ++face) {
+        result[static_cast<std::size_t>(face)] = {0, 0, n_, face_rows(face)};
+    }
+    return result;
+}
+
+Hemicube::FaceRectangles Hemicube::covering(const BundleFrame& frame,
+                                            std::span<const Bounds> boxes) const {
+    const FaceRectangles all = full();
+    FaceRectangles result{};
+    for (int face = 0; face < face_count; ++face) {
+        const auto f = static_cast<std::size_t>(face);
+        const FaceAxes axes = face_axes(face);
+        glm::vec2 low(1e30F);
+        glm::vec2 high(-1e30F);
+        bool unbounded = false;
+        for (const Bounds& box : boxes) {
+            unbounded = unbounded || contains(box, frame.origin);
+            int behind = 0;
+            const float least = 1e-3F * glm::length(box.extent());
+            glm::vec2 box_low(1e30F);
+            glm::vec2 box_high(-1e30F);
+            for (const glm::vec3& corner : corners(box)) {
+                const glm::vec3 p = frame.to_bundle(corner);
+                const float depth = glm::dot(p, axes.forward);
+                if (depth < least) {
+                    ++behind;
+                    continue;
+                }
+                const glm::vec2 uv(glm::dot(p, axes.right) / depth, glm::dot(p, axes.up) / depth);
+                box_low = glm::min(box_low, uv);
+                box_high = glm::max(box_high, uv);
+            }
+            unbounded = unbounded || (behind > 0 && behind < 8);
+            low = glm::min(low, box_low);
+            high = glm::max(high, box_high);
+        }
+        if (unbounded) {
+            result[f] = all[f];
+        } else if (low.x <= high.x) {
+            const auto half = 0.5F * static_cast<float>(n_);
+            const float base = face == 0 ? half : 0.0F;  // sides start at the horizon
+            result[f] = dilated({half + low.x * half, base + low.y * half},
+                                {half + high.x * half, base + high.y * half}, all[f]);
+        }
+    }
+    return result;
+}
+
+void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_distance,
+                    Place place, const FaceRectangles& rectangles) const {
+    const GlScope scope("hemicube raster");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    raster_.use();
+    const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
+    const float far_depth = 0.0F;
+    for (int face = 0; face < face_count; ++face) {
+        const PixelRectangle& r = rectangles[static_cast<std::size_t>(face)];
+        if (r.empty()) {
+            continue;
+        }
+        glViewport(0, first_row(face), n_, face_rows(face));
+        glScissor(r.x0, first_row(face) + r.y0, r.width(), r.height());
+        glClearBufferuiv(GL_COLOR, 0, no_hit);
+        glClearBufferfv(GL_DEPTH, 0, &far_depth);
+        const glm::mat4 clip = clip_from_world(frame, face, near_distance);
+        raster_.set("clip_from_world", clip);
+        scene.draw(place, clip, true, raster_);
+    }
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Hemicube::bind_textures() const {
+    glBindTextureUnit(0, surface_ids_.get());
+    glBindTextureUnit(1, depths_.get());
+}
+
+std::size_t Hemicube::bytes() const {
+    return static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) * 3 * 8;
+}
+
+}  // namespace raybundle

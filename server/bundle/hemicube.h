@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "bundle/bundle_frame.h"
+#include "gpu/gl_objects.h"
+#include "gpu/layouts.h"
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+/// A perspective bundle: what a point sees of the scene (ch. 5.1.2). Surface ids and depths of five
+/// faces stacked in one picture; see shaders/hemicube.glsl for its geometry.
+class Hemicube {
+  public:
+    static constexpr int face_count = 5;
+    using FaceRectangles = std::array<PixelRectangle, face_count>;
+
+    /// n: pixels along the top face, rounded up to a multiple of 16.
+    explicit Hemicube(int n);
+
+    [[nodiscard]] int size() const { return n_; }
+    [[nodiscard]] FaceRectangles full() const;
+    /// Per face the pixels that can see any of the boxes; all of them where the origin is inside
+    /// one or the projection is unbounded.
+    [[nodiscard]] FaceRectangles covering(const BundleFrame& frame,
+                                          std::span<const Bounds> boxes) const;
+
+    /// Rasterises the scene at a place into the given rectangles only.
+    void draw(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
+              const FaceRectangles& rectangles) const;
+    void bind_textures() const;  ///< units 0: surface ids, 1: depths
+    /// First row of a face in the stacked picture.
+    [[nodiscard]] int first_row(int face) const { return face == 0 ? 0 : n_ + (face - 1) * n_ / 2; }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    [[nodiscard]] int face_rows(int face) const { return face == 0 ? n_ : n_ / 2; }
+
+    int n_;
+    Texture2D surface_ids_, depths_;
+    Framebuffer framebuffer_;
+    ShaderProgram raster_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/layered_window.h"
+
+#include <algorithm>
+
+#include "gpu/egl_context.h"
+
+namespace raybundle {
+
+namespace {
+constexpr std::uint32_t initial_layers = 6;              // nodes per pixel to begin with
+constexpr std::uint32_t max_nodes = 128U * 1024 * 1024;  // 2 GiB
+}  // namespace
+
+LayeredWindow::LayeredWindow(const GpuScene& scene, int n)
+    : n_(n),
+      heads_("layer heads", static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * 4),
+      raster_({"bundle_raster.vert", "bundle_layers.frag"}),
+      sort_({"transport_layers_sort.comp"}, scene.defines()),
+      clear_({"bundle_layers_clear.comp"}) {
+    grow(initial_layers * static_cast<std::uint32_t>(n) * static_cast<std::uint32_t>(n));
+    // Nothing is drawn into it: the framebuffer only has a size.
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    framebuffer_ = Framebuffer(name);
+    glNamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_WIDTH, n);
+    glNamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_HEIGHT, n);
+}
+
+LayeredWindow::Geometry LayeredWindow::geometry(const glm::vec3& direction, float angle,
+                                                const glm::vec2& shift, const glm::vec3& centre,
+                                                float diameter) const {
+    Geometry result;
+    // One pixel more than the sphere needs, for the random shift.
+    result.pixel_size = diameter / static_cast<float>(n_ - 2);
+    result.depth = diameter * 1.001F;
+    result.frame = make_frame(centre, direction, angle);
+    const float half = 0.5F * result.pixel_size * static_cast<float>(n_ - 2);
+    const glm::vec2 corner = -glm::vec2(half) - result.pixel_size * (0.5F + shift * 0.999F);
+    result.frame.origin = centre + result.frame.x * corner.x + result.frame.y * corner.y -
+                          direction * (0.5F * result.depth);
+    return result;
+}
+
+PixelRectangle LayeredWindow::covering(const Geometry& geometry,
+                                       std::span<const Bounds> boxes) const {
+    glm::vec2 low(1e30F);
+    glm::vec2 high(-1e30F);
+    for (const Bounds& box : boxes) {
+        for (const glm::vec3& corner : corners(box)) {
+            const glm::vec2 p = glm::vec2(geometry.frame.to_bundle(corner)) / geometry.pixel_size;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    return dilated(low, high, full());
+}
+
+void LayeredWindow::draw(const GpuScene& scene, const Geometry& geometry, Place place,
+                         const PixelRectangle& rectangle, const Buffer& counters,
+                         unsigned slot) const {
+    if (rectangle.empty()) {
+        return;
+    }
+    bind();
+    const auto set_rectangle = [&](const ShaderProgram& program) {
+        program.set("first_column", static_cast<unsigned>(rectangle.x0));
+        program.set("first_row", static_cast<unsigned>(rectangle.y0));
+        program.set("columns", static_cast<unsigned>(rectangle.width()));
+        program.set("rows", static_cast<unsigned>(rectangle.height()));
+    };
+    const auto pixels =
+        static_cast<std::size_t>(rectangle.width()) * static_cast<std::size_t>(rectangle.height());
+    const GLuint zero = 0;
+    glClearNamedBufferSubData(counters.get(), GL_R32UI, offsetof(layout::Counters, nodes), 4,
+                              GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    set_rectangle(clear_);
+    clear_.set("window_width", static_cast<unsigned>(n_));
+    clear_.dispatch(pixels);
+
+    const BundleFrame& f = geometry.frame;
+    const float extent = geometry.pixel_size * static_cast<float>(n_);
+    const auto row = [&](const glm::vec3& v, float scale, float offset) {
+        return glm::vec4(v * scale, offset - scale * glm::dot(v, f.origin));
+    };
+    const glm::mat4 clip_from_world =
+        glm::transpose(glm::mat4(row(f.x, 2.0F / extent, -1.0F), row(f.y, 2.0F / extent, -1.0F),
+                                 row(f.z, 1.0F / geometry.depth, 0.0F), glm::vec4(0, 0, 0, 1)));
+    {
+        const GlScope scope("layered raster");
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+        glViewport(0, 0, n_, n_);
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
+        raster_.use();
+        raster_.set("clip_from_world", clip_from_world);
+        raster_.set("window_width", static_cast<unsigned>(n_));
+        raster_.set("window_depth", geometry.depth);
+        raster_.set("window_origin", f.origin);
+        raster_.set("window_x", f.x * geometry.pixel_size);
+        raster_.set("window_y", f.y * geometry.pixel_size);
+        raster_.set("window_z", f.z);
+        raster_.set("patch_base", scene.patch_base(place));
+        scene.draw(place, clip_from_world, false, raster_);
+        glDisable(GL_SCISSOR_TEST);
+        storage_barrier();
+    }
+    set_rectangle(sort_);
+    sort_.set("slot", slot);
+    sort_.set("patch_base", scene.patch_base(place));
+    sort_.dispatch(pixels);
+}
+
+void LayeredWindow::bind() const {
+    heads_.bind_storage(BINDING_LAYER_HEADS);
+    nodes_.bind_storage(BINDING_LAYER_NODES);
+}
+
+void LayeredWindow::grow(std::uint32_t nodes) {
+    if (nodes > max_nodes) {
+        throw GpuError("a parallel bundle of this scene needs " + std::to_string(nodes) +
+                       " surface hits, more than the limit of " + std::to_string(max_nodes) +
+                       "; use a smaller bundle resolution");
+    }
+    if (std::size_t{nodes} * sizeof(layout::LayerNode) > nodes_.bytes()) {
+        nodes_ = Buffer("layer nodes", std::size_t{nodes} * sizeof(layout::LayerNode), 0);
+    }
+}
+
+}  // namespace raybundle

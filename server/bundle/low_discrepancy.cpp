@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/low_discrepancy.h"
+
+#include <array>
+#include <cmath>
+
+namespace raybundle {
+
+namespace {
+constexpr std::array<unsigned, 12> primes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+constexpr unsigned golden_dimension = 97;
+
+double wrap(double x) {
+    return x - std::floor(x);
+}
+}  // namespace
+
+double radical_inverse(unsigned base, std::uint64_t index) {
+    const double inverse_base = 1.0 / base;
+    double scale = inverse_base;
+    double result = 0.0;
+    for (; index > 0; index /= base, scale *= inverse_base) {
+        result += static_cast<double>(index % base) * scale;
+    }
+    return result;
+}
+
+std::uint64_t mix_bits(std::uint64_t value) {
+    value += 0x9e3779b97f4a7c15ULL;
+    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
+    return value ^ (value >> 31U);
+}
+
+double RandomisedHalton::shift(unsigned dimension) const {
+    return static_cast<double>(mix_bits(key_ * 131 + dimension) >> 11U) * 0x1.0p-53;
+}
+
+double RandomisedHalton::sample(unsigned dimension, std::uint64_t index) const {
+    return wrap(radical_inverse(primes[dimension % primes.size()], index) + shift(dimension));
+}
+
+double RandomisedHalton::golden(std::uint64_t index) const {
+    constexpr double golden_ratio_conjugate = 0.618033988749894848;
+    return wrap(static_cast<double>(index) * golden_ratio_conjugate + shift(golden_dimension));
+}
+
+}  // namespace raybundle

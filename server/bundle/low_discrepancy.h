@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace raybundle {
+
+/// Radical inverse of an index in a prime base (van der Corput): in [0, 1).
+double radical_inverse(unsigned base, std::uint64_t index);
+
+/// 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom Number
+/// Generators"): decorrelates small integers.
+std::uint64_t mix_bits(std::uint64_t value);
+
+/// One dimension of a Halton sequence, randomised by a Cranley-Patterson rotation (1976) that
+/// depends on the seed, the batch and the dimension: independent between batches, evenly spread
+/// within one.
+class RandomisedHalton {
+  public:
+    RandomisedHalton(std::uint64_t seed, unsigned batch) : key_(mix_bits(seed) + batch) {}
+
+    /// Dimension 0..11, any index; in [0, 1).
+    [[nodiscard]] double sample(unsigned dimension, std::uint64_t index) const;
+    /// Additive golden-ratio sequence: the evenest choice between strategies.
+    [[nodiscard]] double golden(std::uint64_t index) const;
+
+  private:
+    [[nodiscard]] double shift(unsigned dimension) const;
+    std::uint64_t key_;
+};
+
+}  // namespace raybundle

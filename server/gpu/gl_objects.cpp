@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/gl_objects.h"
+
+#include <algorithm>
+
+#include "gpu/egl_context.h"
+
+namespace raybundle {
+
+void delete_buffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+void delete_texture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+void delete_framebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+void delete_vertex_array(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+void delete_program(GLuint name) {
+    glDeleteProgram(name);
+}
+void delete_query(GLuint name) {
+    glDeleteQueries(1, &name);
+}
+
+namespace {
+
+/// Out of memory is the one GL error that is the machine's, not the program's: say what did not
+/// fit.
+void check_memory(const std::string& label, std::size_t bytes) {
+    GLenum error = glGetError();
+    while (error != GL_NO_ERROR) {
+        if (error == GL_OUT_OF_MEMORY) {
+            throw GpuError("out of GPU memory: " + label + " needs " +
+                           std::to_string(bytes / (1024 * 1024)) +
+                           " MiB; use a larger --patch-size or fewer viewers");
+        }
+        error = glGetError();
+    }
+}
+
+}  // namespace
+
+Buffer::Buffer(const std::string& label, std::size_t bytes, GLbitfield flags)
+    : bytes_(std::max<std::size_t>(bytes, 16)) {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    name_ = GlName<delete_buffer>(name);
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes_), nullptr, flags);
+    glObjectLabel(GL_BUFFER, name, -1, label.c_str());
+    check_memory(label, bytes_);
+}
+
+void Buffer::upload(const void* data, std::size_t bytes, std::size_t offset) const {
+    if (bytes > 0) {
+        glNamedBufferSubData(get(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                             data);
+    }
+}
+
+void Buffer::download(void* data, std::size_t bytes, std::size_t offset) const {
+    if (bytes > 0) {
+        glGetNamedBufferSubData(get(), static_cast<GLintptr>(offset),
+                                static_cast<GLsizeiptr>(bytes), data);
+    }
+}
+
+void Buffer::clear() const {
+    glClearNamedBufferData(get(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void Buffer::bind_storage(GLuint binding) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, get());
+}
+
+void Buffer::bind_uniform(GLuint binding) const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, binding, get());
+}
+
+Texture2D create_texture_2d(const std::string& label, GLenum format, int width, int height) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    Texture2D texture(name);
+    glTextureStorage2D(name, 1, format, width, height);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, name, -1, label.c_str());
+    check_memory(label, static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+    return texture;
+}
+
+Texture2D create_buffer_texture(const std::string& label, GLenum format, const Buffer& buffer) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    Texture2D texture(name);
+    glTextureBuffer(name, format, buffer.get());
+    glObjectLabel(GL_TEXTURE, name, -1, label.c_str());
+    return texture;
+}
+
+Framebuffer create_framebuffer(const std::string& label, GLuint colour, GLuint depth) {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    Framebuffer framebuffer(name);
+    if (colour != 0) {
+        glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour, 0);
+    }
+    if (depth != 0) {
+        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth, 0);
+    }
+    const GLenum status = glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        throw GpuError("framebuffer '" + label + "' is incomplete, status " +
+                       std::to_string(status));
+    }
+    glObjectLabel(GL_FRAMEBUFFER, name, -1, label.c_str());
+    return framebuffer;
+}
+
+GlScope::GlScope(const char* label) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, label);
+}
+GlScope::~GlScope() {
+    glPopDebugGroup();
+}
+
+}  // namespace raybundle

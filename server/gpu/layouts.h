@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C++ side of shaders/layouts.glsl: the same text, with GLSL's types.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace raybundle::layout {
+using glm::ivec4;
+using glm::mat4;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+
+#include "shaders/layouts.glsl"
+
+// std430 puts a scalar into the fourth component after a vec3, as C++ does.
+static_assert(sizeof(PatchGeometry) == 32 && offsetof(PatchGeometry, offset) == 12);
+static_assert(sizeof(PatchSurface) == 32);
+static_assert(sizeof(Shooter) == 48 && offsetof(Shooter, normal) == 16);
+static_assert(sizeof(LayerNode) == 16 && sizeof(Counters) == 48);
+static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 48);
+static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_patch) == 16);
+static_assert(sizeof(MaterialData) == 80);
+static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
+static_assert(sizeof(PickResult) == 64);
+static_assert(sizeof(BundleParameters) == 16 * 14);
+static_assert(sizeof(ViewParameters) == 64 + 16 * 8);
+}  // namespace raybundle::layout

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/shader_program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <sstream>
+#include <string_view>
+
+#include "embedded_file.h"
+#include "gpu/egl_context.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr int max_include_depth = 8;
+
+std::string_view find_shader(const std::string& name) {
+    for (const EmbeddedFile& file : shader_files()) {
+        if (file.name == name) {
+            return file.contents;
+        }
+    }
+    throw GpuError("shader file '" + name + "' is not part of this executable");
+}
+
+/// Expands includes. Lines keep their numbers; the file's index in `names` is the string number.
+void expand(const std::string& name, int depth, std::vector<std::string>& names, std::string& out) {
+    if (depth > max_include_depth) {
+        throw GpuError("shader file '" + name + "': includes nest too deeply");
+    }
+    const std::size_t index = names.size();
+    names.push_back(name);
+    std::istringstream lines{std::string(find_shader(name))};
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        if (line.rfind("#include \"", 0) == 0) {
+            const std::string included = line.substr(10, line.find('"', 10) - 10);
+            out += "#line 1 " + std::to_string(names.size()) + "\n";
+            expand(included, depth + 1, names, out);
+            out += "#line " + std::to_string(number + 1) + " " + std::to_string(index) + "\n";
+        } else {
+            out += line + "\n";
+        }
+    }
+}
+
+GLenum stage_of(const std::string& file) {
+    const std::string extension = file.substr(file.rfind('.') + 1);
+    if (extension == "vert") {
+        return GL_VERTEX_SHADER;
+    }
+    if (extension == "frag") {
+        return GL_FRAGMENT_SHADER;
+    }
+    if (extension == "comp") {
+        return GL_COMPUTE_SHADER;
+    }
+    throw GpuError("shader file '" + file + "' has an unknown stage");
+}
+
+GLuint compile(const std::string& file, const std::vector<std::string>& defines) {
+    std::string text = "#version 450 core\n";
+    for (const std::string& define : defines) {
+        text += "#define " + define + "\n";
+    }
+    std::vector<std::string> names;
+    text += "#line 1 0\n";
+    expand(file, 0, names, text);
+    const GLuint shader = glCreateShader(stage_of(file));
+    const char* source = text.c_str();
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_FALSE) {
+        char log[4096] = "";
+        glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+        glDeleteShader(shader);
+        std::string files;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            files += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + names[i];
+        }
+        throw GpuError("the driver rejects shader " + file + " (string numbers: " + files + "):\n" +
+                       log);
+    }
+    return shader;
+}
+
+}  // namespace
+
+ShaderProgram::ShaderProgram(const std::vector<std::string>& files,
+                             const std::vector<std::string>& defines)
+    : program_(glCreateProgram()), label_(files.back()) {
+    for (const std::string& file : files) {
+        const GLuint shader = compile(file, defines);
+        glAttachShader(program_.get(), shader);
+        glDeleteShader(shader);  // lives on as part of the program
+    }
+    glLinkProgram(program_.get());
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program_.get(), GL_LINK_STATUS, &ok);
+    if (ok == GL_FALSE) {
+        char log[4096] = "";
+        glGetProgramInfoLog(program_.get(), sizeof log, nullptr, log);
+        throw GpuError("the driver cannot link shader " + label_ + ":\n" + log);
+    }
+    glObjectLabel(GL_PROGRAM, program_.get(), -1, label_.c_str());
+    if (stage_of(files.back()) == GL_COMPUTE_SHADER) {
+        glGetProgramiv(program_.get(), GL_COMPUTE_WORK_GROUP_SIZE, local_size_);
+    }
+}
+
+GLint ShaderProgram::location(const char* name) const {
+    return glGetUniformLocation(program_.get(), name);
+}
+void ShaderProgram::set(const char* name, int value) const {
+    glProgramUniform1i(program_.get(), location(name), value);
+}
+void ShaderProgram::set(const char* name, unsigned value) const {
+    glProgramUniform1ui(program_.get(), location(name), value);
+}
+void ShaderProgram::set(const char* name, float value) const {
+    glProgramUniform1f(program_.get(), location(name), value);
+}
+void ShaderProgram::set(const char* name, const glm::vec3& value) const {
+    glProgramUniform3fv(program_.get(), location(name), 1, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(program_.get(), location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, std::span<const glm::vec4> values) const {
+    glProgramUniform4fv(program_.get(), location(name), static_cast<GLsizei>(values.size()),
+                        glm::value_ptr(values.front()));
+}
+
+void ShaderProgram::dispatch(std::size_t threads) const {
+    dispatch(threads, 1);
+}
+
+void ShaderProgram::dispatch(std::size_t threads_x, std::size_t threads_y) const {
+    if (threads_x == 0 || threads_y == 0) {
+        return;
+    }
+    const auto groups = [](std::size_t threads, GLint size) {
+        const auto local = static_cast<std::size_t>(size);
+        return static_cast<GLuint>((threads + local - 1) / local);
+    };
+    const GlScope scope(label_.c_str());
+    use();
+    glDispatchCompute(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]), 1);
+    storage_barrier();
+}
+
+}  // namespace raybundle

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/gl_objects.h"
+
+namespace raybundle {
+
+/// A linked program from server/shaders (compiled into the executable). `#include "x.glsl"` lines
+/// are resolved there; a line in an error message names its file.
+class ShaderProgram {
+  public:
+    ShaderProgram() = default;
+
+    /// files: e.g. {"bundle_raster.vert", "bundle_raster.frag"} or {"solution_update.comp"}; the
+    /// extension gives the stage. defines: e.g. {"GLOSSY 1"}. Throws GpuError with the compiler's
+    /// log.
+    explicit ShaderProgram(const std::vector<std::string>& files,
+                           const std::vector<std::string>& defines = {});
+
+    void use() const { glUseProgram(program_.get()); }
+    void set(const char* name, int value) const;
+    void set(const char* name, unsigned value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::mat4& value) const;
+    void set(const char* name, std::span<const glm::vec4> values) const;
+
+    /// Uses the program and runs at least `threads` invocations of its local size (x). 0 runs
+    /// nothing.
+    void dispatch(std::size_t threads) const;
+    /// The same over a plane of invocations.
+    void dispatch(std::size_t threads_x, std::size_t threads_y) const;
+
+  private:
+    [[nodiscard]] GLint location(const char* name) const;
+
+    Program program_;
+    std::string label_;
+    GLint local_size_[3] = {1, 1, 1};
+};
+
+/// A list of defines and one more.
+inline std::vector<std::string> with(std::vector<std::string> defines, const std::string& define) {
+    defines.push_back(define);
+    return defines;
+}
+
+/// Makes shader writes visible to everything that follows.
+inline void storage_barrier() {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places the scene's vertices for a bundle or a viewer.
+layout(location = 0) in vec4 world_position;
+uniform mat4 clip_from_world;
+
+void main() { gl_Position = clip_from_world * vec4(world_position.xyz, 1.0); }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The balance heuristic adapted to iteration (ch. 6.2, 6.3): whichever strategy found the pair (x, y),
+// its contribution is divided by the one density d.
+
+layout(std140, binding = BINDING_BUNDLE) uniform BundleBlock { BundleParameters bundle; };
+
+/// cos_y / d(omega) at x, in sr: times L(y -> x) and the measure cos_x domega it gives irradiance.
+/// d(omega) = P1/(2 pi) + P2 r/(2 pi R) + P3 (p_j/A_j) r^2/cos_y, ch. 6.3; the form below stays
+/// finite for cos_y -> 0 and r -> 0. density_y = p_j/A_j of the patch at y, 1/m^2.
+float cosine_over_density(float r, float cos_y, float density_y) {
+    float blind = bundle.densities.x + bundle.densities.y * r;
+    return cos_y / (cos_y * blind + bundle.densities.z * density_y * r * r);
+}

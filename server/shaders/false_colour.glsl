@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+/// Polynomial fit of the perceptually even map "turbo" (A. Mikhailov 2019, Google), logarithmic over
+/// three decades below `maximum`.
+vec3 false_colour(float value, float maximum) {
+    float x = clamp(1.0 + log(max(value, 1e-20) / maximum) / log(1000.0), 0.0, 1.0);
+    vec4 v4 = vec4(1.0, x, x * x, x * x * x);
+    vec2 v2 = v4.zw * v4.z;
+    return clamp(vec3(dot(v4, vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234)) + dot(v2, vec2(-152.94239396, 59.28637943)),
+                      dot(v4, vec4(0.09140261, 2.19418839, 4.84296658, -14.18503333)) + dot(v2, vec2(4.27729857, 2.82956604)),
+                      dot(v4, vec4(0.10667330, 12.64194608, -60.58204836, 110.36276771)) + dot(v2, vec2(-89.90310912, 27.34824973))),
+                 0.0, 1.0);
+}

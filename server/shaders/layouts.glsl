@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// GPU layouts and bindings, written once: C++ includes this text through gpu/layouts.h, shaders
+// directly. Everything is std430 (storage) or made of vec4/mat4/uvec4 only (uniform blocks, std140).
+
+#define NO_PATCH 0xffffffffu
+#define NO_HIT 0xffffffffu
+#define NO_NODE 0xffffffffu
+
+// Storage bindings.
+#define BINDING_VERTICES 0         // vec4[]: object-space position, w = object index (bits)
+#define BINDING_WORLD_POSITIONS 1  // vec4[2 * vertices]: place 0 = now, place 1 = before the change
+#define BINDING_TRIANGLES 2        // uvec4[]: vertex indices; material and, in bits 29..31, creases
+#define BINDING_PATCHES 3          // PatchGeometry[2 * patches]: place 0, then place 1
+#define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch
+#define BINDING_BACK_PATCH 5       // uint[]: patch of a triangle's back side or NO_PATCH
+#define BINDING_SURFACES 6         // PatchSurface[]
+#define BINDING_RADIANCE 7         // vec4[]: radiance (radiance units), w = p_j / A_j, 1/m^2
+#define BINDING_IRRADIANCE 8       // vec4[]: mean irradiance (radiance units), w = weight
+#define BINDING_ACCUMULATOR 9      // uint[6 * patches]: fixed-point sums, see accumulator.glsl
+#define BINDING_POWER 10           // vec4[]: see solution_power.comp
+#define BINDING_SHOOTERS 11        // Shooter[]
+#define BINDING_COUNTERS 12        // Counters
+#define BINDING_LAYER_HEADS 13     // uint[window pixels]: first node of the pixel's list
+#define BINDING_LAYER_NODES 14     // LayerNode[]
+#define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
+#define BINDING_MATERIALS 16       // MaterialData[]
+#define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures
+#define BINDING_VERTEX_DATA 18     // VertexData[]
+#define BINDING_VERTEX_PATCHES 19  // uint[]: patches round each vertex
+#define BINDING_PIXELS 20          // PixelSurface[]
+#define BINDING_PIXEL_IRRADIANCE 21  // vec4[]: see PixelSum in pixel_sum.glsl
+#define BINDING_PIXEL_DELTA 22     // vec4[]: signed increments of a special phase, w = sum of magnitudes
+#define BINDING_PIXEL_BATCHES 23   // float[BATCHES * probes]: weighted luminance sums
+#define BINDING_VERTEX_IRRADIANCE 24  // vec4[]
+#define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
+#define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
+#define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
+#define BINDING_CHECKPOINT 28      // vec2[]: luminance of the mean before the change, weight after it
+#define BINDING_PICK 29            // PickResult
+#define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
+
+#define BINDING_FLUX 33           // FluxSums[]: per block of patches, then the totals
+#define BINDING_BALANCE 34        // Balance
+
+#define POWER_BLOCK 256
+#define BATCHES 8  // independently randomised batches of iterations, for the error estimate
+
+// Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
+// components, where a software rasteriser loads storage buffers component by component, lane by lane.
+#define UNIT_SURFACE_IDS 0
+#define UNIT_DEPTHS 1
+#define UNIT_PATCHES 2            // rgba32f: PatchGeometry, two texels each
+#define UNIT_RADIANCE 3           // rgba32f
+#define UNIT_PIXELS 4             // rgba32ui: PixelSurface, two texels each
+#define UNIT_OLD_PIXELS 5         // rgba32ui
+#define UNIT_PIXEL_IRRADIANCE 6   // rgba32f
+#define UNIT_OLD_PIXEL_IRRADIANCE 7  // rgba32f
+#define UNIT_VERTEX_IRRADIANCE 8  // rgba16f
+#define UNIT_TRIANGLES 9          // rgba32ui
+#define UNIT_WORLD_POSITIONS 10   // rgba32f
+#define UNIT_VERTEX_DATA 11       // rgba32ui: VertexData, two texels each
+#define UNIT_MATERIALS 12         // rgba32f: MaterialData, five texels each
+
+// Uniform block bindings.
+#define BINDING_BUNDLE 0
+#define BINDING_VIEW 1
+
+#define CREASE_SHIFT 29  // bit CREASE_SHIFT + k of a triangle's w: the edge opposite to vertex k is a crease
+#define TRIANGLE_SMOOTH 0x10000000u  // vertex normals differ from the plane's
+#define MATERIAL_MASK 0x0fffffffu
+
+struct PatchGeometry {
+    vec3 normal;   // world space, unit, out of the patch's front
+    float offset;  // dot(normal, x) of points on the patch
+    float area;    // m^2
+    float inverse_area;
+    uint object;
+    uint triangle;
+};
+
+struct PatchSurface {
+    vec4 albedo;    // rgb
+    vec4 emission;  // rgb, radiance units
+};
+
+// A point that shoots a perspective bundle.
+struct Shooter {
+    vec3 position;   // world space
+    uint patch_id;
+    vec3 normal;     // world space, unit
+    float density;   // p_j / A_j, 1/m^2
+    uint object;
+    uint pad0, pad1, pad2;
+};
+
+struct Counters {
+    vec4 shooter_radiance;  // radiance of the shooter in the running perspective iteration
+    uint nodes;             // nodes that the layered window wanted
+    uint non_finite;        // contributions dropped because they were not finite
+    uint overflowed;        // 1: the node buffer was too small and the running window is not transferred
+    uint wanted;            // most nodes that any overflowing window wanted
+    uint overflow_mask;     // bit s: the layered iteration in slot s of its group overflowed
+    uint escaped;           // share of the shooter's flux that no patch receives, unit 2^-30
+    uint pad0, pad1;
+};
+
+// Flux sums, radiance units * m^2.
+struct FluxSums {
+    vec4 incident;   // sum of A x: what the iterate says the patches receive
+    vec4 reflected;  // sum of A albedo x
+    vec4 emitted;    // sum of A pi L_e
+};
+
+// Global energy balance, see solution_balance.comp.
+struct Balance {
+    vec4 scale;      // last factor applied to the iterate
+    vec4 escaped;    // weighted sum of estimates of the flux that no patch receives
+    vec4 outgoing;   // weighted sum of the flux that was sent, w = weight
+};
+
+struct LayerNode {
+    uint surface;  // 2 * triangle + (0 front, 1 back) as seen along the window's axis
+    float depth;   // along the axis from the window's origin, m
+    uint next;
+    uint pad;
+};
+
+struct VertexData {
+    vec2 normal;  // octahedral, object space
+    vec2 uv;
+    uint first_patch;  // into BINDING_VERTEX_PATCHES
+    uint patch_count;
+    uint object;
+    uint pad;
+};
+
+struct MaterialData {
+    vec4 base_colour;   // rgb factor of the Lambert albedo; w unused
+    vec4 emission;      // rgb, radiance units
+    vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
+    vec4 uv_row1;       // xyz: second row
+    uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
+};
+
+struct PixelSurface {
+    vec3 position;   // world space
+    uint patch_id;   // NO_PATCH: background
+    uint normal;     // shading normal, octahedral snorm 2x16
+    uint albedo;     // unorm 4x8, square-root encoded
+    uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
+    uint object;       // and flags: PIXEL_EMITTER, PIXEL_SKY
+};
+
+#define PIXEL_EMITTER 0x80000000u
+#define PIXEL_SKY 0x40000000u
+#define PIXEL_OBJECT_MASK 0x3fffffffu
+
+struct PickResult {
+    vec4 position;     // w = 1: hit
+    vec4 normal;       // w = object (bits)
+    vec4 irradiance;   // radiance units; w = patch (bits)
+    vec4 radiance;     // radiance units; w = relative standard error, negative: not known
+};
+
+// One random bundle: which strategy found it, from where, with which densities.
+struct BundleParameters {
+    vec4 origin;         // perspective: shooting point; parallel: window's origin; w = near distance
+    vec4 axis_x;         // unit; parallel: w = window width, m
+    vec4 axis_y;         // unit; parallel: w = window height, m
+    vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle
+    vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
+    vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
+    vec4 weights;        // sign/weight of the transfer, iteration weight w, pixel size (m or tangent), batch
+    uvec4 resolution;    // hemicube or window: width, height; shooter patch; place (0 now, 1 before)
+    ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
+};
+
+struct ViewParameters {
+    mat4 clip_from_world;
+    vec4 eye;           // world space
+    vec4 right;         // scaled by tan(fov/2) * aspect
+    vec4 up;            // scaled by tan(fov/2)
+    vec4 forward;       // unit
+    uvec4 size;         // width, height, probe columns, probe rows
+    vec4 display;       // radiance unit (cd/m^2), exposure factor, confidence weight, mode
+    vec4 sky;           // background radiance, radiance units
+    vec4 weights;       // x: weight of all samples since the last resolve, y: of a batch in it
+};

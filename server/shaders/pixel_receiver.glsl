@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pixels of a viewer as receivers of a bundle (design: the image estimate M L of ch. 2.6 evaluated per
+// pixel): each looks its surface point up in the bundle, as in a shadow map.
+#include "octahedral.glsl"
+layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer {
+    vec4 pixel_irradiance[];
+};
+layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pixel_delta[]; };
+layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float pixel_batches[]; };
+#ifdef SPECIAL
+#include "mesh.glsl"
+#endif
+uniform uint patch_base;    // patches and vertices of the place that was drawn
+uniform uint vertex_base;
+uniform uint moved_object;  // object that is elsewhere at place 1, or NO_PATCH
+
+struct Receiver {
+    vec3 position;
+    vec3 normal;     // shading
+    vec3 geometric;  // of the patch
+    uint patch_id;
+    uint object;
+};
+
+/// The pixel's surface point at the place that was drawn. False for the background.
+bool load_receiver(uint index, out Receiver x) {
+    uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
+    uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, object
+    x.patch_id = p.w;
+    x.position = uintBitsToFloat(p.xyz);
+    x.object = q.w & PIXEL_OBJECT_MASK;
+    x.normal = vector_from_octahedral(unpackSnorm2x16(q.x));
+    uint known = p.w == NO_PATCH ? 0u : p.w;
+    x.geometric = patch_plane(patch_base + known).xyz;
+#ifdef SPECIAL
+    // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
+    if (vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH) {
+        vec2 v = unpackUnorm2x16(q.z);
+        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(known).w)).xyz + vertex_base;
+        x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
+        x.normal = x.geometric;
+    }
+#endif
+    return p.w != NO_PATCH;
+}
+
+/// A bundle pixel shows the surface at its centre, up to a pixel's footprint beside the receiver's own
+/// line. Such a near hit counts as what it is for the receiver's line: its plane. ahead: direction
+/// (unit) in which the receiver looks; hit_offset: from receiver to hit. True where the hit lies within
+/// the footprint and its plane is not in front of the receiver: then it is the receiver's own surface or
+/// one beside it, not in the way.
+bool beside_receiver(Receiver x, uint surface, vec3 hit_offset, vec3 ahead, float footprint, float tiny) {
+    vec4 plane = patch_plane(patch_base + (surface >> 1));
+    uint object = floatBitsToUint(patch_attributes(patch_base + (surface >> 1)).z);
+    float height = dot(plane.xyz, x.position) - plane.w;  // of the receiver over the plane
+    float approach = dot(plane.xyz, ahead);
+    // Neighbouring facets of a curved object are no obstacle to each other.
+    bool curved = object == x.object && dot(plane.xyz, x.geometric) > 0.5;
+    float allowed = curved ? 0.5 * footprint : tiny;
+    bool in_front = abs(height) > allowed && height * approach < 0.0;
+    return !in_front && dot(hit_offset, hit_offset) <= footprint * footprint;
+}
+
+/// Adds one sample (irradiance, radiance units) of the running bundle.
+void receive(uint index, vec3 value) {
+    if (!(value.r + value.g + value.b < 1e30) || value == vec3(0.0)) {
+        return;
+    }
+#ifdef SPECIAL
+    pixel_delta[index].rgb += value * bundle.weights.x;
+#else
+    float w = bundle.weights.y;
+    pixel_irradiance[index].rgb += w * value;
+    // One pixel in 16 keeps its batches apart for the error estimate.
+    uvec2 at = uvec2(index % view.size.x, index / view.size.x);
+    if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
+        uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
+        pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(value, vec3(0.2126, 0.7152, 0.0722));
+    }
+#endif
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Selection probability of shooting patches (ch. 5.3): proportional to luminance power, with a
+// defensive share for area and for emitted power, so that nothing bright is starved and a black scene
+// still samples.
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
+layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
+/// Per block of POWER_BLOCK patches: xyz = power, area, emitted power; w = probability of all blocks
+/// before it. One more element holds the totals.
+layout(std430, binding = BINDING_POWER) buffer PowerBuffer { vec4 blocks[]; };
+
+
+const float pi = 3.14159265359;
+const float defensive_share = 0.1;
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+/// Power, area, emitted power of a patch (luminance, radiance units * m^2).
+vec3 patch_power(uint i) {
+    float emitted = pi * max(luminance(surfaces[i].emission.rgb), 0.0);
+    float area = patches[i].area;
+    return vec3(pi * max(luminance(radiance[i].rgb), 0.0) * area, area, emitted * area);
+}
+
+/// Probability of (sums of) patch_power, given the totals.
+float selection_probability(vec3 power, vec3 total) {
+    float by_area = total.y > 0.0 ? power.y / total.y : 0.0;
+    float by_power = total.x > 0.0 ? power.x / total.x : by_area;
+    float by_emission = total.z > 0.0 ? power.z / total.z : by_area;
+    return mix(by_power, 0.5 * (by_area + by_emission), defensive_share);
+}

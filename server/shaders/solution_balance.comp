@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Total fluxes, and the scale of the iterate that makes the global energy balance exact.
+#include "layouts.glsl"
+layout(local_size_x = 1) in;
+layout(std430, binding = BINDING_FLUX) buffer FluxBuffer { FluxSums flux[]; };
+layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
+uniform uint block_count;
+uniform bool balanced;  // a sky sends flux of its own: no balance
+
+/// One-aggregate correction (as in iterative aggregation-disaggregation): the slowest mode of the
+/// iteration is the overall level, which forgets its dark start like albedo^n and magnifies noise by
+/// 1/(1 - albedo). But the level follows from energy conservation: with k the share of outgoing flux
+/// that reaches a patch, s X = k (Phi_e + s R)  for incident flux X and reflected flux R.
+/// 1 - k is what leaves the scene or meets backs, exactly 0 in a closed one.
+vec3 balanced_scale(FluxSums total) {
+    vec3 sent = balance.outgoing.rgb;
+    vec3 k = vec3(1.0);
+    for (int c = 0; c < 3; ++c) {
+        k[c] = sent[c] > 0.0 ? clamp(1.0 - balance.escaped[c] / sent[c], 0.0, 1.0) : 1.0;
+    }
+    vec3 scale = vec3(1.0);
+    for (int c = 0; c < 3; ++c) {
+        float missing = total.incident[c] - k[c] * total.reflected[c];
+        if (missing > 0.0 && total.emitted[c] > 0.0) {
+            scale[c] = clamp(k[c] * total.emitted[c] / missing, 0.02, 50.0);
+        }
+    }
+    return scale;
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x != 0u) {
+        return;
+    }
+    FluxSums total = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0));
+    for (uint b = 0u; b < block_count; ++b) {
+        total.incident += flux[b].incident;
+        total.reflected += flux[b].reflected;
+        total.emitted += flux[b].emitted;
+    }
+    // From here on the sums are those of the scaled iterate.
+    bool estimated = balanced && balance.outgoing.w > 0.0;
+    balance.scale = vec4(estimated ? balanced_scale(total) : vec3(1.0), 1.0);
+    total.incident *= balance.scale;
+    total.reflected *= balance.scale;
+    flux[block_count] = total;
+}

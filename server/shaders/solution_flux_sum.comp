@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fluxes of the iterate, summed over blocks of patches, always in the same order.
+#include "layouts.glsl"
+layout(local_size_x = POWER_BLOCK) in;
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
+layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
+layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
+uniform uint patch_count;
+shared FluxSums fluxes[POWER_BLOCK];
+
+const float pi = 3.14159265359;
+
+FluxSums patch_flux(uint i) {
+    float area = patches[i].area;
+    FluxSums f;
+    f.incident = area * source[i];
+    f.reflected = surfaces[i].albedo * f.incident;
+    f.emitted = (pi * area) * surfaces[i].emission;
+    return f;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    uint lane = gl_LocalInvocationID.x;
+    if (i < patch_count) {
+        fluxes[lane] = patch_flux(i);
+    } else {
+        fluxes[lane] = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0));
+    }
+    for (uint stride = POWER_BLOCK / 2; stride > 0u; stride /= 2u) {
+        barrier();
+        if (lane < stride) {
+            fluxes[lane].incident += fluxes[lane + stride].incident;
+            fluxes[lane].reflected += fluxes[lane + stride].reflected;
+            fluxes[lane].emitted += fluxes[lane + stride].emitted;
+        }
+    }
+    if (lane == 0u) {
+        flux[gl_WorkGroupID.x] = fluxes[0];
+    }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses shooting points: patch by selection probability, point uniformly on it (ch. 5.1).
+#include "layouts.glsl"
+layout(local_size_x = 16) in;
+#include "power.glsl"
+layout(std430, binding = BINDING_CDF) readonly buffer CdfBuffer { float cdf[]; };
+layout(std430, binding = BINDING_WORLD_POSITIONS) readonly buffer WorldBuffer { vec4 world[]; };
+layout(std430, binding = BINDING_TRIANGLES) readonly buffer TriangleBuffer { uvec4 triangles[]; };
+layout(std430, binding = BINDING_SHOOTERS) writeonly buffer ShooterBuffer { Shooter shooters[]; };
+uniform uint patch_count;
+uniform uint block_count;
+uniform uint shooter_count;
+/// Per shooter: x, y = leading and trailing 24 bits of the number that chooses the patch; z, w = point.
+uniform vec4 random_numbers[16];
+
+uint find_block(float u) {
+    uint low = 0u;
+    uint high = block_count - 1u;
+    while (low < high) {
+        uint middle = (low + high + 1u) / 2u;
+        if (blocks[middle].w <= u) {
+            low = middle;
+        } else {
+            high = middle - 1u;
+        }
+    }
+    return low;
+}
+
+uint find_patch(uint first, uint last, float u) {
+    while (first < last) {
+        uint middle = (first + last) / 2u;
+        if (cdf[middle] > u) {
+            last = middle;
+        } else {
+            first = middle + 1u;
+        }
+    }
+    return first;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= shooter_count) {
+        return;
+    }
+    vec4 u = random_numbers[i];
+    uint block = find_block(u.x);
+    uint first = block * POWER_BLOCK;
+    uint last = min(first + POWER_BLOCK, patch_count) - 1u;
+    // Within the block the trailing bits keep the choice fine-grained however small its share is.
+    float rest = min((u.x - blocks[block].w) + u.y * 5.9604645e-8, cdf[last] * 0.9999999);
+    uint id = find_patch(first, last, rest);
+    while (patches[id].area <= 0.0 && id < last) {
+        ++id;
+    }
+    uvec3 v = triangles[patches[id].triangle].xyz;
+    float root = sqrt(u.z);
+    vec3 position = world[v.x].xyz * (1.0 - root) + world[v.y].xyz * (root * (1.0 - u.w)) +
+                    world[v.z].xyz * (root * u.w);
+    Shooter s;
+    s.position = position;
+    s.patch_id = id;
+    s.normal = patches[id].normal;
+    s.density = radiance[id].w;
+    s.object = patches[id].object;
+    s.pad0 = 0u;
+    s.pad1 = 0u;
+    s.pad2 = 0u;
+    shooters[i] = s;
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the
+// correction since the last change (since loading: of everything), y = its estimated squared error.
+// Of a patch that a special phase of K bundles has left with weight w0 and that has weight w now,
+//   error^2 = correction^2 ((w0/w)^2 / K + s^2 (w - w0)/w^2),
+// the phase's error fading as new samples of relative deviation s come in; after loading w0 = 0.
+#include "layouts.glsl"
+layout(local_size_x = 256) in;
+layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
+layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec2 checkpoint[]; };
+layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
+uniform uint patch_count;
+uniform float relevance;         // changes below this share of the value count as noise
+uniform float phase_iterations;  // K
+
+const float sample_deviation = 0.5;  // s
+
+shared vec4 sums[256];
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    vec4 sum = vec4(0.0);
+    uint stride = gl_NumWorkGroups.x * 256u;
+    for (uint i = gl_GlobalInvocationID.x; i < patch_count; i += stride) {
+        float now = dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722));
+        float correction = now - checkpoint[i].x;
+        float weight = irradiance[i].w;
+        if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
+            float size = patches[i].area * correction * correction;
+            float kept = min(checkpoint[i].y / weight, 1.0);
+            sum.x += size;
+            sum.y += size * (kept * kept / phase_iterations +
+                             sample_deviation * sample_deviation * (1.0 - kept) / weight);
+        }
+    }
+    sums[lane] = sum;
+    for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
+        barrier();
+        if (lane < half_width) {
+            sums[lane] += sums[lane + half_width];
+        }
+    }
+    if (lane == 0u) {
+        partial[gl_WorkGroupID.x] = sums[0];
+    }
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// End of an iteration (ch. 2.6, 4.4): takes the irradiance that the bundle gave to each patch into
+//  * the mean irradiance E, the solution (weights grow, so that the dark transient fades), and
+//  * the iterate x that is transferred. It follows with a step that shrinks slower than 1/n; averaging
+//    such iterates converges at the best rate whatever the albedo (Polyak, Juditsky 1992,
+//    "Acceleration of stochastic approximation by averaging"), where transferring E itself would
+//    forget its dark start only like n^-(1-albedo).
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "accumulator.glsl"
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
+layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
+layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
+layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
+layout(std430, binding = BINDING_FLUX) readonly buffer FluxBuffer { FluxSums flux[]; };
+uniform uint patch_count;
+uniform uint block_count;
+uniform float shooter_density;  // p_j / A_j of a perspective bundle
+uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
+uniform float weight;   // of this sample in the mean
+uniform float step;     // of the iterate
+
+const float inverse_pi = 0.31830988618;
+
+/// What a perspective bundle says about the flux that no patch receives.
+void note_escaped_flux() {
+    vec3 shot = 3.14159265359 * counters.shooter_radiance.rgb / shooter_density;
+    float share = float(counters.escaped) * 9.313225746154785e-10;
+    FluxSums total = flux[block_count];
+    balance.escaped.rgb += weight * share * shot;
+    balance.outgoing.rgb += weight * (total.emitted.rgb + total.reflected.rgb);
+    balance.outgoing.w += weight;
+    counters.escaped = 0u;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i == 0u && scalar && shooter_density > 0.0) {
+        note_escaped_flux();
+    }
+    if (i >= patch_count || counters.overflowed != 0u) {
+        return;
+    }
+    vec3 new_sample;
+    if (scalar) {
+        new_sample = counters.shooter_radiance.rgb * take_accumulated(i, 0u);
+    } else {
+        new_sample = vec3(take_accumulated(i, 0u), take_accumulated(i, 1u), take_accumulated(i, 2u));
+    }
+    vec4 mean = irradiance[i];
+    mean.w += weight;
+    mean.rgb += (new_sample - mean.rgb) * (weight / mean.w);
+    irradiance[i] = mean;
+    vec4 iterate = source[i];
+    iterate.rgb += (new_sample - iterate.rgb) * step;
+    source[i] = iterate;
+    radiance[i].rgb = surfaces[i].emission.rgb + surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+}

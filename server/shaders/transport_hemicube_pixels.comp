@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Perspective bundle to the pixels of a viewer:
+//   E(x) += L(y) cos_x cos_y/d(y)-form, where the hemicube of y sees x.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "density.glsl"
+#include "scene_geometry.glsl"
+#include "hemicube.glsl"
+#include "pixel_receiver.glsl"
+layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
+layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+
+/// True where the shooter sees x. d: x in bundle coordinates.
+bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
+    uint surface = texelFetch(surface_ids, texel, 0).r;
+    if (surface == NO_HIT || patch_of_surface(surface) == x.patch_id) {
+        return true;
+    }
+    float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;
+    if (depth <= hit_depth * 1.0001) {
+        return true;
+    }
+    int face;
+    vec3 hit = hemicube_direction(vec2(texel) + 0.5, float(bundle.resolution.x), face) * hit_depth;
+    float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
+    vec3 towards_shooter = (bundle.origin.xyz - x.position) / r;
+    return beside_receiver(x, surface, hit - d, towards_shooter, footprint, 2e-5 * r);
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    Receiver x;
+    if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
+        return;
+    }
+    vec3 value = vec3(0.0);
+    vec3 offset = x.position - bundle.origin.xyz;
+    vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
+    float r = length(d);
+    if (d.z > 1e-6 * r && dot(x.geometric, offset) < -bundle.sky.w) {
+        int face;
+        float depth;
+        vec2 pixel = hemicube_pixel(d, float(bundle.resolution.x), face, depth);
+        ivec4 rectangle = bundle.scissor[face];
+        ivec2 origin = ivec2(0, face == 0 ? 0 : int(bundle.resolution.x) + (face - 1) * int(bundle.resolution.x) / 2);
+        ivec2 texel = ivec2(pixel) - origin;
+        bool inside = all(greaterThanEqual(texel, rectangle.xy)) && all(lessThan(texel, rectangle.zw));
+#ifndef SPECIAL
+        texel = clamp(texel, rectangle.xy, rectangle.zw - 1);
+        inside = true;
+#endif
+        float cos_x = max(-dot(x.normal, offset) / r, 0.0);
+        if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
+            value = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb *
+                    (cos_x * cosine_over_density(r, d.z / r, bundle.densities.w));
+        }
+    }
+    receive(index, value);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finished picture: radiance, exposure, tone curve, sRGB; row 0 at the top. Variants: LINEAR writes
+// radiance as floats; FALSE_LUMINANCE and FALSE_ILLUMINANCE show quantities by colour; SCALED averages
+// down to a smaller frame.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "view_radiance.glsl"
+#ifdef LINEAR
+layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { vec4 frame[]; };
+#else
+layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { uint frame[]; };
+#endif
+#include "false_colour.glsl"
+uniform uint frame_width;
+uniform uint frame_height;
+
+/// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 4, per channel: nearly
+/// linear in the shadows, soft shoulder, 1 at `white`.
+vec3 shoulder(vec3 x) {
+    const float white = 6.0;
+    return x * (1.0 + x / (white * white)) / (1.0 + x);
+}
+
+/// sRGB encoding by square roots (I. Chilliant 2012), within 0.2 % of the exact curve.
+vec3 srgb_encoded(vec3 c) {
+    vec3 s1 = sqrt(clamp(c, 0.0, 1.0));
+    vec3 s2 = sqrt(s1);
+    vec3 s3 = sqrt(s2);
+    return 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
+}
+
+/// Displayed colour of a pixel, 0..1.
+vec3 shown(uvec2 at) {
+    uint index = at.y * view.size.x + at.x;
+    PixelSurface p = load_pixel(index);
+#if defined(FALSE_LUMINANCE)
+    return false_colour(luminance(pixel_radiance(index, p)) * view.display.x, view.display.y);
+#elif defined(FALSE_ILLUMINANCE)
+    vec3 e = p.patch_id == NO_PATCH ? vec3(0.0) : blended_irradiance(index, p);
+    return false_colour(luminance(e) * view.display.x, view.display.y);
+#else
+    return srgb_encoded(shoulder(pixel_radiance(index, p) * view.display.y));
+#endif
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= frame_width * frame_height) {
+        return;
+    }
+    uint row = index / frame_width;
+    uvec2 at = uvec2(index - row * frame_width, frame_height - 1u - row);
+#if defined(LINEAR)
+    uint source = at.y * view.size.x + at.x;
+    frame[index] = vec4(pixel_radiance(source, load_pixel(source)) * view.display.x, 1.0);
+#elif defined(SCALED)
+    vec2 scale = vec2(view.size.xy) / vec2(frame_width, frame_height);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < 4u; ++k) {
+        vec2 tap = (vec2(at) + 0.25 + 0.5 * vec2(k & 1u, k >> 1)) * scale;
+        sum += shown(min(uvec2(tap), view.size.xy - 1u));
+    }
+    frame[index] = packUnorm4x8(vec4(0.25 * sum, 1.0));
+#else
+    frame[index] = packUnorm4x8(vec4(shown(at), 1.0));
+#endif
+}

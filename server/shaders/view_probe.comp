@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one pixel shows: surface point, light, and the error of its batch means.
+#include "layouts.glsl"
+layout(local_size_x = 1) in;
+#include "view_radiance.glsl"
+#include "octahedral.glsl"
+#include "false_colour.glsl"
+layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
+layout(std430, binding = BINDING_PICK) writeonly buffer PickBuffer { PickResult pick; };
+uniform uint pixel_index;
+
+/// Standard error of the nearest probe pixel's mean irradiance, relative; negative where unknown.
+float relative_error() {
+    uvec2 at = uvec2(pixel_index % view.size.x, pixel_index / view.size.x) / 4u;
+    uint slot = BATCHES * (at.y * view.size.z + at.x);
+    float batch_weight = view.weights.y;
+    if (batch_weight <= 0.0) {
+        return -1.0;
+    }
+    float mean = 0.0;
+    float square = 0.0;
+    for (uint batch = 0u; batch < BATCHES; ++batch) {
+        float value = pixel_batches[slot + batch] / batch_weight;
+        mean += value / float(BATCHES);
+        square += value * value / float(BATCHES);
+    }
+    return mean > 0.0 ? sqrt(max(square - mean * mean, 0.0) / float(BATCHES - 1)) / mean : -1.0;
+}
+
+void main() {
+    PixelSurface p = load_pixel(pixel_index);
+    if (p.patch_id == NO_PATCH) {
+        pick.position = vec4(0.0);
+        return;
+    }
+    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.patch_id).w)).xyz;
+    vec2 v = unpackUnorm2x16(p.barycentric);
+    vec3 position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
+    pick.position = vec4(position, 1.0);
+    pick.normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), uintBitsToFloat(p.object & PIXEL_OBJECT_MASK));
+    pick.irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.patch_id));
+    pick.radiance = vec4(pixel_radiance(pixel_index, p), relative_error());
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radiance of a viewer's pixel: confidence-weighted blend of the object-space value and the pixel's own
+// estimate, times the texture's albedo.
+#include "pixel_sum.glsl"
+layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+layout(binding = UNIT_PIXEL_IRRADIANCE) uniform samplerBuffer pixel_irradiance_texels;
+layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance_texels;
+#include "scene_geometry.glsl"
+#include "mesh.glsl"
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+uniform uint triangle_count;
+
+const float inverse_pi = 0.31830988618;
+
+PixelSurface load_pixel(uint index) {
+    uvec4 a = texelFetch(pixel_texels, int(2u * index));
+    uvec4 b = texelFetch(pixel_texels, int(2u * index + 1u));
+    return PixelSurface(uintBitsToFloat(a.xyz), a.w, b.x, b.y, b.z, b.w);
+}
+
+vec3 vertex_irradiance(uint slot) { return texelFetch(vertex_irradiance_texels, int(slot)).rgb; }
+
+/// Irradiance of the object-space solution, interpolated over the vertices (radiance units).
+vec3 object_space_irradiance(PixelSurface p) {
+    uint triangle = p.patch_id;
+    uint side = 0u;
+#ifdef DOUBLE_SIDED
+    if (p.patch_id >= triangle_count) {
+        triangle = floatBitsToUint(patch_attributes(p.patch_id).w);
+        side = 1u;
+    }
+#endif
+    uvec3 t = 2u * load_triangle(triangle).xyz + side;
+    vec2 v = unpackUnorm2x16(p.barycentric);
+    return vertex_irradiance(t.x) * (1.0 - v.x - v.y) + vertex_irradiance(t.y) * v.x + vertex_irradiance(t.z) * v.y;
+}
+
+vec3 blended_irradiance(uint index, PixelSurface p) {
+    vec4 own = texelFetch(pixel_irradiance_texels, int(index));
+    float weight = pixel_weight(own, view.weights.x);
+    float confidence = weight / (weight + view.display.z);
+    return mix(object_space_irradiance(p), pixel_mean(own, view.weights.x), confidence);
+}
+
+vec3 pixel_albedo(PixelSurface p) {
+    vec3 root = unpackUnorm4x8(p.albedo).rgb;
+    return root * root;
+}
+
+/// Radiance towards the eye, radiance units.
+vec3 pixel_radiance(uint index, PixelSurface p) {
+    if (p.patch_id == NO_PATCH) {
+        return (p.object & PIXEL_SKY) != 0u ? view.sky.rgb : vec3(0.0);
+    }
+    vec3 emitted = (p.object & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
+    return emitted + pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Geometry buffer of a viewer: surface point, normal and texture colour of every pixel, from the
+// rasterised surface ids. Accumulated irradiance follows its surface point from the picture before
+// (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED, SMOOTH (some
+// vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved).
+#include "layouts.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+#include "scene_geometry.glsl"
+#include "mesh.glsl"
+#include "octahedral.glsl"
+#include "pixel_sum.glsl"
+layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
+layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
+layout(std430, binding = BINDING_PIXELS) writeonly buffer PixelBuffer { uvec4 pixels[]; };
+layout(std430, binding = BINDING_PIXEL_IRRADIANCE) writeonly buffer IrradianceBuffer {
+    vec4 pixel_irradiance[];
+};
+#if defined(TEXTURED) || defined(SMOOTH)
+layout(binding = UNIT_VERTEX_DATA) uniform usamplerBuffer vertex_data_texels;
+#endif
+#ifdef TEXTURED
+layout(std430, binding = BINDING_TEXELS) readonly buffer TexelBuffer { uint texels[]; };
+#endif
+#ifdef SMOOTH
+layout(std430, binding = BINDING_OBJECTS) readonly buffer ObjectBuffer { mat4 world_from_object[]; };
+#endif
+uniform uint vertex_count;
+uniform float crease_distance;  // m, see receiving_point()
+#ifdef REPROJECT
+layout(binding = UNIT_OLD_PIXELS) uniform usamplerBuffer old_pixel_texels;
+layout(binding = UNIT_OLD_PIXEL_IRRADIANCE) uniform samplerBuffer old_irradiance_texels;
+uniform mat4 old_clip_from_world;
+uniform uint old_width;
+uniform uint old_height;
+uniform float old_common_weight;
+uniform uint moved_object;    // whose place 1 differs, or NO_PATCH
+uniform float kept_weight;    // share of the old weight that a reprojected value keeps
+uniform float same_distance;  // m, at unit distance: points closer than this (and coplanar) are the same
+#endif
+
+#ifdef TEXTURED
+vec3 texel(uvec4 info, ivec2 at) {
+    ivec2 size = ivec2(info.yz);
+    at.x = (info.w & 1u) != 0u ? at.x - size.x * int(floor(float(at.x) / float(size.x))) : clamp(at.x, 0, size.x - 1);
+    at.y = (info.w & 2u) != 0u ? at.y - size.y * int(floor(float(at.y) / float(size.y))) : clamp(at.y, 0, size.y - 1);
+    vec3 encoded = unpackUnorm4x8(texels[info.x + uint(at.y * size.x + at.x)]).rgb;
+    return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), step(0.04045, encoded));
+}
+
+vec3 texture_colour(int material, uvec4 info, vec2 mesh_uv) {
+    vec3 mesh = vec3(mesh_uv, 1.0);
+    vec2 uv = vec2(dot(texelFetch(material_texels, material + 2).xyz, mesh),
+                   dot(texelFetch(material_texels, material + 3).xyz, mesh));
+    vec2 at = uv * vec2(info.yz) - 0.5;
+    ivec2 corner = ivec2(floor(at));
+    vec2 f = at - vec2(corner);
+    vec3 top = mix(texel(info, corner), texel(info, corner + ivec2(1, 0)), f.x);
+    vec3 bottom = mix(texel(info, corner + ivec2(0, 1)), texel(info, corner + ivec2(1, 1)), f.x);
+    return mix(top, bottom, f.y);
+}
+
+vec2 vertex_uv(uint vertex) { return uintBitsToFloat(texelFetch(vertex_data_texels, int(2u * vertex)).zw); }
+#endif
+
+#ifdef SMOOTH
+vec3 vertex_normal(uint vertex) {
+    return vector_from_octahedral(uintBitsToFloat(texelFetch(vertex_data_texels, int(2u * vertex)).xy));
+}
+
+/// Interpolated vertex normal, world space, on the patch's side.
+vec3 shading_normal(uvec3 triangle, vec3 weights, vec3 plane_normal, uint object) {
+    vec3 n = weights.x * vertex_normal(triangle.x) + weights.y * vertex_normal(triangle.y) +
+             weights.z * vertex_normal(triangle.z);
+    mat3 m = mat3(world_from_object[object]);
+    // Normals transform by the cofactor matrix (the inverse transpose times the determinant).
+    n = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * n;
+    n = dot(n, plane_normal) < 0.0 ? -n : n;
+    return dot(n, n) > 0.0 ? normalize(n) : plane_normal;
+}
+#endif
+
+#ifdef REPROJECT
+/// Irradiance that this surface point had in the picture before; weight 0 where it was hidden.
+vec4 reproject(vec3 old_position, vec3 position, vec3 normal, uint id, uint object) {
+    vec4 clip = old_clip_from_world * vec4(old_position, 1.0);
+    if (clip.w <= 0.0) {
+        return vec4(0.0);
+    }
+    ivec2 at = ivec2(floor((clip.xy / clip.w * 0.5 + 0.5) * vec2(old_width, old_height)));
+    if (at.x < 0 || at.y < 0 || at.x >= int(old_width) || at.y >= int(old_height)) {
+        return vec4(0.0);
+    }
+    uint index = uint(at.y) * old_width + uint(at.x);
+    uvec4 old = texelFetch(old_pixel_texels, int(2u * index));
+    bool same = old.w == id;
+    if (!same && old.w != NO_PATCH &&
+        (texelFetch(old_pixel_texels, int(2u * index + 1u)).w & PIXEL_OBJECT_MASK) == object) {
+        vec3 offset = uintBitsToFloat(old.xyz) - old_position;
+        same = length(offset) < same_distance * clip.w && abs(dot(offset, normal)) < 0.1 * same_distance * clip.w;
+    }
+    if (!same) {
+        return vec4(0.0);
+    }
+    vec4 sum = texelFetch(old_irradiance_texels, int(index));
+    return kept_weight * vec4(sum.rgb, pixel_weight(sum, old_common_weight));
+}
+#endif
+
+/// Where the pixel receives bundles: its surface point, kept about a bundle pixel away from creases, since
+/// a bundle's pixel next to a corner may show the other wall or miss the room altogether.
+vec3 receiving_point(uint creases, vec3 weights, vec3 a, vec3 e1, vec3 e2) {
+    float twice_area = length(cross(e1, e2));
+    vec3 edges = vec3(length(e2 - e1), length(e2), length(e1));  // opposite to each vertex
+    vec3 least = min(crease_distance * edges / max(twice_area, 1e-20), 0.3);
+    vec3 flagged = vec3(creases & 1u, creases >> 1 & 1u, creases >> 2);
+    weights = max(weights, least * flagged);
+    weights /= weights.x + weights.y + weights.z;
+    return a + weights.y * e1 + weights.z * e2;
+}
+
+void main() {
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (at.x >= view.size.x || at.y >= view.size.y) {
+        return;
+    }
+    uint index = at.y * view.size.x + at.x;
+    uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
+    uint id = surface == NO_HIT ? NO_PATCH : patch_of_surface(surface);
+    if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
+        pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
+        pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : 0u);
+        pixel_irradiance[index] = vec4(0.0);
+        return;
+    }
+    vec3 normal = patch_plane(id).xyz;
+    vec4 attributes = patch_attributes(id);
+    uint object = floatBitsToUint(attributes.z);
+    uvec4 triangle = load_triangle(floatBitsToUint(attributes.w));
+    vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
+    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+    vec3 a = world_position(triangle.x);
+    vec3 e1 = world_position(triangle.y) - a;
+    vec3 e2 = world_position(triangle.z) - a;
+    // Moeller, Trumbore 1997: barycentrics of the ray through the pixel's centre, clamped to the triangle.
+    vec3 q = cross(direction, e2);
+    float determinant = dot(e1, q);
+    vec3 s = view.eye.xyz - a;
+    float inverse = abs(determinant) > 0.0 ? 1.0 / determinant : 0.0;
+    float v1 = clamp(dot(s, q) * inverse, 0.0, 1.0);
+    float v2 = clamp(dot(direction, cross(s, e1)) * inverse, 0.0, 1.0 - v1);
+    vec3 weights = vec3(1.0 - v1 - v2, v1, v2);
+    vec3 position = a + v1 * e1 + v2 * e2;
+
+    int material = 5 * int(triangle.w & MATERIAL_MASK);
+    vec3 albedo = texelFetch(material_texels, material).rgb;
+#ifdef TEXTURED
+    uvec4 info = floatBitsToUint(texelFetch(material_texels, material + 4));
+    if (info.y != 0u) {
+        albedo *= texture_colour(material, info, weights.x * vertex_uv(triangle.x) + weights.y * vertex_uv(triangle.y) +
+                                                     weights.z * vertex_uv(triangle.z));
+    }
+#endif
+    vec3 shaded = normal;
+#ifdef SMOOTH
+    if ((triangle.w & TRIANGLE_SMOOTH) != 0u) {
+        shaded = shading_normal(triangle.xyz, weights, normal, object);
+    }
+#endif
+    bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
+    pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
+    pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
+                                    packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0)),
+                                    packUnorm2x16(vec2(v1, v2)), object | (emitter ? PIXEL_EMITTER : 0u));
+#ifdef REPROJECT
+    vec3 old_position = position;
+#ifdef MOVED
+    if (object == moved_object) {
+        uvec3 before = triangle.xyz + vertex_count;
+        old_position = world_position(before.x) * weights.x + world_position(before.y) * weights.y +
+                       world_position(before.z) * weights.z;
+    }
+#endif
+    pixel_irradiance[index] = reproject(old_position, position, normal, id, object);
+#else
+    pixel_irradiance[index] = vec4(0.0);
+#endif
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Irradiance at vertices: area-weighted mean over the patches of the vertex's smoothing group, for
+// interpolation in the picture (Gouraud).
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
+layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
+layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
+layout(std430, binding = BINDING_BACK_PATCH) readonly buffer BackPatchBuffer { uint back_patch[]; };
+layout(std430, binding = BINDING_VERTEX_IRRADIANCE) writeonly buffer VertexIrradianceBuffer { uvec2 vertex_irradiance[]; };
+uniform uint vertex_count;
+
+/// Half floats (radiance units are near 1 by choice of the unit).
+uvec2 pack_irradiance(vec3 e) {
+    e = min(e, 65000.0);
+    return uvec2(packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)));
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= vertex_count) {
+        return;
+    }
+    vec3 front = vec3(0.0);
+    vec3 back = vec3(0.0);
+    float front_area = 0.0;
+    float back_area = 0.0;
+    uint end = vertices[i].first_patch + vertices[i].patch_count;
+    for (uint k = vertices[i].first_patch; k < end; ++k) {
+        uint triangle = vertex_patches[k];
+        float area = patches[triangle].area;
+        front += area * irradiance[triangle].rgb;
+        front_area += area;
+        uint twin = back_patch[triangle];
+        if (twin != NO_PATCH) {
+            back += area * irradiance[twin].rgb;
+            back_area += area;
+        }
+    }
+    vertex_irradiance[2u * i] = pack_irradiance(front_area > 0.0 ? front / front_area : vec3(0.0));
+    vertex_irradiance[2u * i + 1u] = pack_irradiance(back_area > 0.0 ? back / back_area : vec3(0.0));
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/patch_mesh.h"
+
+namespace raybundle {
+
+/// Per triangle a mask of its creases: bit k is set where the edge opposite to vertex k has no
+/// neighbour in its object that goes on within 30 degrees. See shaders/crease.glsl.
+std::vector<std::uint32_t> find_creases(const PatchMesh& mesh);
+
+}  // namespace raybundle

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/gpu_scene.h"
+
+#include "solution/creases.h"
+#include "solution/thin_walls.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace raybundle {
+
+namespace {
+
+glm::vec2 octahedral_from_vector(const glm::vec3& n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    if (sum <= 0.0F) {
+        return {0.0F, 0.0F};
+    }
+    const glm::vec2 p = glm::vec2(n) / sum;
+    if (n.z >= 0.0F) {
+        return p;
+    }
+    return {(1.0F - std::abs(p.y)) * (p.x >= 0.0F ? 1.0F : -1.0F),
+            (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F)};
+}
+
+/// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.
+float choose_radiance_unit(const PatchMesh& mesh, const glm::vec3& sky) {
+    float largest = std::max({sky.r, sky.g, sky.b});
+    for (const glm::vec3& emission : mesh.emission) {
+        largest = std::max({largest, emission.r, emission.g, emission.b});
+    }
+    return largest > 0.0F ? std::exp2(std::round(std::log2(largest))) : 1.0F;
+}
+
+/// Whether a triangle's vertex normals bend away from its plane.
+bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
+    const glm::uvec3& t = mesh.triangles[triangle];
+    const glm::vec3 plane = glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                       mesh.positions[t.z] - mesh.positions[t.x]);
+    constexpr float flat_cosine = 0.9999F;
+    for (int k = 0; k < 3; ++k) {
+        if (glm::dot(mesh.normals[t[k]], plane) < flat_cosine * glm::length(plane)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+glm::vec4 with_bits(const glm::vec3& v, std::uint32_t bits) {
+    return {v, std::bit_cast<float>(bits)};
+}
+
+Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
+    Bounds result;
+    if (box.empty()) {
+        return result;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
+                          (corner & 2) != 0 ? box.max.y : box.min.y,
+                          (corner & 4) != 0 ? box.max.z : box.min.z);
+        result.add(glm::vec3(matrix * glm::vec4(p, 1.0F)));
+    }
+    return result;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
+    : patch_count_(static_cast<std::uint32_t>(mesh.patch_count())),
+      triangle_count_(static_cast<std::uint32_t>(mesh.triangle_count())),
+      vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
+      object_count_(static_cast<std::uint32_t>(scene.objects.size())),
+      origin_(scene.bounds.centre()),
+      radiance_unit_(choose_radiance_unit(mesh, scene.sky_radiance)),
+      sky_(scene.sky_radiance / radiance_unit_),
+      place_vertices_({"scene_place_vertices.comp"}),
+      place_patches_({"scene_place_patches.comp"}) {
+    const glm::mat4 shift = glm::translate(glm::mat4(1.0F), -origin_);
+    for (int place = 0; place < 2; ++place) {
+        for (const Object& object : scene.objects) {
+            world_from_object_.push_back(shift * object.world_from_object());
+        }
+    }
+    for (const Object& object : scene.objects) {
+        object_bounds_.push_back(object.bounds);
+    }
+    upload_geometry(scene, mesh);
+    upload_materials(scene, mesh);
+    upload_vertex_data(mesh);
+    build_clusters(mesh);
+    create_textures();
+    choose_defines(scene, mesh);
+    upload_matrices();
+    place_geometry(Place::now);
+    place_geometry(Place::before);
+    diameter_ = std::max(glm::length(bounds().extent()), 1e-6F);
+}
+
+void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
+    std::vector<glm::vec4> vertices;
+    vertices.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        vertices.push_back(with_bits(mesh.positions[i], mesh.vertex_object[i]));
+    }
+    std::vector<glm::uvec4> triangles;
+    triangles.reserve(mesh.triangles.size());
+    const std::vector<std::uint32_t> creases = find_creases(mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        triangles.emplace_back(mesh.triangles[i], mesh.triangle_material[i] |
+                                                      creases[i] << CREASE_SHIFT |
+                                                      (is_smooth(mesh, i) ? TRIANGLE_SMOOTH : 0U));
+    }
+    vertices_ = Buffer::from<glm::vec4>("vertices", vertices);
+    triangles_ = Buffer::from<glm::uvec4>("triangles", triangles);
+    patch_triangle_ = Buffer::from<std::uint32_t>("patch triangles", mesh.patch_triangle);
+    back_patch_ = Buffer::from<std::uint32_t>("back patches", mesh.back_patch);
+    indices_ = Buffer::from<glm::uvec3>("indices", mesh.triangles);
+    world_positions_ = Buffer("world positions", 2 * vertices.size() * sizeof(glm::vec4));
+    patches_ = Buffer("patches", 2 * std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
+    objects_ = Buffer("object matrices", world_from_object_.size() * sizeof(glm::mat4));
+    for (unsigned place = 0; place < 2; ++place) {
+        GLuint name = 0;
+        glCreateVertexArrays(1, &name);
+        vertex_array_[place] = VertexArray(name);
+        glVertexArrayVertexBuffer(
+            name, 0, world_positions_.get(),
+            static_cast<GLintptr>(place * vertices.size() * sizeof(glm::vec4)), sizeof(glm::vec4));
+        glEnableVertexArrayAttrib(name, 0);
+        glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
+        glVertexArrayAttribBinding(name, 0, 0);
+        glVertexArrayElementBuffer(name, indices_.get());
+    }
+}
+
+void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
+    std::vector<layout::PatchSurface> surfaces;
+    surfaces.reserve(mesh.patch_count());
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        surfaces.push_back(
+            {glm::vec4(mesh.albedo[i], 0.0F), glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+    }
+    std::vector<std::uint32_t> texels;
+    std::vector<std::uint32_t> texture_offset;
+    for (const Texture& texture : scene.textures) {
+        texture_offset.push_back(static_cast<std::uint32_t>(texels.size()));
+        for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4) {
+            texels.push_back(static_cast<std::uint32_t>(texture.rgba[i]) |
+                             static_cast<std::uint32_t>(texture.rgba[i + 1]) << 8U |
+                             static_cast<std::uint32_t>(texture.rgba[i + 2]) << 16U |
+                             static_cast<std::uint32_t>(texture.rgba[i + 3]) << 24U);
+        }
+    }
+    std::vector<layout::MaterialData> materials;
+    for (const Material& material : scene.materials) {
+        layout::MaterialData data{};
+        data.base_colour = glm::vec4(material.base_colour, 1.0F);
+        data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
+        const TextureSlot& slot = material.base_colour_texture;
+        if (slot.texture >= 0) {
+            const auto index = static_cast<std::size_t>(slot.texture);
+            const Texture& texture = scene.textures[index];
+            const glm::mat3& m = slot.uv_from_mesh_uv;
+            data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
+            data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
+            data.texture_info = {texture_offset[index], texture.width, texture.height,
+                                 (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U)};
+        }
+        materials.push_back(data);
+    }
+    surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
+    materials_ = Buffer::from<layout::MaterialData>("materials", materials);
+    texels_ = Buffer::from<std::uint32_t>("texels", texels);
+}
+
+void GpuScene::upload_vertex_data(const PatchMesh& mesh) {
+    // Compressed rows: for every vertex the triangles that use it.
+    std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
+    for (const glm::uvec3& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            ++first[t[k] + 1];
+        }
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> vertex_patches(first.back());
+    std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            vertex_patches[at[mesh.triangles[i][k]]++] = static_cast<std::uint32_t>(i);
+        }
+    }
+    std::vector<layout::VertexData> data;
+    data.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        data.push_back({octahedral_from_vector(mesh.normals[i]), mesh.uvs[i], first[i],
+                        first[i + 1] - first[i], mesh.vertex_object[i], 0});
+    }
+    vertex_data_ = Buffer::from<layout::VertexData>("vertex data", data);
+    vertex_patches_ = Buffer::from<std::uint32_t>("vertex patches", vertex_patches);
+}
+
+void GpuScene::create_textures() {
+    patch_texture_ = create_buffer_texture("patches", GL_RGBA32F, patches_);
+    triangle_texture_ = create_buffer_texture("triangles", GL_RGBA32UI, triangles_);
+    world_texture_ = create_buffer_texture("world positions", GL_RGBA32F, world_positions_);
+    vertex_texture_ = create_buffer_texture("vertex data", GL_RGBA32UI, vertex_data_);
+    material_texture_ = create_buffer_texture("materials", GL_RGBA32F, materials_);
+}
+
+void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
+    const auto define_if = [this](bool active, const char* name) {
+        if (active) {
+            defines_.push_back(std::string(name) + " 1");
+        }
+    };
+    bool smooth = false;
+    for (std::size_t i = 0; i < mesh.triangle_count() && !smooth; ++i) {
+        smooth = is_smooth(mesh, i);
+    }
+    define_if(mesh.patch_count() > mesh.triangle_count(), "DOUBLE_SIDED");
+    define_if(!scene.textures.empty(), "TEXTURED");
+    define_if(smooth, "SMOOTH");
+    define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
+    thin_walls_ = has_thin_walls(scene, mesh);
+    define_if(thin_walls_, "THIN_WALLS");
+}
+
+void GpuScene::upload_matrices() const {
+    Buffer& objects = const_cast<Buffer&>(objects_);
+    objects.write<glm::mat4>(world_from_object_, 0);
+}
+
+void GpuScene::place_geometry(Place place) const {
+    bind();
+    place_vertices_.set("place", static_cast<unsigned>(place));
+    place_vertices_.set("vertex_count", vertex_count_);
+    place_vertices_.set("object_count", object_count_);
+    place_vertices_.dispatch(vertex_count_);
+    place_patches_.set("place", static_cast<unsigned>(place));
+    place_patches_.set("vertex_count", vertex_count_);
+    place_patches_.set("patch_count", patch_count_);
+    place_patches_.set("triangle_count", triangle_count_);
+    place_patches_.dispatch(patch_count_);
+}
+
+void GpuScene::settle() {
+    const auto half = world_from_object_.begin() + object_count_;
+    std::copy(world_from_object_.begin(), half, half);
+    upload_matrices();
+    const auto copy_half = [](const Buffer& buffer, std::size_t bytes) {
+        glCopyNamedBufferSubData(buffer.get(), buffer.get(), 0, static_cast<GLintptr>(bytes),
+                                 static_cast<GLsizeiptr>(bytes));
+    };
+    copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
+    copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
+}
+
+void GpuScene::move_object(std::uint32_t object, const glm::mat4& world_from_object) {
+    settle();
+    world_from_object_[object] = glm::translate(glm::mat4(1.0F), -origin_) * world_from_object;
+    upload_matrices();
+    place_geometry(Place::now);
+    diameter_ = std::max(diameter_, glm::length(bounds().extent()));
+}
+
+void GpuScene::build_clusters(const PatchMesh& mesh) {
+    constexpr std::uint32_t cluster_size = 256;
+    for (std::uint32_t first = 0; first < triangle_count_;) {
+        Cluster cluster{first, 0, mesh.vertex_object[mesh.triangles[first].x], glm::vec3(0.0F),
+                        0.0F};
+        Bounds box;
+        while (first < triangle_count_ && cluster.count < cluster_size &&
+               mesh.vertex_object[mesh.triangles[first].x] == cluster.object) {
+            for (int k = 0; k < 3; ++k) {
+                box.add(mesh.positions[mesh.triangles[first][k]]);
+            }
+            ++cluster.count;
+            ++first;
+        }
+        cluster.centre = box.centre();
+        cluster.radius = 0.5F * glm::length(box.extent());
+        clusters_.push_back(cluster);
+    }
+}
+
+namespace {
+
+/// Left, right, bottom, top and near planes of a clip matrix, normals inwards, unit.
+std::array<glm::vec4, 5> frustum_planes(const glm::mat4& clip_from_world) {
+    const glm::mat4 rows = glm::transpose(clip_from_world);
+    std::array<glm::vec4, 5> planes = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
+                                       rows[3] - rows[1], rows[3]};
+    for (glm::vec4& plane : planes) {
+        const float length = glm::length(glm::vec3(plane));
+        plane = length > 0.0F ? plane / length : glm::vec4(0.0F);
+    }
+    return planes;
+}
+
+float largest_scale(const glm::mat4& matrix) {
+    return std::sqrt(std::max({glm::dot(matrix[0], matrix[0]), glm::dot(matrix[1], matrix[1]),
+                               glm::dot(matrix[2], matrix[2])}));
+}
+
+}  // namespace
+
+void GpuScene::draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
+                    const ShaderProgram& program) const {
+    const auto planes = frustum_planes(clip_from_world);
+    const auto visible = [&](const Cluster& cluster) {
+        const glm::mat4 matrix = this->world_from_object(cluster.object, place);
+        const glm::vec4 centre = matrix * glm::vec4(cluster.centre, 1.0F);
+        const float radius = cluster.radius * largest_scale(matrix) * 1.001F;
+        return std::all_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
+            return glm::dot(plane, centre) >= -radius;
+        });
+    };
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  // first triangle, count
+    for (const Cluster& cluster : clusters_) {
+        if (!visible(cluster)) {
+            continue;
+        }
+        if (!ranges.empty() && ranges.back().first + ranges.back().second == cluster.first) {
+            ranges.back().second += cluster.count;
+        } else {
+            ranges.emplace_back(cluster.first, cluster.count);
+        }
+    }
+    glBindVertexArray(vertex_array_[static_cast<unsigned>(place)].get());
+    const auto draw_ranges = [&] {
+        for (const auto& [first, count] : ranges) {
+            program.set("first_triangle", first);
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(std::size_t{first} * sizeof(glm::uvec3)));
+        }
+    };
+    if (!nearest_only || !thin_walls_) {
+        draw_ranges();
+        return;
+    }
+    // Where a front and a back have equal depths the front, drawn first, is seen. No polygon
+    // offset: a back pushed away would uncover what stands right behind it.
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    draw_ranges();
+    glCullFace(GL_FRONT);
+    draw_ranges();
+    glDisable(GL_CULL_FACE);
+}
+
+void GpuScene::bind() const {
+    vertices_.bind_storage(BINDING_VERTICES);
+    world_positions_.bind_storage(BINDING_WORLD_POSITIONS);
+    triangles_.bind_storage(BINDING_TRIANGLES);
+    patches_.bind_storage(BINDING_PATCHES);
+    patch_triangle_.bind_storage(BINDING_PATCH_TRIANGLE);
+    back_patch_.bind_storage(BINDING_BACK_PATCH);
+    surfaces_.bind_storage(BINDING_SURFACES);
+    objects_.bind_storage(BINDING_OBJECTS);
+    materials_.bind_storage(BINDING_MATERIALS);
+    texels_.bind_storage(BINDING_TEXELS);
+    vertex_data_.bind_storage(BINDING_VERTEX_DATA);
+    vertex_patches_.bind_storage(BINDING_VERTEX_PATCHES);
+    glBindTextureUnit(UNIT_PATCHES, patch_texture_.get());
+    glBindTextureUnit(UNIT_TRIANGLES, triangle_texture_.get());
+    glBindTextureUnit(UNIT_WORLD_POSITIONS, world_texture_.get());
+    glBindTextureUnit(UNIT_VERTEX_DATA, vertex_texture_.get());
+    glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
+}
+
+std::uint32_t GpuScene::patch_base(Place place) const {
+    return place == Place::now ? 0 : patch_count_;
+}
+std::uint32_t GpuScene::vertex_base(Place place) const {
+    return place == Place::now ? 0 : vertex_count_;
+}
+
+glm::mat4 GpuScene::world_from_object(std::uint32_t object, Place place) const {
+    return world_from_object_[static_cast<unsigned>(place) * object_count_ + object];
+}
+
+Bounds GpuScene::object_bounds(std::uint32_t object, Place place) const {
+    return transformed(object_bounds_[object], world_from_object(object, place));
+}
+
+Bounds GpuScene::bounds() const {
+    Bounds all;
+    for (std::uint32_t object = 0; object < object_count_; ++object) {
+        for (const Place place : {Place::now, Place::before}) {
+            const Bounds box = object_bounds(object, place);
+            if (!box.empty()) {
+                all.add(box.min);
+                all.add(box.max);
+            }
+        }
+    }
+    return all;
+}
+
+std::size_t GpuScene::bytes() const {
+    std::size_t sum = 0;
+    for (const Buffer* buffer : {&vertices_, &world_positions_, &triangles_, &patches_,
+                                 &patch_triangle_, &back_patch_, &surfaces_, &objects_, &materials_,
+                                 &texels_, &vertex_data_, &vertex_patches_, &indices_}) {
+        sum += buffer->bytes();
+    }
+    return sum;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/gl_objects.h"
+#include "gpu/layouts.h"
+#include "gpu/shader_program.h"
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Where the objects are: now, or before the change that is being corrected.
+enum class Place : unsigned { now = 0, before = 1 };
+
+/// The scene's geometry and materials on the GPU. "World" on the GPU is the scene's world shifted
+/// by -origin(), so that scenes far from their origin keep their precision.
+class GpuScene {
+  public:
+    GpuScene(const Scene& scene, const PatchMesh& mesh);
+
+    /// Keeps the present place as `before` and puts one object elsewhere. Uploads matrices only.
+    void move_object(std::uint32_t object, const glm::mat4& world_from_object);
+    /// Forgets `before`: both places are the present one.
+    void settle();
+
+    /// Draws the triangles that a view (clip_from_world, also given as planes) can see, with a
+    /// program that adds `first_triangle` to gl_PrimitiveID. Where nearest_only, front faces win
+    /// over back faces of equal depth.
+    void draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
+              const ShaderProgram& program) const;
+
+    void bind() const;  ///< all storage buffers and buffer textures of this class
+    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH, SKY,
+    /// THIN_WALLS. What is absent is not even compiled.
+    [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
+    [[nodiscard]] std::uint32_t patch_base(Place place) const;
+    [[nodiscard]] std::uint32_t vertex_base(Place place) const;
+
+    [[nodiscard]] std::uint32_t patch_count() const { return patch_count_; }
+    [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
+    [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
+    [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
+    [[nodiscard]] const glm::vec3& origin() const { return origin_; }
+    [[nodiscard]] glm::vec3 sky() const { return sky_; }  ///< radiance units
+    /// Of an object, shifted world, at a place.
+    [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
+    [[nodiscard]] glm::mat4 world_from_object(std::uint32_t object, Place place) const;
+    [[nodiscard]] Bounds bounds() const;  ///< of everything, both places, shifted world
+    [[nodiscard]] float diameter() const { return diameter_; }  ///< R of the densities, m
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    void upload_geometry(const Scene& scene, const PatchMesh& mesh);
+    void upload_materials(const Scene& scene, const PatchMesh& mesh);
+    void upload_vertex_data(const PatchMesh& mesh);
+    /// Neighbouring triangles of one object, culled together.
+    struct Cluster {
+        std::uint32_t first = 0, count = 0, object = 0;
+        glm::vec3 centre{0.0F};  // object space
+        float radius = 0.0F;
+    };
+    void build_clusters(const PatchMesh& mesh);
+    void create_textures();
+    void choose_defines(const Scene& scene, const PatchMesh& mesh);
+    void upload_matrices() const;
+    void place_geometry(Place place) const;
+
+    std::uint32_t patch_count_, triangle_count_, vertex_count_, object_count_;
+    glm::vec3 origin_;
+    float radiance_unit_ = 1.0F;
+    float diameter_ = 1.0F;
+    bool thin_walls_ = false;  // fronts and backs may coincide
+    glm::vec3 sky_{0.0F};
+    std::vector<Cluster> clusters_;
+    std::vector<Bounds> object_bounds_;         // object space
+    std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
+
+    Buffer vertices_, world_positions_, triangles_, patches_, patch_triangle_, back_patch_;
+    Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_, indices_;
+    VertexArray vertex_array_[2];
+    Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
+    std::vector<std::string> defines_;
+    ShaderProgram place_vertices_, place_patches_;
+};
+
+}  // namespace raybundle

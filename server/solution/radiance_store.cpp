@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/radiance_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raybundle {
+
+namespace {
+constexpr std::size_t max_shooters = 16;
+constexpr std::size_t statistics_groups = 64;
+constexpr float relevant_change = 0.01F;  // smaller relative changes are taken for noise
+}  // namespace
+
+RadianceStore::RadianceStore(const GpuScene& scene)
+    : scene_(scene),
+      patch_count_(scene.patch_count()),
+      block_count_((scene.patch_count() + POWER_BLOCK - 1) / POWER_BLOCK),
+      radiance_("radiance", std::size_t{patch_count_} * sizeof(glm::vec4)),
+      irradiance_("irradiance", std::size_t{patch_count_} * sizeof(glm::vec4)),
+      source_("irradiance iterate", std::size_t{patch_count_} * sizeof(glm::vec4)),
+      accumulator_("accumulator", std::size_t{patch_count_} * 6 * sizeof(std::uint32_t)),
+      counters_("counters", sizeof(layout::Counters)),
+      power_("power blocks", (std::size_t{block_count_} + 1) * sizeof(glm::vec4)),
+      flux_("flux sums", (std::size_t{block_count_} + 1) * sizeof(layout::FluxSums)),
+      balance_("energy balance", sizeof(layout::Balance)),
+      cdf_("selection cdf", std::size_t{patch_count_} * sizeof(float)),
+      shooters_("shooters", max_shooters * sizeof(layout::Shooter)),
+      checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec2)),
+      statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
+      radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
+      shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
+      update_({"solution_update.comp"}),
+      correct_({"solution_correct.comp"}),
+      power_sum_({"solution_power_sum.comp"}),
+      power_scan_({"solution_power_scan.comp"}),
+      power_density_({"solution_power_density.comp"}),
+      choose_({"solution_shooters.comp"}),
+      flux_sum_({"solution_flux_sum.comp"}),
+      balance_flux_({"solution_balance.comp"}),
+      checkpoint_({"solution_checkpoint.comp"}),
+      statistics_({"solution_statistics.comp"}) {
+    for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &counters_,
+                                 &balance_, &flux_, &checkpoint_buffer_}) {
+        buffer->clear();
+    }
+    // An update with empty sums and no weight: radiance = emission.
+    bind();
+    update(false, 1e-30F, 0.0F, 0.0F);
+    irradiance_.clear();
+    refresh_power();
+}
+
+void RadianceStore::bind() const {
+    scene_.bind();
+    radiance_.bind_storage(BINDING_RADIANCE);
+    glBindTextureUnit(UNIT_RADIANCE, radiance_texture_.get());
+    irradiance_.bind_storage(BINDING_IRRADIANCE);
+    source_.bind_storage(BINDING_SOURCE);
+    accumulator_.bind_storage(BINDING_ACCUMULATOR);
+    counters_.bind_storage(BINDING_COUNTERS);
+    power_.bind_storage(BINDING_POWER);
+    flux_.bind_storage(BINDING_FLUX);
+    balance_.bind_storage(BINDING_BALANCE);
+    cdf_.bind_storage(BINDING_CDF);
+    shooters_.bind_storage(BINDING_SHOOTERS);
+    checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+}
+
+void RadianceStore::update(bool scalar, float weight, float step, float shooter_density) const {
+    update_.set("shooter_density", shooter_density);
+    update_.set("block_count", block_count_);
+    update_.set("patch_count", patch_count_);
+    update_.set("scalar", scalar ? 1 : 0);
+    update_.set("weight", weight);
+    update_.set("step", step);
+    update_.dispatch(patch_count_);
+}
+
+void RadianceStore::correct(float phase_weight) const {
+    correct_.set("patch_count", patch_count_);
+    correct_.set("phase_weight", phase_weight);
+    correct_.dispatch(patch_count_);
+}
+
+void RadianceStore::refresh_power() const {
+    const GlScope scope("selection probabilities");
+    flux_sum_.set("patch_count", patch_count_);
+    flux_sum_.dispatch(patch_count_);
+    balance_flux_.set("block_count", block_count_);
+    balance_flux_.set("balanced", scene_.sky() == glm::vec3(0.0F) ? 1 : 0);
+    balance_flux_.dispatch(1);
+    power_sum_.set("patch_count", patch_count_);
+    power_sum_.dispatch(patch_count_);
+    power_scan_.set("block_count", block_count_);
+    power_scan_.dispatch(1);
+    power_density_.set("patch_count", patch_count_);
+    power_density_.set("block_count", block_count_);
+    power_density_.dispatch(patch_count_);
+}
+
+std::vector<layout::Shooter> RadianceStore::choose_shooters(std::span<const glm::vec4> numbers) {
+    const std::size_t count = std::min(numbers.size(), max_shooters);
+    if (count == 0) {
+        return {};
+    }
+    choose_.set("patch_count", patch_count_);
+    choose_.set("block_count", block_count_);
+    choose_.set("shooter_count", static_cast<unsigned>(count));
+    choose_.set("random_numbers", numbers.first(count));
+    choose_.dispatch(count);
+    shooter_readback_.request(shooters_, count * sizeof(layout::Shooter));
+    const auto chosen = shooter_readback_.take_as<layout::Shooter>();
+    return {chosen.begin(), chosen.end()};
+}
+
+void RadianceStore::checkpoint() const {
+    checkpoint_.set("patch_count", patch_count_);
+    checkpoint_.dispatch(patch_count_);
+}
+
+SolutionStatistics RadianceStore::statistics(float phase_iterations) const {
+    statistics_buffer_.bind_storage(BINDING_STATISTICS);
+    statistics_.set("patch_count", patch_count_);
+    statistics_.set("relevance", relevant_change);
+    statistics_.set("phase_iterations", phase_iterations);
+    statistics_.dispatch(statistics_groups * 256);
+    std::vector<glm::vec4> partial(statistics_groups);
+    statistics_buffer_.read<glm::vec4>(partial);
+    glm::dvec4 sum(0.0);
+    for (const glm::vec4& p : partial) {
+        sum += glm::dvec4(p);
+    }
+    SolutionStatistics result;
+    result.settled = sum.x > 0.0 ? std::clamp(1.0 - std::sqrt(sum.y / sum.x), 0.0, 1.0) : 1.0;
+    return result;
+}
+
+layout::Counters RadianceStore::take_counters() const {
+    layout::Counters counters{};
+    counters_.read(std::span(&counters, 1));
+    clear_counters();
+    return counters;
+}
+
+void RadianceStore::clear_counters() const {
+    counters_.clear();
+}
+
+std::vector<glm::vec4> RadianceStore::read_irradiance() const {
+    std::vector<glm::vec4> values(patch_count_);
+    irradiance_.read<glm::vec4>(values);
+    for (glm::vec4& value : values) {
+        value = glm::vec4(glm::vec3(value) * scene_.radiance_unit(), value.w);
+    }
+    return values;
+}
+
+std::vector<glm::vec3> RadianceStore::read_radiance() const {
+    std::vector<glm::vec4> values(patch_count_);
+    radiance_.read<glm::vec4>(values);
+    std::vector<glm::vec3> result;
+    result.reserve(values.size());
+    for (const glm::vec4& value : values) {
+        result.push_back(glm::vec3(value) * scene_.radiance_unit());
+    }
+    return result;
+}
+
+void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) {
+    radiance_.write<glm::vec4>(std::span(&value, 1), std::size_t{patch} * sizeof(glm::vec4));
+}
+
+std::size_t RadianceStore::bytes() const {
+    std::size_t sum = 0;
+    for (const Buffer* buffer :
+         {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_, &checkpoint_buffer_}) {
+        sum += buffer->bytes();
+    }
+    return sum;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "gpu/gl_objects.h"
+#include "gpu/layouts.h"
+#include "gpu/readback.h"
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+/// How far the solution is from the end of its last correction; see solution_statistics.comp.
+struct SolutionStatistics {
+    double settled = 0.0;  ///< 1 - remaining correction / size of the correction, 0..1
+};
+
+/// The object-space solution (ch. 7.2, Lambert part): mean irradiance per patch, the iterate that
+/// is transferred, and the selection probabilities that follow from them.
+class RadianceStore {
+  public:
+    explicit RadianceStore(const GpuScene& scene);
+
+    void bind() const;
+    /// Takes the running bundle's sums into the mean (with a weight) and into the iterate (with a
+    /// step). scalar: the sums are form factors of one Lambert shooter.
+    /// shooter_density: p_j / A_j of a perspective bundle, else 0.
+    void update(bool scalar, float weight, float step, float shooter_density) const;
+    /// Ends a special iteration phase of K bundles: adds its increments to the solution.
+    /// phase_weight: K times the weight of a sample.
+    void correct(float phase_weight) const;
+    /// New selection probabilities from the present solution.
+    void refresh_power() const;
+    /// Shooting points for the coming perspective bundles; one small readback. numbers: see
+    /// solution_shooters.comp; at most 16.
+    std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
+
+    /// Remembers the state before a change.
+    void checkpoint() const;
+    /// phase_iterations: bundles of a special phase.
+    [[nodiscard]] SolutionStatistics statistics(float phase_iterations) const;
+
+    /// Reads the counters back and clears them (synchronous, four numbers).
+    layout::Counters take_counters() const;
+    void clear_counters() const;
+    [[nodiscard]] const Buffer& counters() const { return counters_; }
+
+    /// Mean irradiance per patch, lx, w = weight; for tests, results and files. Synchronous.
+    [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
+    /// Radiance per patch as it is transferred, cd/m². Synchronous.
+    [[nodiscard]] std::vector<glm::vec3> read_radiance() const;
+    [[nodiscard]] std::size_t bytes() const;
+    /// Overwrites what one patch sends (radiance units, w = p_j/A_j); fault injection of tests.
+    void write_radiance(std::uint32_t patch, const glm::vec4& value);
+
+  private:
+    const GpuScene& scene_;
+    std::uint32_t patch_count_, block_count_;
+    Buffer radiance_, irradiance_, source_, accumulator_, counters_;
+    Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
+    Texture2D radiance_texture_;
+    Readback shooter_readback_;
+    ShaderProgram update_, correct_, power_sum_, power_scan_, power_density_, choose_;
+    ShaderProgram flux_sum_, balance_flux_;
+    ShaderProgram checkpoint_, statistics_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Whether some surface has another one, looking the other way, right behind it: nearer than a
+/// small share of the scene's size, so that rasterised bundles need help to keep the two apart.
+bool has_thin_walls(const Scene& scene, const PatchMesh& mesh);
+
+}  // namespace raybundle

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+/// What gathers from the running bundle besides the patches: the pixels of a viewer. The bundle's
+/// parameters, textures and lists are bound when these are called.
+class BundleReceiver {
+  public:
+    struct Context {
+        Place place = Place::now;
+        float sample_weight = 1.0F;  ///< of the sample in the means
+        bool special = false;        ///< signed increments of a special phase
+        std::uint32_t moved_object = NO_PATCH;
+    };
+
+    BundleReceiver() = default;
+    BundleReceiver(const BundleReceiver&) = delete;
+    BundleReceiver& operator=(const BundleReceiver&) = delete;
+    virtual ~BundleReceiver() = default;
+
+    virtual void receive_hemicube(const Context& context) = 0;
+    virtual void receive_layers(const Context& context) = 0;
+    /// The last sample of this weight was not taken after all: its bundle had no room for all hits.
+    virtual void discard_sample(float sample_weight) = 0;
+    /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().
+    virtual void begin_special(std::uint32_t moved_object) = 0;
+    /// All increments of the special phase have been received.
+    virtual void end_special(float phase_weight) = 0;
+};
+
+}  // namespace raybundle

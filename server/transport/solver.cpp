@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raybundle {
+
+namespace {
+
+constexpr std::size_t group_size = BATCHES;  // iterations planned together: one of every batch
+constexpr float transient_iterations =
+    64.0F;                                  // times 1/(1 - albedo): over which sample weights rise
+constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
+constexpr std::uint64_t statistics_interval = 16;
+
+/// Only parallel bundles see the sky, so a scene that it lights needs more of them.
+StrategyProbabilities choose_probabilities(const SolverSettings& settings, const Scene& scene) {
+    StrategyProbabilities p = settings.probabilities;
+    const bool sky = luminance(scene.sky_radiance) > 0.0F;
+    if (settings.adapt_to_sky && sky && p.layered > 0.0F && p.perspective > 0.0F) {
+        p.layered = std::max(p.layered, scene.lights.empty() ? 0.75F : 0.4F);
+        p.perspective = 1.0F - p.layered - p.plane;
+    }
+    return p;
+}
+
+/// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
+float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
+    std::vector<glm::mat3> world_from_object;
+    for (const Object& object : scene.objects) {
+        world_from_object.emplace_back(object.world_from_object());
+    }
+    double sum = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
+        const glm::mat3& m = world_from_object[mesh.vertex_object[t.x]];
+        const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
+        const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);
+        const auto area = static_cast<double>(glm::length(glm::cross(e1, e2)));
+        const glm::vec3& albedo = mesh.albedo[i];
+        sum += area * static_cast<double>(std::max({albedo.r, albedo.g, albedo.b}));
+        total += area;
+    }
+    return total > 0.0 ? static_cast<float>(sum / total) : 0.0F;
+}
+
+SolverSettings prepared(SolverSettings settings, const Scene& scene) {
+    settings.probabilities = choose_probabilities(settings, scene);
+    return settings;
+}
+
+}  // namespace
+
+Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& settings)
+    : settings_(prepared(settings, scene)),
+      scene_(scene, mesh),
+      store_(scene_),
+      schedule_(settings_.seed, settings_.probabilities),
+      coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
+      transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
+
+const BundleResolution& Solver::resolution() const {
+    return fine_ ? settings_.fine : settings_.coarse;
+}
+
+std::uint64_t Solver::non_finite() const {
+    return coarse_->non_finite() + (fine_ ? fine_->non_finite() : 0);
+}
+
+std::size_t Solver::bytes() const {
+    return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0);
+}
+
+void Solver::plan_group() {
+    if (!fine_ && iterations_ >= settings_.coarse_iterations) {
+        fine_ = std::make_unique<Transfer>(scene_, store_, settings_.fine);
+    }
+    group_.clear();
+    group_next_ = 0;
+    std::vector<glm::vec4> numbers;
+    for (std::size_t i = 0; i < group_size; ++i) {
+        group_.push_back({schedule_.next(), {}});
+        if (group_.back().sample.strategy == Strategy::perspective) {
+            numbers.push_back(group_.back().sample.shooter_numbers);
+        }
+    }
+    store_.bind();
+    store_.refresh_power();
+    const auto shooters = store_.choose_shooters(numbers);
+    auto shooter = shooters.begin();
+    for (Planned& planned : group_) {
+        if (planned.sample.strategy == Strategy::perspective) {
+            planned.shooter = *shooter++;
+        }
+    }
+}
+
+void Solver::step(std::span<BundleReceiver* const> receivers) {
+    if (phase_) {
+        phase_->step(receivers);
+        if (phase_->done()) {
+            phase_.reset();
+            scene_.settle();
+            refresh_statistics();
+            group_.clear();  // shooters may have moved, and what is bright has changed
+        }
+        return;
+    }
+    if (group_next_ >= group_.size()) {
+        plan_group();
+    }
+    run(group_[group_next_], static_cast<unsigned>(group_next_), receivers);
+    ++group_next_;
+    if (group_next_ == group_.size()) {
+        finish_group(receivers);
+    }
+}
+
+/// Weight of a sample in the means: rises at first, so that the dark beginning fades like 1/n^2.
+float Solver::sample_weight() const {
+    const float age = std::min(static_cast<float>(iterations_ + 1), transient_) / transient_;
+    return age * (fine_ ? fine_sample_weight : 1.0F);
+}
+
+/// Step of the transferred iterate, see solution_update.comp.
+float Solver::iterate_step() const {
+    constexpr float exponent = 0.66F;
+    constexpr float smallest = 1.0F / 256.0F;
+    const auto age = static_cast<float>(changes_ == 0 ? iterations_ + 1
+                                                      : std::min(iterations_, since_change_ + 32));
+    return std::max(std::pow(age, -exponent), smallest);
+}
+
+void Solver::run(const Planned& planned, unsigned slot,
+                 std::span<BundleReceiver* const> receivers) {
+    TransferSettings settings;
+    settings.probabilities = settings_.probabilities;
+    settings.density_error = settings_.density_error;
+    settings.context.sample_weight = sample_weight();
+    settings.batch = planned.sample.batch;
+    settings.slot = slot;
+    settings.row_phase = planned.sample.row_phase;
+    if (planned.sample.strategy == Strategy::perspective) {
+        const BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
+                                             static_cast<float>(planned.sample.angle));
+        transfer().perspective(frame, planned.shooter, transfer().hemicube().full(), settings,
+                               receivers);
+        store_.update(true, settings.context.sample_weight, iterate_step(),
+                      planned.shooter.density);
+    } else {
+        transfer().layered(transfer().window_geometry(planned.sample), transfer().window().full(),
+                           settings, receivers);
+        store_.update(false, settings.context.sample_weight, iterate_step(), 0.0F);
+    }
+    after_iteration();
+}
+
+/// Layered iterations whose lists were too small have done nothing: they are done now.
+void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
+    for (std::uint32_t mask = transfer().take_overflow(); mask != 0;
+         mask = transfer().take_overflow()) {
+        for (unsigned slot = 0; slot < group_.size(); ++slot) {
+            if ((mask >> slot & 1U) != 0) {
+                --iterations_;
+                --since_change_;
+                for (BundleReceiver* receiver : receivers) {
+                    receiver->discard_sample(sample_weight());
+                }
+                run(group_[slot], slot, receivers);
+            }
+        }
+    }
+}
+
+void Solver::after_iteration() {
+    ++iterations_;
+    ++since_change_;
+    if (since_change_ % statistics_interval == 0) {
+        refresh_statistics();
+    }
+}
+
+void Solver::refresh_statistics() {
+    statistics_ = store_.statistics(static_cast<float>(SpecialPhase::iterations));
+}
+
+void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_object,
+                         std::span<BundleReceiver* const> receivers) {
+    store_.bind();
+    store_.checkpoint();
+    scene_.move_object(object, world_from_object);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_special(object);
+    }
+    group_.clear();
+    group_next_ = 0;
+    since_change_ = 0;
+    statistics_.settled = 0.0;
+    phase_.emplace(scene_, store_, *coarse_, object, mix_bits(settings_.seed) + ++changes_);
+}
+
+}  // namespace raybundle

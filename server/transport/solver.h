@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "solution/gpu_scene.h"
+#include "solution/radiance_store.h"
+#include "transport/iteration_schedule.h"
+#include "transport/special_phase.h"
+#include "transport/transfer.h"
+
+namespace raybundle {
+
+struct SolverSettings {
+    std::uint64_t seed = 1;
+    StrategyProbabilities probabilities;
+    BundleResolution coarse{256, 400};  ///< first iterations, and special phases
+    BundleResolution fine{512, 800};
+    std::uint64_t coarse_iterations = 96;
+    float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
+    bool adapt_to_sky = true;    ///< more parallel bundles where a sky lights the scene
+};
+
+/// Stochastic iteration of the object-space solution: one bundle at a time to patches and
+/// receivers, and the correction of the solution when an object moves. Deterministic for a seed: no
+/// clock.
+class Solver {
+  public:
+    Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& settings = {});
+
+    /// One iteration, or one slice of a running special phase.
+    void step(std::span<BundleReceiver* const> receivers);
+
+    /// Starts the special iteration phase for an object at a new place; step() carries it through.
+    /// Requires !correcting(). world_from_object is in the scene's own world.
+    void move_object(std::uint32_t object, const glm::mat4& world_from_object,
+                     std::span<BundleReceiver* const> receivers);
+    [[nodiscard]] bool correcting() const { return phase_.has_value(); }
+
+    [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
+    [[nodiscard]] const GpuScene& scene() const { return scene_; }
+    [[nodiscard]] RadianceStore& store() { return store_; }
+    [[nodiscard]] const RadianceStore& store() const { return store_; }
+    [[nodiscard]] const BundleResolution& resolution() const;
+    /// State of the correction since loading or the last change; refreshed every few iterations.
+    [[nodiscard]] const SolutionStatistics& statistics() const { return statistics_; }
+    [[nodiscard]] std::uint64_t non_finite() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Planned {
+        IterationSample sample;
+        layout::Shooter shooter{};
+    };
+
+    void plan_group();
+    void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
+    void finish_group(std::span<BundleReceiver* const> receivers);
+    void after_iteration();
+    void refresh_statistics();
+    [[nodiscard]] Transfer& transfer() { return fine_ ? *fine_ : *coarse_; }
+    [[nodiscard]] float sample_weight() const;
+    [[nodiscard]] float iterate_step() const;
+
+    SolverSettings settings_;
+    GpuScene scene_;
+    RadianceStore store_;
+    IterationSchedule schedule_;
+    std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on
+    float transient_;                          // iterations over which sample weights rise
+    std::optional<SpecialPhase> phase_;
+    std::vector<Planned> group_;
+    std::size_t group_next_ = 0;
+    std::uint64_t iterations_ = 0;
+    std::uint64_t since_change_ = 0;
+    std::uint64_t changes_ = 0;
+    SolutionStatistics statistics_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/transfer.h"
+
+#include <glm/gtc/constants.hpp>
+
+namespace raybundle {
+
+namespace {
+
+constexpr unsigned run_length = 8;  // pixels that one thread sums, transport_hemicube_patches.comp
+/// Patches are summed over every row_stride-th pixel row: unbiased, since the phase is drawn at
+/// random, and the noise that it adds is far below that of the choice of the bundle.
+constexpr unsigned row_stride = 2;
+constexpr float near_share = 1e-6F;  // of the scene's diameter: nearer surfaces are not seen
+constexpr float tie_share = 4e-6F;   // of the scene's diameter: closer surfaces coincide
+
+glm::ivec4 to_vector(const PixelRectangle& r) {
+    return {r.x0, r.y0, r.x1, r.y1};
+}
+
+}  // namespace
+
+Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
+                   const BundleResolution& resolution)
+    : scene_(scene),
+      store_(store),
+      hemicube_(resolution.hemicube),
+      window_(scene, resolution.window),
+      parameters_("bundle parameters", sizeof(layout::BundleParameters)),
+      hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
+      hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
+                                 with(scene.defines(), "COLOURED 1")),
+      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {}
+
+LayeredWindow::Geometry Transfer::window_geometry(const IterationSample& sample) const {
+    return window_.geometry(sample.direction, static_cast<float>(sample.angle), sample.shift,
+                            scene_.bounds().centre(), scene_.diameter());
+}
+
+layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
+                                                     const TransferSettings& settings) const {
+    constexpr float two_pi = glm::two_pi<float>();
+    layout::BundleParameters p{};
+    p.origin = glm::vec4(frame.origin, near_share * scene_.diameter());
+    p.axis_x = glm::vec4(frame.x, 0.0F);
+    p.axis_y = glm::vec4(frame.y, 0.0F);
+    p.axis_z = glm::vec4(frame.z, 0.0F);
+    p.densities = {settings.probabilities.layered / two_pi,
+                   settings.probabilities.plane / (two_pi * scene_.diameter()),
+                   settings.probabilities.perspective, 0.0F};
+    p.densities *= settings.density_error;
+    p.sky = glm::vec4(scene_.sky(), tie_share * scene_.diameter());
+    p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
+                 static_cast<float>(settings.batch)};
+    p.resolution.w = static_cast<unsigned>(settings.context.place);
+    return p;
+}
+
+void Transfer::upload(const layout::BundleParameters& parameters) {
+    parameters_.write(std::span(&parameters, 1), 0);
+    parameters_.bind_uniform(BINDING_BUNDLE);
+}
+
+void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shooter,
+                           const Hemicube::FaceRectangles& rectangles,
+                           const TransferSettings& settings,
+                           std::span<BundleReceiver* const> receivers) {
+    const Place place = settings.context.place;
+    store_.bind();
+    layout::BundleParameters p = common_parameters(frame, settings);
+    p.densities.w = shooter.density;
+    p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());
+    p.resolution.z = shooter.patch_id;
+    for (std::size_t face = 0; face < rectangles.size(); ++face) {
+        p.scissor[face] = to_vector(rectangles[face]);
+    }
+    upload(p);
+    hemicube_.draw(scene_, frame, p.origin.w, place, rectangles);
+    hemicube_.bind_textures();
+
+    const ShaderProgram& patches =
+        settings.coloured ? hemicube_patches_coloured_ : hemicube_patches_;
+    patches.set("patch_base", scene_.patch_base(place));
+    patches.set("vertex_base", scene_.vertex_base(place));
+    const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
+        const auto columns = static_cast<unsigned>(r.width() + run_length - 1) / run_length;
+        patches.set("first_column", static_cast<unsigned>(r.x0));
+        patches.set("last_column", static_cast<unsigned>(r.x1));
+        patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
+        patches.set("run_columns", columns);
+        patches.set("rows", static_cast<unsigned>(r.height()));
+        const auto sampled = (static_cast<unsigned>(r.height()) + row_stride - 1) / row_stride;
+        patches.set("row_stride", row_stride);
+        patches.set("row_phase", settings.row_phase % row_stride);
+        patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
+    };
+    if (!settings.context.special) {  // all faces are one stacked picture
+        transfer_rows({0, 0, hemicube_.size(), 3 * hemicube_.size()}, 0);
+    } else {
+        for (int face = 0; face < Hemicube::face_count; ++face) {
+            const PixelRectangle& r = rectangles[static_cast<std::size_t>(face)];
+            if (!r.empty()) {
+                transfer_rows(r, hemicube_.first_row(face));
+            }
+        }
+    }
+    for (BundleReceiver* receiver : receivers) {
+        receiver->receive_hemicube(settings.context);
+    }
+}
+
+void Transfer::layered(const LayeredWindow::Geometry& geometry, const PixelRectangle& rectangle,
+                       const TransferSettings& settings,
+                       std::span<BundleReceiver* const> receivers) {
+    if (rectangle.empty()) {
+        return;
+    }
+    const Place place = settings.context.place;
+    store_.bind();
+    layout::BundleParameters p = common_parameters(geometry.frame, settings);
+    p.weights.z = geometry.pixel_size;
+    p.resolution.x = p.resolution.y = static_cast<unsigned>(window_.size());
+    p.scissor[0] = to_vector(rectangle);
+    upload(p);
+    window_.draw(scene_, geometry, place, rectangle, store_.counters(), settings.slot);
+
+    layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
+    layers_patches_.set("first_row", static_cast<unsigned>(rectangle.y0));
+    layers_patches_.set("columns", static_cast<unsigned>(rectangle.width()));
+    layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
+    layers_patches_.set("patch_base", scene_.patch_base(place));
+    layers_patches_.set("vertex_base", scene_.vertex_base(place));
+    layers_patches_.set("row_stride", row_stride);
+    layers_patches_.set("row_phase", settings.row_phase % row_stride);
+    const auto sampled = (static_cast<unsigned>(rectangle.height()) + row_stride - 1) / row_stride;
+    layers_patches_.dispatch(static_cast<std::size_t>(rectangle.width()) * sampled);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->receive_layers(settings.context);
+    }
+}
+
+std::uint32_t Transfer::take_overflow() {
+    const layout::Counters counters = store_.take_counters();
+    non_finite_ += counters.non_finite;
+    if (counters.overflow_mask != 0) {
+        window_.grow(counters.wanted + counters.wanted / 4);
+    }
+    return counters.overflow_mask;
+}
+
+}  // namespace raybundle

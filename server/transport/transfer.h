@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "bundle/hemicube.h"
+#include "bundle/layered_window.h"
+#include "solution/radiance_store.h"
+#include "transport/bundle_receiver.h"
+#include "transport/iteration_schedule.h"
+
+namespace raybundle {
+
+/// Pixels along the hemicube's top face and along the parallel window.
+struct BundleResolution {
+    int hemicube = 512;
+    int window = 800;
+};
+
+/// One transfer of a bundle: its sign and weight, what receives it, at which place of the objects.
+struct TransferSettings {
+    StrategyProbabilities probabilities;
+    float density_error = 1.0F;  ///< fault injection of tests
+    float weight = 1.0F;         ///< factor of patch contributions; negative in a special phase
+    unsigned batch = 0;
+    unsigned row_phase = 0;  ///< which of the sampled rows, see row_stride in transfer.cpp
+    unsigned slot = 0;       ///< of a layered iteration in its group, for take_overflow()
+    bool coloured = false;   ///< patch sums carry the shooter's radiance (special phase)
+    BundleReceiver::Context context;
+};
+
+/// Builds random bundles and transfers radiance through them to patches and other receivers
+/// (steps 2 and 3 of an iteration).
+class Transfer {
+  public:
+    Transfer(const GpuScene& scene, const RadianceStore& store, const BundleResolution& resolution);
+
+    /// Perspective bundle from a shooting point (ch. 5). frame.z is the shooter's normal.
+    void perspective(const BundleFrame& frame, const layout::Shooter& shooter,
+                     const Hemicube::FaceRectangles& rectangles, const TransferSettings& settings,
+                     std::span<BundleReceiver* const> receivers);
+    /// Layered parallel bundle (ch. 4.3). Does nothing where the lists overflow; see
+    /// take_overflow().
+    void layered(const LayeredWindow::Geometry& geometry, const PixelRectangle& rectangle,
+                 const TransferSettings& settings, std::span<BundleReceiver* const> receivers);
+
+    /// Reads and clears the counters. Bit s is set where the layered transfer in slot s found too
+    /// little room: nothing of it was transferred; the lists are larger now, do it again.
+    std::uint32_t take_overflow();
+
+    [[nodiscard]] LayeredWindow::Geometry window_geometry(const IterationSample& sample) const;
+    [[nodiscard]] const Hemicube& hemicube() const { return hemicube_; }
+    [[nodiscard]] const LayeredWindow& window() const { return window_; }
+    [[nodiscard]] std::uint64_t non_finite() const { return non_finite_; }
+    [[nodiscard]] std::size_t bytes() const { return hemicube_.bytes() + window_.bytes(); }
+
+  private:
+    layout::BundleParameters common_parameters(const BundleFrame& frame,
+                                               const TransferSettings& settings) const;
+    void upload(const layout::BundleParameters& parameters);
+
+    const GpuScene& scene_;
+    const RadianceStore& store_;
+    Hemicube hemicube_;
+    LayeredWindow window_;
+    Buffer parameters_;
+    ShaderProgram hemicube_patches_, hemicube_patches_coloured_, layers_patches_;
+    std::uint64_t non_finite_ = 0;
+};
+
+}  // namespace raybundle
