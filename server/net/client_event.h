@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raybundle.pb.h"
+#include "stream/viewer_id.h"
+
+namespace raybundle {
+
+/// What the render thread hears of a viewer. `joined` carries a valid Hello and comes first; answer
+/// it with Welcome. Messages have been validated as far as that needs no scene. `left` comes last.
+struct ClientEvent {
+    enum class Kind { joined, message, left };
+
+    ViewerId viewer = 0;
+    Kind kind = Kind::message;
+    v1::ClientMessage message;
+    /// Ids of requests that `message` has replaced while it waited (see Inbox); they get its
+    /// answer.
+    std::vector<std::uint32_t> superseded;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/http_response.h"
+
+#include <algorithm>
+#include <array>
+
+namespace raybundle {
+namespace {
+
+using NameValue = std::pair<const char*, std::string_view>;
+
+constexpr std::array<NameValue, 6> kHeaders{{
+    {"cache-control:", "no-cache"},
+    {"content-security-policy:",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+     "font-src 'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; "
+     "base-uri 'none'; form-action 'none'; frame-ancestors 'self'"},
+    {"x-content-type-options:", "nosniff"},
+    {"referrer-policy:", "no-referrer"},
+    {"cross-origin-opener-policy:", "same-origin"},
+    {"permissions-policy:", "camera=(), microphone=(), geolocation=()"},
+}};
+
+std::string_view content_type(std::string_view name) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTypes{{
+        {".html", "text/html; charset=utf-8"},
+        {".js", "text/javascript; charset=utf-8"},
+        {".css", "text/css; charset=utf-8"},
+        {".json", "application/json"},
+        {".svg", "image/svg+xml"},
+        {".png", "image/png"},
+        {".ico", "image/x-icon"},
+        {".woff2", "font/woff2"},
+    }};
+    for (const auto& [suffix, type] : kTypes) {
+        if (name.ends_with(suffix)) {
+            return type;
+        }
+    }
+    return "application/octet-stream";
+}
+
+HttpResponse plain(int status, std::string text) {
+    HttpResponse response;
+    response.status = status;
+    response.body = std::move(text);
+    return response;
+}
+
+HttpResponse file_response(std::string_view path, const HttpContent& content) {
+    const std::string_view name = path == "/" ? "index.html" : path.substr(1);
+    const auto file = std::find_if(content.files.begin(), content.files.end(),
+                                   [&](const EmbeddedFile& entry) { return entry.name == name; });
+    if (file == content.files.end()) {
+        return plain(404, "Not found\n");
+    }
+    HttpResponse response;
+    response.content_type = content_type(name);
+    response.body = file->contents;
+    return response;
+}
+
+HttpResponse get(std::string_view path, const HttpContent& content) {
+    if (!path.starts_with('/')) {
+        return plain(400, "Bad request\n");
+    }
+    if (path == "/healthz") {
+        return content.ready ? plain(200, "ok\n") : plain(503, "starting\n");
+    }
+    if (path == "/metrics") {
+        HttpResponse response = plain(200, content.metrics);
+        response.content_type = "text/plain; version=0.0.4; charset=utf-8";
+        return response;
+    }
+    if (path == "/ws") {
+        return plain(426, "This is a WebSocket address\n");
+    }
+    return file_response(path, content);
+}
+
+}  // namespace
+
+HttpResponse http_response(HttpMethod method, std::string_view path, const HttpContent& content) {
+    if (method == HttpMethod::other) {
+        return plain(405, "Only GET and HEAD\n");
+    }
+    HttpResponse response = get(path, content);
+    response.send_body = method == HttpMethod::get;
+    return response;
+}
+
+std::span<const std::pair<const char*, std::string_view>> http_headers() {
+    return kHeaders;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "embedded_file.h"
+
+namespace raybundle {
+
+enum class HttpMethod { get, head, other };
+
+/// Answer to one HTTP request; headers common to all answers are http_headers().
+struct HttpResponse {
+    int status = 200;
+    std::string_view content_type = "text/plain; charset=utf-8";
+    std::string body;
+    bool send_body = true;  ///< false for HEAD: the length is stated, the body is not sent
+};
+
+/// What answers depend on.
+struct HttpContent {
+    std::span<const EmbeddedFile> files;  ///< served by exact name, "/" as index.html
+    bool ready = false;                   ///< of /healthz
+    std::string metrics;                  ///< of /metrics
+};
+
+/// Decides about a request. `path` is the decoded path without query. Only names in the table are
+/// ever served, so no path can lead out of it.
+HttpResponse http_response(HttpMethod method, std::string_view path, const HttpContent& content);
+
+/// Name and value of the headers of every answer: no caching, strict content security policy.
+/// Names end with a colon, as libwebsockets wants them.
+std::span<const std::pair<const char*, std::string_view>> http_headers();
+
+}  // namespace raybundle

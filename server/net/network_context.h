@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <libwebsockets.h>
+
+#include <cstdint>
+
+#include "net/server_settings.h"
+
+namespace raybundle {
+
+/// A libwebsockets context that listens; `port` is the one it has got.
+struct NetworkContext {
+    lws_context* context = nullptr;
+    std::uint16_t port = 0;
+};
+
+/// Name of the WebSocket subprotocol. A client may also name none.
+inline constexpr const char* kSubprotocol = "raybundle.v1";
+
+/// Creates a context with one protocol that handles HTTP and WebSocket in `callback`; `user` comes
+/// back from lws_context_user(). Throws std::runtime_error that names the address.
+NetworkContext create_network_context(const ServerSettings& settings,
+                                      lws_callback_function* callback, void* user);
+
+}  // namespace raybundle

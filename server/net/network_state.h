@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "net/inbox.h"
+#include "net/server_settings.h"
+#include "net/viewer_table.h"
+
+namespace raybundle {
+
+/// Counters of the network layer since it started, for /metrics.
+struct NetworkCounters {
+    std::atomic<std::uint64_t> frames_queued{0};
+    std::atomic<std::uint64_t> frames_replaced{0};  ///< dropped for a newer one
+    std::atomic<std::uint64_t> bytes_sent{0};       ///< WebSocket payload
+    std::atomic<std::uint64_t> connections_refused{0};
+};
+
+/// What the network thread and the callers of Server share. Everything in it is thread-safe.
+struct NetworkState {
+    explicit NetworkState(ServerSettings server_settings) : settings(std::move(server_settings)) {}
+
+    const ServerSettings settings;
+    Inbox inbox;
+    ViewerTable viewers;
+    NetworkCounters counters;
+    std::atomic<bool> ready{false};
+
+    void set_metrics_source(std::function<std::string()> source);
+
+    /// Prometheus text: the network's own figures, then those of the metrics source.
+    [[nodiscard]] std::string metrics() const;
+
+  private:
+    mutable std::mutex metrics_mutex_;
+    std::function<std::string()> metrics_source_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/network_thread.h"
+
+#include <libwebsockets.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <chrono>
+#include <exception>
+#include <string_view>
+
+#include "embedded_file.h"
+#include "net/network_context.h"
+#include "net/upgrade_check.h"
+
+namespace raybundle {
+namespace {
+
+HttpMethod method_of(int method) {
+    switch (method) {
+        case LWSHUMETH_GET:
+            return HttpMethod::get;
+        case LWSHUMETH_HEAD:
+            return HttpMethod::head;
+        default:
+            return HttpMethod::other;
+    }
+}
+
+std::string header(lws* connection, lws_token_indexes token) {
+    std::string text(static_cast<std::size_t>(lws_hdr_total_length(connection, token)) + 1, '\0');
+    const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), token);
+    text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    return text;
+}
+
+/// Entry from C: no exception may pass.
+int lws_event(lws* connection, lws_callback_reasons reason, void* /*user*/, void* in,
+              std::size_t size) {
+    auto* const network =
+        static_cast<NetworkThread*>(lws_context_user(lws_get_context(connection)));
+    if (network == nullptr) {
+        return 0;  // while the context is being made or destroyed
+    }
+    try {
+        return network->on_event(connection, reason, in, size);
+    } catch (const std::exception& error) {
+        spdlog::error("a connection was closed after an internal error: {}", error.what());
+        return -1;
+    }
+}
+
+}  // namespace
+
+void NetworkThread::start() {
+    const NetworkContext created = create_network_context(state_.settings, &lws_event, this);
+    {
+        const std::lock_guard lock(context_mutex_);
+        context_ = created.context;
+    }
+    port_ = created.port;
+    thread_ = std::thread([this] { run(); });
+}
+
+void NetworkThread::stop() {
+    stopping_ = true;
+    wake();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+void NetworkThread::wake() {
+    const std::lock_guard lock(context_mutex_);
+    if (context_ != nullptr) {
+        lws_cancel_service(context_);
+    }
+}
+
+/// Serves until stopped, then lets the goodbyes go out for at most a moment.
+void NetworkThread::run() {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto kGoodbye = std::chrono::milliseconds(300);
+    constexpr auto kGoodbyeStep = std::chrono::milliseconds(2);
+    Clock::time_point end = Clock::time_point::max();
+    while (Clock::now() < end && !(said_goodbye_ && viewers_.empty())) {
+        if (said_goodbye_) {
+            std::this_thread::sleep_for(kGoodbyeStep);
+        }
+        if (lws_service(context_, said_goodbye_ ? -1 : 0) < 0) {
+            spdlog::error("the network service has failed");
+            break;
+        }
+        if (stopping_ && !said_goodbye_) {
+            said_goodbye_ = true;
+            end = Clock::now() + kGoodbye;
+            for (const auto& [connection, viewer] : viewers_) {
+                viewer->close(CloseCode::going_away, "the server is stopping");
+            }
+        }
+    }
+    const std::lock_guard lock(context_mutex_);
+    lws_context_destroy(context_);
+    context_ = nullptr;
+}
+
+void NetworkThread::poll_all() {
+    for (const auto& [connection, viewer] : viewers_) {
+        viewer->poll_output();
+    }
+}
+
+int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t size) {
+    switch (reason) {
+        case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+            poll_all();
+            return 0;
+        case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
+            if (connections_.size() >= state_.settings.max_connections) {
+                ++state_.counters.connections_refused;
+                return 1;
+            }
+            return 0;
+        case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+            connections_.insert(connection);
+            return 0;
+        case LWS_CALLBACK_WSI_DESTROY:
+            connections_.erase(connection);
+            transfers_.erase(connection);
+            viewers_.erase(connection);
+            return 0;
+        case LWS_CALLBACK_HTTP:
+            return on_http_request(connection);
+        case LWS_CALLBACK_HTTP_WRITEABLE:
+            return on_http_writable(connection);
+        case LWS_CALLBACK_CLOSED_HTTP:
+            transfers_.erase(connection);
+            return 0;
+        case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+            return confirm_upgrade(connection) ? 0 : 1;
+        case LWS_CALLBACK_ESTABLISHED:
+            accept_viewer(connection);
+            return 0;
+        case LWS_CALLBACK_CLOSED:
+            viewers_.erase(connection);
+            return 0;
+        default:
+            break;
+    }
+    const auto viewer = viewers_.find(connection);
+    return viewer == viewers_.end() ? 0 : on_viewer_event(*viewer->second, reason, in, size);
+}
+
+int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* in,
+                                   std::size_t size) {
+    switch (reason) {
+        case LWS_CALLBACK_RECEIVE:
+            viewer.on_receive({static_cast<const char*>(in), size});
+            return 0;
+        case LWS_CALLBACK_RECEIVE_PONG:
+            viewer.on_pong({static_cast<const char*>(in), size});
+            return 0;
+        case LWS_CALLBACK_SERVER_WRITEABLE:
+            return viewer.on_writable() ? 0 : -1;
+        case LWS_CALLBACK_TIMER:
+            return viewer.on_timer() ? 0 : -1;
+        default:
+            return 0;
+    }
+}
+
+/// Refuses with an HTTP answer where the handshake is not for us.
+bool NetworkThread::confirm_upgrade(lws* connection) {
+    const UpgradeRequest request{header(connection, WSI_TOKEN_GET_URI),
+                                 header(connection, WSI_TOKEN_ORIGIN),
+                                 header(connection, WSI_TOKEN_HOST)};
+    const int status = refusal_status(request, state_.settings.allowed_origins);
+    if (status == 0) {
+        return true;
+    }
+    ++state_.counters.connections_refused;
+    spdlog::warn("refused a WebSocket connection to {} from origin {}", request.path,
+                 request.origin);
+    lws_return_http_status(connection, static_cast<unsigned>(status), nullptr);
+    return false;
+}
+
+void NetworkThread::accept_viewer(lws* connection) {
+    const std::size_t limit = state_.settings.max_viewers;
+    const bool full = viewers_.size() >= limit;
+    auto& viewer = viewers_[connection];
+    viewer = std::make_unique<ViewerConnection>(connection, state_);
+    if (full) {
+        ++state_.counters.connections_refused;
+        viewer->refuse(v1::Error::RESOURCE_EXHAUSTED,
+                       "the server is full, it takes " + std::to_string(limit) + " viewers");
+    }
+}
+
+int NetworkThread::on_http_request(lws* connection) {
+    char* uri = nullptr;
+    int length = 0;
+    const HttpMethod method = method_of(lws_http_get_uri_and_method(connection, &uri, &length));
+    const std::string_view path(uri, length > 0 ? static_cast<std::size_t>(length) : 0);
+    HttpContent content{client_files(), state_.ready, {}};
+    if (path == "/metrics") {
+        content.metrics = state_.metrics();
+    }
+    auto& transfer = transfers_[connection];
+    transfer = std::make_unique<HttpTransfer>(http_response(method, path, content));
+    if (!transfer->begin(connection)) {
+        return -1;
+    }
+    return transfer->done() ? end_transfer(connection) : 0;
+}
+
+int NetworkThread::on_http_writable(lws* connection) {
+    const auto transfer = transfers_.find(connection);
+    if (transfer == transfers_.end()) {
+        return 0;
+    }
+    if (!transfer->second->write(connection)) {
+        return -1;
+    }
+    return transfer->second->done() ? end_transfer(connection) : 0;
+}
+
+/// The connection stays open for the next request where the client wants that.
+int NetworkThread::end_transfer(lws* connection) {
+    transfers_.erase(connection);
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+}
+
+}  // namespace raybundle

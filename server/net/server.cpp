@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/server.h"
+
+#include <utility>
+
+#include "net/clock.h"
+#include "net/listen_address.h"
+#include "net/network_state.h"
+#include "net/network_thread.h"
+
+namespace raybundle {
+
+class Server::Impl {
+  public:
+    explicit Impl(ServerSettings settings) : state(std::move(settings)), network(state) {}
+
+    NetworkState state;
+    NetworkThread network;
+};
+
+Server::Server(ServerSettings settings) : impl_(std::make_unique<Impl>(std::move(settings))) {}
+
+Server::~Server() = default;
+
+void Server::start() {
+    impl_->network.start();
+}
+
+void Server::stop() {
+    impl_->network.stop();
+}
+
+std::uint16_t Server::port() const {
+    return impl_->network.port();
+}
+
+std::string Server::address() const {
+    const auto& settings = impl_->state.settings;
+    const std::string scheme = settings.tls_certificate.empty() ? "http://" : "https://";
+    return scheme + host_and_port(settings.host, port());
+}
+
+Inbox& Server::inbox() {
+    return impl_->state.inbox;
+}
+
+void Server::send(ViewerId viewer, const v1::ServerMessage& message) {
+    if (const auto link = impl_->state.viewers.find(viewer)) {
+        link->send(message);
+        impl_->network.wake();
+    }
+}
+
+void Server::broadcast(const v1::ServerMessage& message, ViewerId except) {
+    const std::string json = to_json(message);
+    for (const auto& link : impl_->state.viewers.all()) {
+        if (link->viewer() != except) {
+            link->send_if_welcomed(json);
+        }
+    }
+    impl_->network.wake();
+}
+
+void Server::reply(const ClientEvent& request, v1::ServerMessage answer) {
+    for (const std::uint32_t id : request.superseded) {
+        answer.set_reply_to(id);
+        send(request.viewer, answer);
+    }
+    if (request.message.has_id()) {
+        answer.set_reply_to(request.message.id());
+        send(request.viewer, answer);
+    }
+}
+
+void Server::reply_error(const ClientEvent& request, v1::Error::Code code,
+                         const std::string& text) {
+    v1::ServerMessage answer = to_message({code, text, std::nullopt});
+    if (!request.message.has_id()) {
+        send(request.viewer, answer);
+    }
+    reply(request, std::move(answer));
+}
+
+void Server::disconnect(ViewerId viewer, v1::Error::Code code, const std::string& text) {
+    if (const auto link = impl_->state.viewers.find(viewer)) {
+        link->send(to_message({code, text, std::nullopt}));
+        link->close(CloseCode::policy_violation, text);
+        impl_->network.wake();
+    }
+}
+
+FrameAdvice Server::advise(ViewerId viewer, const FrameDemand& demand) {
+    const auto link = impl_->state.viewers.find(viewer);
+    return link ? link->advise(demand, server_time_ms()) : FrameAdvice{};
+}
+
+void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,
+                        const std::vector<std::uint8_t>& image) {
+    const auto link = impl_->state.viewers.find(viewer);
+    if (!link) {
+        return;
+    }
+    ++impl_->state.counters.frames_queued;
+    if (link->send_frame(header, image)) {
+        ++impl_->state.counters.frames_replaced;
+    }
+    impl_->network.wake();
+}
+
+void Server::set_ready(bool ready) {
+    impl_->state.ready = ready;
+}
+
+void Server::set_metrics_source(std::function<std::string()> source) {
+    impl_->state.set_metrics_source(std::move(source));
+}
+
+double Server::now_ms() {
+    return server_time_ms();
+}
+
+}  // namespace raybundle

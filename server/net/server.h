@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "net/client_event.h"
+#include "net/inbox.h"
+#include "net/server_settings.h"
+
+namespace raybundle {
+
+/// Serves the client page, /healthz, /metrics and WebSocket viewers on a thread of its own.
+/// All methods may be called from any thread; none waits for the network.
+class Server {
+  public:
+    explicit Server(ServerSettings settings);
+    ~Server();  ///< as stop()
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Starts listening. Throws std::runtime_error that names the address where that fails.
+    void start();
+
+    /// Closes all connections (close code 1001) and ends the thread, within one second.
+    void stop();
+
+    [[nodiscard]] std::uint16_t port() const;   ///< that it listens on
+    [[nodiscard]] std::string address() const;  ///< e.g. "http://127.0.0.1:8080"
+
+    /// Events for the render thread.
+    Inbox& inbox();
+
+    /// Sends to one viewer; does nothing if it has left. A viewer that lets too many messages pile
+    /// up is disconnected.
+    void send(ViewerId viewer, const v1::ServerMessage& message);
+
+    /// Sends to every viewer that has been welcomed, except one (0: none).
+    void broadcast(const v1::ServerMessage& message, ViewerId except = 0);
+
+    /// Answers a request: once for each of its ids, not at all if it has none.
+    void reply(const ClientEvent& request, v1::ServerMessage answer);
+
+    /// Answers a request with an error, also if it has no id.
+    void reply_error(const ClientEvent& request, v1::Error::Code code, const std::string& text);
+
+    /// Sends an error, then closes the connection.
+    void disconnect(ViewerId viewer, v1::Error::Code code, const std::string& text);
+
+    /// Whether and how to send this viewer's next frame. Never `send` while a frame waits here.
+    FrameAdvice advise(ViewerId viewer, const FrameDemand& demand);
+
+    /// Sends a frame. One frame waits at most: a newer one replaces it.
+    void send_frame(ViewerId viewer, const v1::FrameHeader& header,
+                    const std::vector<std::uint8_t>& image);
+
+    void set_ready(bool ready);  ///< what /healthz says: 200 or 503
+
+    /// Called on the network thread for each GET /metrics; returns more Prometheus text.
+    void set_metrics_source(std::function<std::string()> source);
+
+    /// Clock of Pong and FrameHeader: milliseconds since the program started.
+    static double now_ms();
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "net/wire_codec.h"
+#include "stream/congestion_window.h"
+
+namespace raybundle {
+
+struct ServerSettings {
+    std::string host = "127.0.0.1";  ///< name or numeric address to listen on
+    std::uint16_t port = 8080;       ///< 0: any free port, see Server::port()
+    std::string tls_certificate;     ///< PEM file; empty: no TLS
+    std::string tls_key;             ///< PEM file
+    std::size_t max_viewers = 64;
+    std::size_t max_connections = 256;         ///< viewers and HTTP together
+    double hello_timeout_s = 5.0;              ///< to say hello
+    std::size_t max_queued_bytes = 4U << 20U;  ///< messages waiting for one viewer, frames excepted
+    double max_messages_per_second = 1000.0;   ///< of one viewer, on average
+    std::vector<std::string>
+        allowed_origins;  ///< besides the server's own, e.g. "https://a.example"
+    WireLimits limits;
+    CongestionSettings congestion;
+};
+
+}  // namespace raybundle

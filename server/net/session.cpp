@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/session.h"
+
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "net/clock.h"
+
+namespace raybundle {
+namespace {
+
+/// Major number of "major.minor"; nothing where the text is not that.
+std::optional<int> major_version(std::string_view text) {
+    int major = 0;
+    int minor = 0;
+    const char* const end = text.data() + text.size();
+    const auto [dot, major_error] = std::from_chars(text.data(), end, major);
+    if (major_error != std::errc() || dot == end || *dot != '.') {
+        return std::nullopt;
+    }
+    const auto [rest, minor_error] = std::from_chars(dot + 1, end, minor);
+    if (minor_error != std::errc() || rest != end || major < 0 || minor < 0) {
+        return std::nullopt;
+    }
+    return major;
+}
+
+}  // namespace
+
+void Session::on_fragment(std::string_view bytes, bool first, bool last, bool binary,
+                          double now_ms) {
+    if (link_.closing()) {
+        return;
+    }
+    if (first) {
+        buffer_.clear();
+        binary_ = binary;
+    }
+    if (buffer_.size() + bytes.size() > limits_.max_message_bytes) {
+        buffer_.clear();
+        const std::string limit = std::to_string(limits_.max_message_bytes);
+        refuse_and_close({v1::Error::RESOURCE_EXHAUSTED,
+                          "the message is larger than " + limit + " bytes", std::nullopt},
+                         CloseCode::too_large);
+        return;
+    }
+    buffer_.append(bytes);
+    if (!last) {
+        return;
+    }
+    if (!messages_.take(now_ms)) {
+        if (complaints_.take(now_ms)) {
+            refuse({v1::Error::RESOURCE_EXHAUSTED, "too many messages a second", std::nullopt});
+        }
+        return;
+    }
+    ParsedMessage parsed =
+        binary_ ? parse_binary_message(buffer_, limits_) : parse_text_message(buffer_, limits_);
+    buffer_.clear();
+    if (const auto* refusal = std::get_if<Refusal>(&parsed)) {
+        refuse(*refusal);
+        return;
+    }
+    on_message(std::get<v1::ClientMessage>(std::move(parsed)), now_ms);
+}
+
+void Session::on_message(v1::ClientMessage message, double now_ms) {
+    const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
+    if (message.has_hello()) {
+        on_hello(std::move(message));
+    } else if (!joined_) {
+        refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
+    } else if (message.has_ack()) {
+        link_.on_ack(message.ack(), now_ms);
+    } else if (message.has_ping()) {
+        v1::ServerMessage answer;
+        if (id) {
+            answer.set_reply_to(*id);
+        }
+        answer.mutable_pong()->set_server_time_ms(server_time_ms());
+        link_.send(answer);
+    } else if (!inbox_.push(link_.viewer(), std::move(message))) {
+        refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
+    }
+}
+
+void Session::on_hello(v1::ClientMessage message) {
+    const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
+    if (joined_) {
+        refuse({v1::Error::INVALID_ARGUMENT, "hello: has been said already", id});
+        return;
+    }
+    const std::string& version = message.hello().protocol();
+    const auto major = major_version(version);
+    if (!major) {
+        refuse({v1::Error::INVALID_ARGUMENT, "hello.protocol: must be major.minor, as in 1.0", id});
+        return;
+    }
+    if (major != major_version(kProtocolVersion)) {
+        refuse_and_close({v1::Error::UNIMPLEMENTED,
+                          "hello.protocol: client speaks " + version + ", server speaks " +
+                              std::string(kProtocolVersion),
+                          id},
+                         CloseCode::protocol_error);
+        return;
+    }
+    joined_ = true;
+    inbox_.joined(link_.viewer(), std::move(message));
+}
+
+void Session::on_hello_timeout() {
+    if (!joined_) {
+        refuse_and_close({v1::Error::UNAUTHENTICATED, "hello did not come in time", std::nullopt},
+                         CloseCode::policy_violation);
+    }
+}
+
+void Session::on_closed() {
+    if (joined_) {
+        inbox_.left(link_.viewer());
+    }
+}
+
+void Session::refuse(const Refusal& refusal) {
+    link_.send(to_message(refusal));
+}
+
+void Session::refuse_and_close(const Refusal& refusal, CloseCode code) {
+    refuse(refusal);
+    link_.close(code, refusal.text);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "net/inbox.h"
+#include "net/token_bucket.h"
+#include "net/viewer_link.h"
+#include "net/wire_codec.h"
+
+namespace raybundle {
+
+/// "major.minor" of the protocol spoken here.
+inline constexpr std::string_view kProtocolVersion = "1.0";
+
+/// The receiving side of one viewer: puts fragments together, insists on a hello in a version
+/// spoken here, answers pings, hands acknowledgements to the pacing and everything else to the
+/// inbox. Runs on the network thread but knows no socket.
+class Session {
+  public:
+    Session(ViewerLink& link, Inbox& inbox, const WireLimits& limits, double messages_per_second)
+        : link_(link),
+          inbox_(inbox),
+          limits_(limits),
+          messages_(messages_per_second, 2.0 * messages_per_second),
+          complaints_(1.0, 1.0) {}
+
+    /// Part of a WebSocket message, as it arrives.
+    void on_fragment(std::string_view bytes, bool first, bool last, bool binary, double now_ms);
+
+    /// Time for hello is over: closes if there was none.
+    void on_hello_timeout();
+
+    /// The connection is gone.
+    void on_closed();
+
+    [[nodiscard]] bool has_joined() const { return joined_; }
+
+  private:
+    void on_message(v1::ClientMessage message, double now_ms);
+    void on_hello(v1::ClientMessage message);
+    void refuse(const Refusal& refusal);
+    void refuse_and_close(const Refusal& refusal, CloseCode code);
+
+    ViewerLink& link_;
+    Inbox& inbox_;
+    const WireLimits limits_;
+    TokenBucket messages_;
+    TokenBucket complaints_;  ///< about too many messages, one a second
+    std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
+    bool binary_ = false;
+    bool joined_ = false;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "net/network_state.h"
+#include "net/session.h"
+
+struct lws;
+
+namespace raybundle {
+
+/// One viewer's WebSocket connection: moves bytes between libwebsockets, the session (in) and the
+/// link (out). Network thread only.
+class ViewerConnection {
+  public:
+    ViewerConnection(lws* connection, NetworkState& state);
+    ~ViewerConnection();
+    ViewerConnection(const ViewerConnection&) = delete;
+    ViewerConnection& operator=(const ViewerConnection&) = delete;
+
+    void on_receive(std::string_view bytes);
+    void on_pong(std::string_view payload);
+
+    /// Writes the next piece of what waits. False: close the connection.
+    bool on_writable();
+
+    /// Time for hello, or for a close to be written, is over. False: close the connection.
+    bool on_timer();
+
+    /// Asks to be told when the connection can take output, if there is any.
+    void poll_output();
+
+    /// Sends an error, then closes with "try again later".
+    void refuse(v1::Error::Code code, const std::string& text);
+
+    /// Closes once what waits is written.
+    void close(CloseCode code, std::string_view reason);
+
+  private:
+    bool write_piece();
+
+    lws* connection_;
+    NetworkState& state_;
+    std::shared_ptr<ViewerLink> link_;
+    Session session_;
+    std::optional<Outgoing> current_;  ///< being written
+    std::size_t written_ = 0;          ///< payload bytes of current_
+    bool close_timer_set_ = false;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raybundle.pb.h"
+#include "stream/congestion_window.h"
+#include "stream/viewer_id.h"
+
+namespace raybundle {
+
+/// Close codes of RFC 6455, 7.4.1, as far as they are used here.
+enum class CloseCode : std::uint16_t {
+    going_away = 1001,
+    protocol_error = 1002,
+    policy_violation = 1008,
+    too_large = 1009,
+    try_again_later = 1013,
+};
+
+struct CloseRequest {
+    CloseCode code = CloseCode::going_away;
+    std::string reason;
+};
+
+/// A WebSocket message on its way out, with kHeadroom free bytes before its payload.
+struct Outgoing {
+    static constexpr std::size_t kHeadroom = 32;  ///< at least LWS_PRE
+
+    enum class Kind { text, frame, ping };
+
+    Kind kind = Kind::text;
+    std::vector<std::uint8_t> bytes;  ///< headroom, then payload
+};
+
+/// What waits for one viewer: a bounded queue of text messages and at most one frame. Filled by any
+/// thread, emptied by the network thread.
+class ViewerLink {
+  public:
+    ViewerLink(ViewerId viewer, std::size_t max_queued_bytes, const CongestionSettings& congestion)
+        : viewer_(viewer), max_queued_bytes_(max_queued_bytes), congestion_(congestion) {}
+
+    [[nodiscard]] ViewerId viewer() const { return viewer_; }
+
+    /// Queues a message as JSON. If too many wait, drops them all and requests a close instead.
+    void send(const v1::ServerMessage& message);
+
+    /// As send() for many viewers, which has made the JSON once; skipped before the welcome.
+    void send_if_welcomed(std::string_view json);
+
+    /// Makes this the frame that waits. True where it has replaced one.
+    bool send_frame(const v1::FrameHeader& header, const std::vector<std::uint8_t>& image);
+
+    FrameAdvice advise(const FrameDemand& demand, double now_ms);
+    void on_ack(const v1::Ack& ack, double now_ms);
+
+    /// A WebSocket pong has come; `payload` tells whether it answers take()'s last ping.
+    void on_pong(std::string_view payload, double now_ms);
+
+    /// Closes once the messages that wait are written; what comes later is dropped. The first
+    /// reason counts.
+    void close(CloseCode code, std::string reason);
+
+    [[nodiscard]] bool closing() const;
+    [[nodiscard]] bool has_output() const;
+
+    /// Takes the next message to write: text, then a ping that measures the round trip where one is
+    /// due, then the frame.
+    std::optional<Outgoing> take(double now_ms);
+
+    /// The close request once nothing is left to be written before it.
+    [[nodiscard]] std::optional<CloseRequest> close_due() const;
+
+  private:
+    struct Frame {
+        std::uint32_t number = 0;
+        int quality = 0;
+        double pixels = 0.0;
+        std::vector<std::uint8_t> bytes;
+    };
+
+    void enqueue(std::string_view json);
+
+    const ViewerId viewer_;
+    const std::size_t max_queued_bytes_;
+    mutable std::mutex mutex_;
+    std::deque<std::vector<std::uint8_t>> messages_;  ///< with headroom
+    std::size_t queued_bytes_ = 0;
+    std::optional<Frame> frame_;
+    CongestionWindow congestion_;
+    std::uint32_t pings_ = 0;  ///< sent so far; its number is a ping's payload
+    std::optional<CloseRequest> close_;
+    bool welcomed_ = false;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/oracles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "oracle/scene_builder.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr double pi = glm::pi<double>();
+
+/// Nothing axis-aligned passes by luck.
+glm::mat4 odd_rotation() {
+    return glm::rotate(glm::mat4(1.0F), 0.7F, glm::normalize(glm::vec3(0.3F, 1.0F, 0.5F)));
+}
+
+SolverSettings solver_settings(const OracleSettings& settings) {
+    SolverSettings result;
+    result.seed = settings.seed;
+    result.probabilities = settings.probabilities;
+    result.coarse = settings.resolution;
+    result.fine = settings.resolution;
+    result.coarse_iterations = settings.iterations + 1;
+    result.density_error = settings.density_error;
+    return result;
+}
+
+Solver solve(const SceneBuilder& builder, const OracleSettings& settings) {
+    Solver solver(builder.scene, builder.mesh, solver_settings(settings));
+    while (solver.iterations() < settings.iterations) {
+        solver.step({});
+    }
+    return solver;
+}
+
+double patch_area(const PatchMesh& mesh, std::size_t patch) {
+    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::dvec3 a(mesh.positions[t.x]);
+    return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a,
+                                        glm::dvec3(mesh.positions[t.z]) - a));
+}
+
+/// Area mean of the irradiance (first channel) over patches [first, last).
+double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance,
+                       std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    double area = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+        const double a = patch_area(builder.mesh, i);
+        sum += a * static_cast<double>(irradiance[i].x);
+        area += a;
+    }
+    return sum / area;
+}
+
+double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance) {
+    return mean_irradiance(builder, irradiance, 0, irradiance.size());
+}
+
+constexpr float furnace_emission = 100.0F;
+
+SceneBuilder furnace_room(float albedo) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto m = b.add_material(glm::vec3(albedo), glm::vec3(furnace_emission));
+    constexpr std::uint32_t n = 4;
+    // An L-shaped room: floor and ceiling in two rectangles, six walls.
+    const auto wall = [&](glm::vec2 from, glm::vec2 to) {
+        b.add_quad({from.x, 0, from.y}, {to.x - from.x, 0, to.y - from.y}, {0, 3, 0}, n, n, m);
+    };
+    for (const auto& [corner, size] : {std::pair{glm::vec2(0, 0), glm::vec2(5, 2)},
+                                       std::pair{glm::vec2(0, 2), glm::vec2(2, 2)}}) {
+        b.add_quad({corner.x, 0, corner.y}, {0, 0, size.y}, {size.x, 0, 0}, n, n, m);
+        b.add_quad({corner.x, 3, corner.y}, {size.x, 0, 0}, {0, 0, size.y}, n, n, m);
+    }
+    const glm::vec2 outline[] = {{0, 0}, {5, 0}, {5, 2}, {2, 2}, {2, 4}, {0, 4}};
+    for (int i = 0; i < 6; ++i) {
+        wall(outline[i], outline[(i + 1) % 6]);
+    }
+    return b;
+}
+
+std::vector<double> furnace_ratios(float albedo, const OracleSettings& settings, double& mean) {
+    const SceneBuilder b = furnace_room(albedo);
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    const double exact =
+        pi * static_cast<double>(furnace_emission) / (1.0 - static_cast<double>(albedo));
+    mean = mean_irradiance(b, irradiance) / exact;
+    std::vector<double> ratios;
+    ratios.reserve(irradiance.size());
+    for (const glm::vec4& e : irradiance) {
+        ratios.push_back(static_cast<double>(e.x) / exact);
+    }
+    return ratios;
+}
+
+}  // namespace
+
+double furnace_mean(float albedo, const OracleSettings& settings) {
+    double mean = 0.0;
+    furnace_ratios(albedo, settings, mean);
+    return mean;
+}
+
+double furnace_worst(float albedo, const OracleSettings& settings) {
+    double mean = 0.0;
+    double worst = 0.0;
+    for (const double ratio : furnace_ratios(albedo, settings, mean)) {
+        worst = std::max(worst, std::abs(ratio - 1.0));
+    }
+    return worst;
+}
+
+double enclosure_indirect(float albedo, const OracleSettings& settings) {
+    constexpr double flux = 10'000.0;
+    constexpr double surface = 6.0 * 16.0;
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto wall = b.add_material(glm::vec3(albedo));
+    const auto radiance = static_cast<float>(flux / pi);  // of 1 m²
+    const auto lamp = b.add_material(glm::vec3(albedo), glm::vec3(radiance));
+    b.add_box({0, 0, 0}, {4, 4, 4}, true, 4, wall);
+    // One cell of the ceiling is the lamp: S stays 96 m².
+    for (std::size_t i = 0; i < b.mesh.triangles.size(); ++i) {
+        const glm::vec3 centre = b.cell_centre(i);
+        if (centre.y > 3.99F && centre.x > 1.0F && centre.x < 2.0F && centre.z > 1.0F &&
+            centre.z < 2.0F) {
+            b.set_triangle_material(i, lamp);
+        }
+    }
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    return mean_irradiance(b, irradiance) - flux / surface;
+}
+
+double cube_form_factor(bool opposite, const OracleSettings& settings) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto black = b.add_material(glm::vec3(0.0F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1.0F));
+    b.add_box({0, 0, 0}, {1, 1, 1}, true, 4, black);
+    const std::size_t face = b.mesh.triangles.size() / 6;  // faces: x0, x1, y0, y1, z0, z1
+    for (std::size_t i = 4 * face; i < 5 * face; ++i) {
+        b.set_triangle_material(i, lamp);
+    }
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    const double e = opposite ? mean_irradiance(b, irradiance, 5 * face, 6 * face)
+                              : mean_irradiance(b, irradiance, 0, 4 * face);
+    return e / pi;
+}
+
+double squares_form_factor(float distance, const OracleSettings& settings) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto black = b.add_material(glm::vec3(0.0F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1.0F));
+    b.add_quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 8, 8, lamp);  // faces up
+    const std::size_t receiver = b.mesh.triangles.size();
+    b.add_quad({0, distance, 0}, {1, 0, 0}, {0, 0, 1}, 8, 8, black);  // faces down
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    return mean_irradiance(b, irradiance, receiver, irradiance.size()) / pi;
+}
+
+double disc_illuminance(float radius, float height, float flux, const OracleSettings& settings) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto black = b.add_material(glm::vec3(0.0F));
+    const auto area = static_cast<float>(pi) * radius * radius;
+    const auto lamp =
+        b.add_material(glm::vec3(0.0F), glm::vec3(flux / (static_cast<float>(pi) * area)));
+    constexpr int sides = 64;
+    // A regular polygon of the disc's area.
+    const float step = glm::two_pi<float>() / sides;
+    const float corner =
+        radius * std::sqrt(static_cast<float>(2.0 * pi / (sides * std::sin(2.0 * pi / sides))));
+    const auto rim = [&](int i) {
+        const float angle = step * static_cast<float>(i);
+        return glm::vec3(corner * std::cos(angle), height, corner * std::sin(angle));
+    };
+    for (int i = 0; i < sides; ++i) {
+        b.add_triangle({0, height, 0}, rim(i), rim(i + 1), lamp);
+    }
+    const std::size_t receiver = b.mesh.triangles.size();
+    const float s = 0.02F * height;  // small against the height
+    b.add_quad({-s, 0, -s}, {0, 0, 2 * s}, {2 * s, 0, 0}, 1, 1, black);
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    return mean_irradiance(b, irradiance, receiver, irradiance.size());
+}
+
+double dark_room_irradiance(float wall_thickness, const OracleSettings& settings) {
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.8F));
+    const auto lamp = b.add_material(glm::vec3(0.8F), glm::vec3(1000.0F));
+    b.set_transform(odd_rotation());
+    b.add_box({0, 0, 0}, {3, 3, 3}, true, 6, wall);
+    b.add_quad({1, 2.9F, 1}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+    const std::size_t lit = b.mesh.triangles.size();
+    b.add_box({3.0F + wall_thickness, 0, 0}, {6, 3, 3}, true, 7, wall);
+    const auto irradiance = solve(b, settings).store().read_irradiance();
+    double largest = 0.0;
+    for (std::size_t i = lit; i < irradiance.size(); ++i) {
+        largest = std::max(largest, static_cast<double>(irradiance[i].x));
+    }
+    return largest;
+}
+
+double black_room_irradiance(const OracleSettings& settings) {
+    SceneBuilder b;
+    b.add_box({0, 0, 0}, {3, 3, 3}, true, 4, b.add_material(glm::vec3(0.8F)));
+    double largest = 0.0;
+    for (const glm::vec4& e : solve(b, settings).store().read_irradiance()) {
+        largest = std::max(largest, static_cast<double>(std::abs(e.x)));
+    }
+    return largest;
+}
+
+std::uint64_t differing_bits(const OracleSettings& settings) {
+    const SceneBuilder b = furnace_room(0.7F);
+    const auto first = solve(b, settings).store().read_irradiance();
+    const auto second = solve(b, settings).store().read_irradiance();
+    std::uint64_t differing = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        for (int c = 0; c < 4; ++c) {
+            const bool same = std::bit_cast<std::uint32_t>(first[i][c]) ==
+                              std::bit_cast<std::uint32_t>(second[i][c]);
+            differing += same ? 0 : 1;
+        }
+    }
+    return differing;
+}
+
+namespace {
+
+/// bound: relative to the expected value, absolute where that is 0.
+Oracle make_oracle(const std::string& name, double expected, double bound,
+                   const std::function<double()>& measure) {
+    return {name, [=] {
+                OracleResult r;
+                r.expected = expected;
+                r.measured = measure();
+                r.bound = expected == 0.0 ? bound : bound * std::abs(expected);
+                r.passed = std::abs(r.measured - r.expected) <= r.bound;
+                return r;
+            }};
+}
+
+}  // namespace
+
+std::vector<Oracle> all_oracles() {
+    OracleSettings usual;
+    usual.iterations = 2048;
+    OracleSettings long_run;
+    long_run.iterations = 6144;
+    OracleSettings perspective =
+        usual;  // the bounds of direct light ask for the least noisy strategy
+    perspective.iterations = 3072;
+    perspective.probabilities = {0.0F, 0.0F, 1.0F};
+    OracleSettings small_target = perspective;  // the receiver covers few pixels
+    small_target.resolution = {256, 400};
+    OracleSettings parallel = usual;
+    parallel.probabilities = {1.0F, 0.0F, 0.0F};
+    OracleSettings brief;
+    brief.iterations = 256;
+    std::vector<Oracle> oracles = {
+        make_oracle("furnace, albedo 0.5", 1.0, 0.005,
+                    [=] { return furnace_mean(0.5F, long_run); }),
+        make_oracle("furnace, albedo 0.9", 1.0, 0.005,
+                    [=] { return furnace_mean(0.9F, long_run); }),
+        make_oracle("furnace, albedo 0.99", 1.0, 0.02, [=] { return furnace_mean(0.99F, usual); }),
+        make_oracle("furnace, albedo 0.5, parallel", 1.0, 0.005,
+                    [=] { return furnace_mean(0.5F, parallel); }),
+        make_oracle("cube form factor, opposite", 0.199825, 0.002,
+                    [=] { return cube_form_factor(true, perspective); }),
+        make_oracle("cube form factor, adjacent", 0.200044, 0.002,
+                    [=] { return cube_form_factor(false, perspective); }),
+        make_oracle("unit squares at 0.1", 0.826995, 0.005,
+                    [=] { return squares_form_factor(0.1F, perspective); }),
+        make_oracle("disc source above", 1000.0 / (pi * 4.01), 0.005,
+                    [=] { return disc_illuminance(0.1F, 2.0F, 1000.0F, small_target); }),
+        make_oracle("black room", 0.0, 0.0, [=] { return black_room_irradiance(brief); }),
+        make_oracle("dark room behind a wall of 0 mm", 0.0, 0.0,
+                    [=] { return dark_room_irradiance(0.0F, brief); }),
+        make_oracle("dark room behind a wall of 1 mm", 0.0, 0.0,
+                    [=] { return dark_room_irradiance(0.001F, brief); }),
+        make_oracle("same seed, same bits", 0.0, 0.0,
+                    [=] { return static_cast<double>(differing_bits(brief)); }),
+    };
+    for (const auto& [albedo, indirect] : {std::pair{0.5F, 104.167}, std::pair{0.8F, 416.667},
+                                           std::pair{0.9F, 937.5}, std::pair{0.95F, 1979.17}}) {
+        oracles.push_back(make_oracle("enclosure, albedo " + std::to_string(albedo).substr(0, 4),
+                                      indirect, 0.005,
+                                      [=, a = albedo] { return enclosure_indirect(a, long_run); }));
+    }
+    return oracles;
+}
+
+}  // namespace raybundle

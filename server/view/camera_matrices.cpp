@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/camera_matrices.h"
+
+#include <cmath>
+
+namespace raybundle {
+
+namespace {
+
+struct Axes {
+    glm::vec3 right, up, forward;  // right and up scaled to the edge of the picture
+};
+
+Axes camera_axes(const Camera& camera, glm::uvec2 size) {
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    glm::vec3 right = glm::cross(forward, camera.up);
+    if (glm::dot(right, right) < 1e-12F) {  // looking along `up`: any other axis will do
+        right = glm::cross(forward,
+                           std::abs(forward.x) < 0.9F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1));
+    }
+    right = glm::normalize(right);
+    const float half_height = std::tan(0.5F * camera.vertical_fov);
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    return {right * (half_height * aspect), glm::cross(right, forward) * half_height, forward};
+}
+
+}  // namespace
+
+layout::ViewParameters make_view_parameters(const Camera& camera, const glm::vec3& scene_origin,
+                                            glm::uvec2 size, float near_distance) {
+    const Axes axes = camera_axes(camera, size);
+    const glm::vec3 eye = camera.eye - scene_origin;
+    const auto row = [&eye](const glm::vec3& v) { return glm::vec4(v, -glm::dot(v, eye)); };
+    layout::ViewParameters p{};
+    p.clip_from_world =
+        glm::transpose(glm::mat4(row(axes.right / glm::dot(axes.right, axes.right)),
+                                 row(axes.up / glm::dot(axes.up, axes.up)),
+                                 glm::vec4(0, 0, 0, near_distance), row(axes.forward)));
+    p.eye = glm::vec4(eye, 1.0F);
+    p.right = glm::vec4(axes.right, 0.0F);
+    p.up = glm::vec4(axes.up, 0.0F);
+    p.forward = glm::vec4(axes.forward, 0.0F);
+    p.size = {size.x, size.y, (size.x + 3) / 4, (size.y + 3) / 4};
+    return p;
+}
+
+glm::vec3 pixel_direction(const Camera& camera, glm::uvec2 size, glm::vec2 pixel) {
+    const Axes axes = camera_axes(camera, size);
+    const glm::vec2 ndc = (pixel + 0.5F) / glm::vec2(size) * 2.0F - 1.0F;
+    return glm::normalize(axes.forward + ndc.x * axes.right - ndc.y * axes.up);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+namespace raybundle {
+
+namespace {
+
+/// Writes to a temporary name beside the target, then renames.
+template <typename Pixel>
+void write_image(const std::string& path, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type,
+                 const std::vector<Pixel>& pixels) {
+    namespace fs = std::filesystem;
+    const fs::path target(path);
+    const fs::path temporary = target.parent_path() / ("." + target.stem().string() + ".part" +
+                                                       target.extension().string());
+    const auto fail = [&](const std::string& reason) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw std::runtime_error(path + ": cannot be written: " + reason);
+    };
+    auto output = OIIO::ImageOutput::create(temporary.string());
+    if (!output) {
+        fail(OIIO::geterror());
+    }
+    if (!output->open(temporary.string(), spec) || !output->write_image(type, pixels.data()) ||
+        !output->close()) {
+        fail(output->geterror());
+    }
+    std::error_code error;
+    fs::rename(temporary, target, error);
+    if (error) {
+        fail(error.message());
+    }
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, int width, int height,
+               std::span<const glm::vec4> radiance) {
+    std::vector<float> rgb;
+    rgb.reserve(radiance.size() * 3);
+    for (const glm::vec4& value : radiance) {
+        rgb.insert(rgb.end(), {value.r, value.g, value.b});
+    }
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
+    spec.attribute("compression", "zip");
+    spec.attribute("Software", "Raybundle " RAYBUNDLE_VERSION);
+    spec.attribute("comments", "linear radiance, cd/m^2, Rec. 709 primaries");
+    write_image(path, spec, OIIO::TypeDesc::FLOAT, rgb);
+}
+
+void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    }
+    const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    write_image(path, spec, OIIO::TypeDesc::UINT8, rgb);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+namespace raybundle {
+
+/// Writes linear radiance (cd/m², row 0 at the top) as EXR, channels R, G, B. The file appears
+/// whole or not at all. Throws std::runtime_error naming the path and the reason.
+void write_exr(const std::string& path, int width, int height, std::span<const glm::vec4> radiance);
+
+/// Writes an 8-bit picture as PNG, likewise. rgba: 4 bytes a pixel, row 0 at the top.
+void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba);
+
+}  // namespace raybundle

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/viewer_image.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace raybundle {
+
+namespace {
+
+constexpr float near_share = 1e-4F;       // of the scene's diameter
+constexpr float crease_share = 1.25e-3F;  // of the diameter: a pixel of an 800-pixel window
+constexpr float confidence_weight =
+    6.0F;  // samples that a pixel needs to outweigh the object-space value
+constexpr float moving_kept_weight = 0.9F;  // of a reprojected value per camera change
+constexpr std::size_t statistics_groups = 64;
+constexpr float mid_grey = 0.18F;
+
+std::size_t pixel_count(glm::uvec2 size) {
+    return std::size_t{size.x} * size.y;
+}
+
+}  // namespace
+
+ViewPrograms::ViewPrograms(const GpuScene& scene)
+    : raster({"bundle_raster.vert", "bundle_nearest.frag"}),
+      resolve_new({"view_resolve.comp"}, scene.defines()),
+      resolve_reprojected({"view_resolve.comp"}, with(scene.defines(), "REPROJECT 1")),
+      resolve_moved({"view_resolve.comp"}, with(with(scene.defines(), "REPROJECT 1"), "MOVED 1")),
+      compose_linear({"view_compose.comp"}, with(scene.defines(), "LINEAR 1")),
+      correct({"view_correct.comp"}),
+      vertex_irradiance({"view_vertex_irradiance.comp"}),
+      statistics({"view_statistics.comp"}, scene.defines()),
+      probe({"view_probe.comp"}, scene.defines()),
+      hemicube_pixels({"transport_hemicube_pixels.comp"}, scene.defines()),
+      hemicube_pixels_special({"transport_hemicube_pixels.comp"},
+                              with(scene.defines(), "SPECIAL 1")),
+      layers_pixels({"transport_layers_pixels.comp"}, scene.defines()),
+      layers_pixels_special({"transport_layers_pixels.comp"}, with(scene.defines(), "SPECIAL 1")) {
+    const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
+                                              "FALSE_ILLUMINANCE 1"};
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        const auto defines = with(scene.defines(), modes[i]);
+        compose[i] = ShaderProgram({"view_compose.comp"}, defines);
+        compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
+    }
+}
+
+ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
+                         const ViewPrograms& programs, glm::uvec2 size)
+    : scene_(scene),
+      store_(store),
+      programs_(programs),
+      size_(glm::max(size, glm::uvec2(1))),
+      view_("view parameters", sizeof(layout::ViewParameters)),
+      vertex_irradiance_("vertex irradiance",
+                         2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
+      statistics_buffer_("view statistics", statistics_groups * sizeof(glm::vec4)),
+      probe_buffer_("probe", sizeof(layout::PickResult)) {
+    statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
+    vertex_irradiance_texture_ =
+        create_buffer_texture("vertex irradiance", GL_RGBA16F, vertex_irradiance_);
+    allocate();
+}
+
+void ViewerImage::allocate() {
+    const std::size_t pixels = pixel_count(size_);
+    const auto width = static_cast<int>(size_.x);
+    const auto height = static_cast<int>(size_.y);
+    const std::size_t probes = pixel_count((size_ + 3U) / 4U);
+    pixels_ = Buffer("pixels", pixels * sizeof(layout::PixelSurface));
+    old_pixels_ = Buffer("old pixels", pixels * sizeof(layout::PixelSurface));
+    irradiance_ = Buffer("pixel irradiance", pixels * sizeof(glm::vec4));
+    old_irradiance_ = Buffer("old pixel irradiance", pixels * sizeof(glm::vec4));
+    delta_ = Buffer("pixel increments", pixels * sizeof(glm::vec4));
+    batches_ = Buffer("pixel batches", probes * BATCHES * sizeof(float));
+    frame_ = Buffer("frame", pixels * sizeof(std::uint32_t));
+    surface_ids_ = create_texture_2d("view surface ids", GL_R32UI, width, height);
+    depths_ = create_texture_2d("view depths", GL_DEPTH_COMPONENT32F, width, height);
+    framebuffer_ = create_framebuffer("view", surface_ids_.get(), depths_.get());
+    frame_readback_.emplace("frame readback", frame_.bytes());
+    delta_.clear();
+    batches_.clear();
+    create_pixel_textures();
+    has_picture_ = false;
+}
+
+void ViewerImage::create_pixel_textures() {
+    pixel_texture_ = create_buffer_texture("pixels", GL_RGBA32UI, pixels_);
+    old_pixel_texture_ = create_buffer_texture("old pixels", GL_RGBA32UI, old_pixels_);
+    irradiance_texture_ = create_buffer_texture("pixel irradiance", GL_RGBA32F, irradiance_);
+    old_irradiance_texture_ =
+        create_buffer_texture("old pixel irradiance", GL_RGBA32F, old_irradiance_);
+}
+
+void ViewerImage::resize(glm::uvec2 size) {
+    size = glm::max(size, glm::uvec2(1));
+    if (size == size_) {
+        return;
+    }
+    size_ = size;
+    allocate();
+    refresh_geometry(0.0F);
+}
+
+void ViewerImage::set_camera(const Camera& camera) {
+    camera_ = camera;
+    refresh_geometry(moving_kept_weight);
+}
+
+void ViewerImage::upload_view() {
+    view_.write(std::span(&std::as_const(parameters_), 1), 0);
+    view_.bind_uniform(BINDING_VIEW);
+}
+
+void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object) {
+    old_clip_from_world_ = parameters_.clip_from_world;
+    const float old_common_weight = parameters_.weights.x;
+    const glm::vec4 display = parameters_.display;
+    parameters_ =
+        make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
+    parameters_.display = display;
+    parameters_.sky = glm::vec4(scene_.sky(), 0.0F);
+    upload_view();
+    {
+        const GlScope scope("view raster");
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+        glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
+        const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
+        const float far_depth = 0.0F;
+        glClearBufferuiv(GL_COLOR, 0, no_hit);
+        glClearBufferfv(GL_DEPTH, 0, &far_depth);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_GREATER);
+        programs_.raster.use();
+        programs_.raster.set("clip_from_world", parameters_.clip_from_world);
+        scene_.draw(Place::now, parameters_.clip_from_world, true, programs_.raster);
+        glDisable(GL_DEPTH_TEST);
+    }
+    std::swap(pixels_, old_pixels_);
+    std::swap(irradiance_, old_irradiance_);
+    std::swap(pixel_texture_, old_pixel_texture_);
+    std::swap(irradiance_texture_, old_irradiance_texture_);
+    store_.bind();
+    bind_pixels();
+    glBindTextureUnit(UNIT_OLD_PIXELS, old_pixel_texture_.get());
+    glBindTextureUnit(UNIT_OLD_PIXEL_IRRADIANCE, old_irradiance_texture_.get());
+    glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
+    const ShaderProgram& resolve = !has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
+                                   : moved_object == NO_PATCH ? programs_.resolve_reprojected
+                                                              : programs_.resolve_moved;
+    resolve.set("vertex_count", scene_.vertex_count());
+    resolve.set("crease_distance", crease_share * scene_.diameter());
+    resolve.set("old_clip_from_world", old_clip_from_world_);
+    resolve.set("old_width", size_.x);
+    resolve.set("old_height", size_.y);
+    resolve.set("kept_weight", kept_weight);
+    resolve.set("old_common_weight", old_common_weight);
+    resolve.set("moved_object", moved_object);
+    // Two pixels' width at unit distance.
+    resolve.set("same_distance",
+                4.0F * std::tan(0.5F * camera_.vertical_fov) / static_cast<float>(size_.y));
+    resolve.dispatch(size_.x, size_.y);
+    batches_.clear();
+    samples_ = 0;
+    has_picture_ = true;
+}
+
+void ViewerImage::bind_pixels() const {
+    view_.bind_uniform(BINDING_VIEW);
+    pixels_.bind_storage(BINDING_PIXELS);
+    irradiance_.bind_storage(BINDING_PIXEL_IRRADIANCE);
+    delta_.bind_storage(BINDING_PIXEL_DELTA);
+    batches_.bind_storage(BINDING_PIXEL_BATCHES);
+    vertex_irradiance_.bind_storage(BINDING_VERTEX_IRRADIANCE);
+    statistics_buffer_.bind_storage(BINDING_STATISTICS);
+    frame_.bind_storage(BINDING_FRAME);
+    glBindTextureUnit(UNIT_PIXELS, pixel_texture_.get());
+    glBindTextureUnit(UNIT_PIXEL_IRRADIANCE, irradiance_texture_.get());
+    glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
+}
+
+void ViewerImage::prepare_receiving(const ShaderProgram& program, const Context& context) {
+    bind_pixels();
+    program.set("patch_base", scene_.patch_base(context.place));
+    program.set("vertex_base", scene_.vertex_base(context.place));
+    program.set("moved_object", context.moved_object);
+    program.dispatch(pixel_count(size_));
+    if (!context.special) {
+        ++samples_;
+        parameters_.weights.x += context.sample_weight;
+        parameters_.weights.y += context.sample_weight / BATCHES;
+    }
+}
+
+void ViewerImage::receive_hemicube(const Context& context) {
+    prepare_receiving(
+        context.special ? programs_.hemicube_pixels_special : programs_.hemicube_pixels, context);
+}
+
+void ViewerImage::receive_layers(const Context& context) {
+    prepare_receiving(context.special ? programs_.layers_pixels_special : programs_.layers_pixels,
+                      context);
+}
+
+void ViewerImage::discard_sample(float sample_weight) {
+    --samples_;
+    parameters_.weights.x -= sample_weight;
+    parameters_.weights.y -= sample_weight / BATCHES;
+}
+
+void ViewerImage::begin_special(std::uint32_t moved_object) {
+    refresh_geometry(1.0F, moved_object);
+    delta_.clear();
+}
+
+void ViewerImage::end_special(float phase_weight) {
+    upload_view();
+    bind_pixels();
+    batches_.clear();
+    parameters_.weights.y = 0.0F;
+    programs_.correct.set("phase_weight", phase_weight);
+    programs_.correct.dispatch(pixel_count(size_));
+}
+
+void ViewerImage::interpolate_vertices() {
+    store_.bind();
+    bind_pixels();
+    programs_.vertex_irradiance.set("vertex_count", scene_.vertex_count());
+    programs_.vertex_irradiance.dispatch(scene_.vertex_count());
+}
+
+float ViewerImage::display_factor(float exposure) {
+    return mid_grey * std::exp2(exposure);
+}
+
+void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_size) {
+    interpolate_vertices();
+    const float factor = mode == DisplayMode::photo
+                             ? display_factor(exposure) * scene_.radiance_unit()
+                             : 1.0F / display_factor(exposure);
+    parameters_.display = {scene_.radiance_unit(), factor, confidence_weight,
+                           static_cast<float>(mode)};
+    upload_view();
+    frame_size = glm::clamp(frame_size, glm::uvec2(1), size_);
+    const auto index = static_cast<std::size_t>(mode);
+    const ShaderProgram& program =
+        frame_size == size_ ? programs_.compose[index] : programs_.compose_scaled[index];
+    program.set("triangle_count", scene_.triangle_count());
+    program.set("frame_width", frame_size.x);
+    program.set("frame_height", frame_size.y);
+    program.dispatch(pixel_count(frame_size));
+    frame_bytes_ = pixel_count(frame_size) * sizeof(std::uint32_t);
+    frame_readback_->request(frame_, frame_bytes_);
+}
+
+std::span<const std::uint8_t> ViewerImage::take() {
+    return frame_readback_->take_as<std::uint8_t>();
+}
+
+std::vector<glm::vec4> ViewerImage::read_radiance() {
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    const Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
+    linear.bind_storage(BINDING_FRAME);
+    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
+    programs_.compose_linear.set("frame_width", size_.x);
+    programs_.compose_linear.set("frame_height", size_.y);
+    programs_.compose_linear.dispatch(pixel_count(size_));
+    std::vector<glm::vec4> result(pixel_count(size_));
+    linear.read<glm::vec4>(result);
+    return result;
+}
+
+std::optional<PixelProbe> ViewerImage::probe(glm::uvec2 pixel) {
+    pixel = glm::min(pixel, size_ - 1U);
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    probe_buffer_.bind_storage(BINDING_PICK);
+    programs_.probe.set("triangle_count", scene_.triangle_count());
+    programs_.probe.set("pixel_index", (size_.y - 1 - pixel.y) * size_.x + pixel.x);
+    programs_.probe.dispatch(1);
+    layout::PickResult found{};
+    probe_buffer_.read(std::span(&found, 1));
+    if (found.position.w == 0.0F) {
+        return std::nullopt;
+    }
+    PixelProbe result;
+    result.position = glm::vec3(found.position) + scene_.origin();
+    result.normal = glm::vec3(found.normal);
+    result.object = std::bit_cast<std::uint32_t>(found.normal.w);
+    result.patch = std::bit_cast<std::uint32_t>(found.irradiance.w);
+    result.irradiance = glm::vec3(found.irradiance) * scene_.radiance_unit();
+    result.radiance = glm::vec3(found.radiance) * scene_.radiance_unit();
+    if (found.radiance.w >= 0.0F) {
+        result.relative_error = static_cast<double>(found.radiance.w);
+    }
+    return result;
+}
+
+std::vector<glm::vec4> ViewerImage::read_irradiance() const {
+    std::vector<glm::vec4> result(pixel_count(size_));
+    irradiance_.read<glm::vec4>(result);
+    for (glm::vec4& value : result) {
+        const float weight = value.w + parameters_.weights.x;
+        const float scale = weight > 0.0F ? scene_.radiance_unit() / weight : 0.0F;
+        value = glm::vec4(glm::vec3(value) * scale, weight);
+    }
+    return result;
+}
+
+void ViewerImage::request_statistics() {
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    programs_.statistics.set("triangle_count", scene_.triangle_count());
+    programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
+    programs_.statistics.set("unsampled_error",
+                             static_cast<float>(std::min(statistics_.relative_error, 1.0)));
+    programs_.statistics.set("fresh_share", samples_ < BATCHES ? 2.0F : 0.02F);
+    programs_.statistics.dispatch(statistics_groups * 64);
+    statistics_readback_->request(statistics_buffer_, statistics_buffer_.bytes());
+}
+
+const ImageStatistics& ViewerImage::statistics() {
+    if (statistics_readback_->ready()) {
+        evaluate(statistics_readback_->take_as<glm::vec4>());
+    }
+    return statistics_;
+}
+
+void ViewerImage::evaluate(std::span<const glm::vec4> partial) {
+    glm::dvec4 sum(0.0);
+    for (const glm::vec4& p : partial) {
+        sum += glm::dvec4(p);
+    }
+    if (sum.w <= 0.0) {
+        return;
+    }
+    statistics_.known = statistics_.known || samples_ >= 2 * BATCHES;
+    const double unit = scene_.radiance_unit();
+    statistics_.relative_error = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
+    // 8 batch means: chi-square with 7 degrees of freedom if all pixels erred together (the
+    // cautious end), 2.5 % and 97.5 % quantiles 1.690 and 16.01.
+    statistics_.error_low = statistics_.relative_error * std::sqrt(7.0 / 16.01);
+    statistics_.error_high = statistics_.relative_error * std::sqrt(7.0 / 1.690);
+    statistics_.mean_log_luminance = sum.z / sum.w + std::log(unit);
+    statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
+}
+
+float ViewerImage::automatic_exposure() const {
+    // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
+    const double stops = -statistics_.mean_log_luminance / std::log(2.0);
+    return static_cast<float>(std::clamp(stops, -30.0, 30.0));
+}
+
+std::size_t ViewerImage::bytes() const {
+    std::size_t sum = pixel_count(size_) * 8;
+    for (const Buffer* buffer : {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_,
+                                 &batches_, &vertex_irradiance_, &frame_}) {
+        sum += buffer->bytes();
+    }
+    return sum;
+}
+
+}  // namespace raybundle

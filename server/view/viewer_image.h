@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/readback.h"
+#include "gpu/shader_program.h"
+#include "solution/radiance_store.h"
+#include "transport/bundle_receiver.h"
+#include "view/camera_matrices.h"
+
+namespace raybundle {
+
+enum class DisplayMode { photo = 0, false_luminance = 1, false_illuminance = 2 };
+
+/// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).
+struct ImageStatistics {
+    bool known = false;           ///< enough samples for an estimate
+    double relative_error = 1.0;  ///< estimated relRMSE of luminance
+    double error_low = 1.0;       ///< 95 % interval
+    double error_high = 1.0;
+    double mean_log_luminance = 0.0;  ///< mean of ln(luminance / (cd/m²))
+    double rms_luminance = 0.0;       ///< cd/m²
+};
+
+/// What a pixel of a viewer shows.
+struct PixelProbe {
+    glm::vec3 position{0.0F};  ///< world, m
+    glm::vec3 normal{0.0F};    ///< world, unit, shading
+    std::uint32_t object = 0;  ///< index into Scene::objects
+    std::uint32_t patch = 0;
+    glm::vec3 irradiance{0.0F};            ///< lx
+    glm::vec3 radiance{0.0F};              ///< towards the eye, cd/m²
+    std::optional<double> relative_error;  ///< standard error, where estimated
+};
+
+/// Programs that all viewers share.
+struct ViewPrograms {
+    explicit ViewPrograms(const GpuScene& scene);
+
+    ShaderProgram raster;
+    ShaderProgram resolve_new, resolve_reprojected, resolve_moved;
+    ShaderProgram compose_linear;
+    std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
+    ShaderProgram correct, vertex_irradiance, statistics, probe;
+    ShaderProgram hemicube_pixels, hemicube_pixels_special, layers_pixels, layers_pixels_special;
+};
+
+/// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
+/// frame. Its pixels are receivers of every bundle.
+class ViewerImage : public BundleReceiver {
+  public:
+    ViewerImage(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs,
+                glm::uvec2 size);
+
+    /// Changes what is seen; accumulated irradiance follows its surface points.
+    void set_camera(const Camera& camera);
+    void resize(glm::uvec2 size);
+    [[nodiscard]] glm::uvec2 size() const { return size_; }
+    [[nodiscard]] const Camera& camera() const { return camera_; }
+    /// Samples taken since the camera last moved.
+    [[nodiscard]] std::uint64_t samples() const { return samples_; }
+
+    // BundleReceiver
+    void receive_hemicube(const Context& context) override;
+    void receive_layers(const Context& context) override;
+    void discard_sample(float sample_weight) override;
+    void begin_special(std::uint32_t moved_object) override;
+    void end_special(float phase_weight) override;
+
+    /// Composes the picture with an exposure (EV: display white is 2^-exposure * a mid-grey scale;
+    /// see display_factor()) and queues its readback. finished() and take() deliver it.
+    void compose(DisplayMode mode, float exposure) { compose(mode, exposure, size_); }
+    /// The same, averaged down to a smaller frame.
+    void compose(DisplayMode mode, float exposure, glm::uvec2 frame_size);
+    [[nodiscard]] bool finished() const { return frame_readback_->ready(); }
+    /// RGBA bytes, row 0 at the top; valid until the next compose().
+    std::span<const std::uint8_t> take();
+    /// Linear radiance of all pixels, cd/m², row 0 at the top. Synchronous.
+    std::vector<glm::vec4> read_radiance();
+    /// Mean irradiance at the pixels as accumulated (lx, w = weight), row 0 at the bottom.
+    /// Synchronous.
+    [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
+
+    /// What a pixel (row 0 at the top) shows; nothing where it meets no patch. Small, synchronous.
+    [[nodiscard]] std::optional<PixelProbe> probe(glm::uvec2 pixel);
+
+    /// Queues the statistics; statistics() returns the newest that has arrived.
+    void request_statistics();
+    const ImageStatistics& statistics();
+    [[nodiscard]] std::size_t bytes() const;
+
+    /// Factor from radiance (cd/m²) to the tone curve's input for an exposure in stops.
+    static float display_factor(float exposure);
+    /// Exposure that puts the mean logarithm of luminance at mid-grey.
+    [[nodiscard]] float automatic_exposure() const;
+
+  private:
+    void allocate();
+    void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
+    void create_pixel_textures();
+    void bind_pixels() const;
+    void upload_view();
+    void prepare_receiving(const ShaderProgram& program, const Context& context);
+    void interpolate_vertices();
+    void evaluate(std::span<const glm::vec4> partial);
+
+    const GpuScene& scene_;
+    const RadianceStore& store_;
+    const ViewPrograms& programs_;
+    glm::uvec2 size_;
+    Camera camera_;
+    layout::ViewParameters parameters_{};
+    glm::mat4 old_clip_from_world_{1.0F};
+    std::size_t frame_bytes_ = 0;
+    bool has_picture_ = false;  // accumulators that can be reprojected
+    std::uint64_t samples_ = 0;
+    ImageStatistics statistics_;
+
+    Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
+    Buffer vertex_irradiance_, statistics_buffer_, frame_, probe_buffer_;
+    Texture2D surface_ids_, depths_;
+    Texture2D pixel_texture_, old_pixel_texture_, irradiance_texture_, old_irradiance_texture_;
+    Texture2D vertex_irradiance_texture_;
+    Framebuffer framebuffer_;
+    std::optional<Readback> frame_readback_, statistics_readback_;
+};
+
+}  // namespace raybundle
