@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "transport/iteration_schedule.h"
+
+namespace CLI {
+class App;
+}
+
+namespace raybundle {
+
+/// Exit statuses of the program; scripts depend on them.
+enum ExitStatus : int {
+    exit_done = 0,
+    exit_failed = 1,  ///< selftest failed, or output not writable
+    exit_usage = 2,
+    exit_scene_rejected = 3,
+    exit_no_gpu = 4,
+};
+
+/// A command line that cannot be understood. Exit status 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Everything the command line can say.
+struct Options {
+    enum class Command { none, serve, render, accuracy, inspect, bench, selftest };
+    Command command = Command::none;
+
+    // All commands.
+    int gpu = -1;
+    bool list_gpus = false;
+    std::string unit = "m";
+    std::optional<float> sky;  // cd/m²
+    std::string log_level = "info";
+
+    std::string scene;
+    float patch_size = 0.0F;  // m, 0: about 25 000 patches
+    std::uint64_t seed = 1;
+
+    // serve
+    std::string listen = "127.0.0.1:8080";
+    bool allow_remote = false;
+    std::string tls_cert, tls_key;
+
+    // render
+    std::string output;
+    std::string camera;
+    std::string eye, target;
+    float fov = 40.0F;  // degrees
+    std::string size = "800x600";
+    std::optional<double> seconds;
+    std::optional<std::uint64_t> iterations;
+    std::optional<double> error;
+    std::string method = "combined";
+    std::string stats;
+
+    // inspect, bench, selftest
+    bool json_to_stdout = false;
+    std::string json_file;
+};
+
+/// Parses the command line into options; the one table of all options is in the .cpp file. Throws
+/// CLI::ParseError (help and version included), which app.exit() turns into text.
+void define_options(CLI::App& app, Options& options);
+
+/// "800x600" -> (800, 600). Throws UsageError.
+glm::uvec2 parse_size(const std::string& text);
+/// "1,2.5,-3" -> vector. Throws UsageError naming the option.
+glm::vec3 parse_vector(const std::string& option, const std::string& text);
+/// "127.0.0.1:8080" or "[::1]:8080" -> host and port. Throws UsageError.
+std::pair<std::string, std::uint16_t> parse_address(const std::string& text);
+/// Metres of one unit of length: m, cm, mm, in, ft. Throws UsageError.
+float metres_per_unit(const std::string& unit);
+/// Probabilities of the strategies that a ray-bundle --method stands for. Throws UsageError.
+StrategyProbabilities parse_method(const std::string& method);
+
+}  // namespace raybundle

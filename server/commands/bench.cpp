@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "commands/command.h"
+#include "gpu/egl_context.h"
+#include "transport/solver.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+constexpr glm::uvec2 picture_size(800, 800);
+constexpr glm::uvec2 small_picture(512, 512);
+
+/// Milliseconds of `repeats` runs, GPU work included; median and 95th percentile.
+Json measure(int repeats, const std::function<void()>& work) {
+    work();
+    glFinish();
+    std::vector<double> times;
+    for (int i = 0; i < repeats; ++i) {
+        const auto start = Clock::now();
+        work();
+        glFinish();
+        times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+    std::sort(times.begin(), times.end());
+    const auto at = [&](double share) {
+        return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+    };
+    return {{"medianMs", at(0.5)}, {"p95Ms", at(0.95)}, {"perSecond", 1000.0 / at(0.5)}};
+}
+
+void print(const std::string& name, const Json& result) {
+    fmt::print("  {:<52} {:8.2f} ms  (p95 {:8.2f} ms, {:7.1f} /s)\n", name,
+               result["medianMs"].get<double>(), result["p95Ms"].get<double>(),
+               result["perSecond"].get<double>());
+    std::fflush(stdout);
+}
+
+class SceneBench {
+  public:
+    SceneBench(const Options& options, Json& report)
+        : report_(report), seed_(options.seed), loaded_(load_scene(options)) {
+        report_["scene"] = loaded_.scene.name;
+        report_["patches"] = loaded_.mesh.patch_count();
+        report_["loadSeconds"] = loaded_.seconds;
+        fmt::print("{}: {} patches\n", loaded_.scene.name, loaded_.mesh.patch_count());
+    }
+
+    void run() {
+        iterations("perspective iteration, 512-pixel hemicube", {0, 0, 1}, false);
+        iterations("layered iteration, 800-pixel window", {1, 0, 0}, false);
+        iterations("combined iteration with an 800x800 viewer", {}, true);
+        walkthrough();
+        moves();
+        convergence();
+    }
+
+  private:
+    SolverSettings settings(const StrategyProbabilities& probabilities) const {
+        SolverSettings result;
+        result.seed = seed_;
+        result.probabilities = probabilities;
+        return result;
+    }
+
+    void iterations(const std::string& name, const StrategyProbabilities& probabilities,
+                    bool viewed) {
+        SolverSettings s = settings(probabilities);
+        s.coarse_iterations = 0;
+        s.adapt_to_sky = false;
+        Solver solver(loaded_.scene, loaded_.mesh, s);
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        image.set_camera(loaded_.scene.cameras.front());
+        std::vector<BundleReceiver*> receivers;
+        if (viewed) {
+            receivers.push_back(&image);
+        }
+        for (int i = 0; i < 16; ++i) {
+            solver.step(receivers);
+        }
+        report_["iteration"][name] = measure(48, [&] { solver.step(receivers); });
+        print(name, report_["iteration"][name]);
+    }
+
+    /// Frames of a camera in motion, with one iteration between frames as the server does.
+    void walkthrough() {
+        Solver solver(loaded_.scene, loaded_.mesh, settings({}));
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        Camera camera = loaded_.scene.cameras.front();
+        image.set_camera(camera);
+        BundleReceiver* const receivers[] = {&image};
+        for (int i = 0; i < 32; ++i) {
+            solver.step(receivers);
+        }
+        const auto frame = [&] {
+            camera.eye += 0.01F * glm::normalize(camera.target - camera.eye);
+            image.set_camera(camera);
+            image.compose(DisplayMode::photo, -6.0F);
+            image.take();
+        };
+        report_["frame"] = measure(40, frame);
+        print("frame of a moving camera, 800x800, read back", report_["frame"]);
+        report_["frameAndIteration"] = measure(40, [&] {
+            frame();
+            solver.step(receivers);
+        });
+        print("the same with an iteration in between", report_["frameAndIteration"]);
+    }
+
+    void moves() {
+        const auto& objects = loaded_.scene.objects;
+        const auto found =
+            std::find_if(objects.begin(), objects.end(), [](const Object& o) { return o.movable; });
+        if (found == objects.end()) {
+            return;
+        }
+        const auto index = static_cast<std::uint32_t>(found - objects.begin());
+        Solver solver(loaded_.scene, loaded_.mesh, settings({}));
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        image.set_camera(loaded_.scene.cameras.front());
+        BundleReceiver* const receivers[] = {&image};
+        for (int i = 0; i < 32; ++i) {
+            solver.step(receivers);
+        }
+        Object object = *found;
+        float step = 0.1F;
+        report_["move"] = measure(12, [&] {
+            object.transform.translation.x += step;
+            step = -step;
+            solver.move_object(index, object.world_from_object(), receivers);
+            while (solver.correcting()) {
+                solver.step(receivers);
+            }
+            image.compose(DisplayMode::photo, -6.0F);
+            image.take();
+        });
+        print("move of '" + object.name + "' to corrected frame", report_["move"]);
+    }
+
+    /// Error of a 512x512 picture against a longer run of another seed.
+    void convergence() {
+        const auto picture = [&](std::uint64_t seed, double seconds, std::uint64_t& iterations) {
+            SolverSettings s = settings({});
+            s.seed = seed;
+            Solver solver(loaded_.scene, loaded_.mesh, s);
+            const ViewPrograms programs(solver.scene());
+            ViewerImage image(solver.scene(), solver.store(), programs, small_picture);
+            image.set_camera(loaded_.scene.cameras.front());
+            BundleReceiver* const receivers[] = {&image};
+            const auto start = Clock::now();
+            while (std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
+                solver.step(receivers);
+                glFinish();
+            }
+            iterations = solver.iterations();
+            return image.read_radiance();
+        };
+        std::uint64_t iterations = 0;
+        const double reference_seconds = 40.0;
+        const auto reference = picture(seed_ + 1000, reference_seconds, iterations);
+        fmt::print("  error against {} s of another seed ({} iterations), 512x512:\n",
+                   reference_seconds, iterations);
+        for (const double seconds : {1.0, 2.0, 5.0, 10.0}) {
+            const auto image = picture(seed_, seconds, iterations);
+            const double error = relative_rmse(image, reference);
+            fmt::print("    {:4.0f} s: relRMSE {:.2f} %, {} iterations\n", seconds, 100.0 * error,
+                       iterations);
+            std::fflush(stdout);
+            report_["convergence"].push_back(
+                {{"seconds", seconds}, {"iterations", iterations}, {"relRMSE", error}});
+        }
+    }
+
+    /// design: sqrt(sum (I-R)^2 / sum R^2); pixels that see an emitter are left out by their
+    /// brightness.
+    static double relative_rmse(const std::vector<glm::vec4>& image,
+                                const std::vector<glm::vec4>& reference) {
+        double error = 0.0;
+        double total = 0.0;
+        double mean = 0.0;
+        for (const glm::vec4& r : reference) {
+            mean += static_cast<double>(r.g) / static_cast<double>(reference.size());
+        }
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            if (static_cast<double>(reference[i].g) > 20.0 * mean) {
+                continue;
+            }
+            for (int c = 0; c < 3; ++c) {
+                const double d =
+                    static_cast<double>(image[i][c]) - static_cast<double>(reference[i][c]);
+                error += d * d;
+                total +=
+                    static_cast<double>(reference[i][c]) * static_cast<double>(reference[i][c]);
+            }
+        }
+        return total > 0.0 ? std::sqrt(error / total) : 0.0;
+    }
+
+    Json& report_;
+    std::uint64_t seed_;
+    LoadedScene loaded_;
+};
+
+}  // namespace
+
+int run_bench(const Options& options) {
+    const EglContext context = create_egl_context({options.gpu, false});
+    Json report = {{"device", context.renderer()}};
+    fmt::print("device: {}\n", context.renderer());
+    Options chosen = options;
+    if (chosen.scene.empty()) {
+        chosen.scene = "scenes/cornell_box.gltf";
+    }
+    SceneBench(chosen, report).run();
+    if (!options.json_file.empty()) {
+        write_file(options.json_file, report.dump(2) + "\n");
+    }
+    return exit_done;
+}
+
+}  // namespace raybundle

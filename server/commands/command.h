@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli_options.h"
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// A scene read and tessellated as the options say, notices and progress in the log. Throws
+/// SceneError.
+struct LoadedScene {
+    Scene scene;
+    PatchMesh mesh;
+    double seconds = 0.0;  ///< to read and tessellate
+};
+LoadedScene load_scene(const Options& options);
+
+// Each runs one subcommand and returns its exit status.
+int run_serve(const Options& options);
+int run_render(const Options& options);
+int run_inspect(const Options& options);
+int run_bench(const Options& options);
+int run_selftest(const Options& options);
+
+/// Writes text to a temporary name beside the path, then renames. Throws std::runtime_error.
+void write_file(const std::string& path, const std::string& text);
+
+}  // namespace raybundle

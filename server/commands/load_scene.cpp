@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "commands/command.h"
+#include "scene/gltf_loader.h"
+
+namespace raybundle {
+
+LoadedScene load_scene(const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    spdlog::info("reading {}", options.scene);
+    SceneSettings settings;
+    settings.metres_per_unit = metres_per_unit(options.unit);
+    settings.sky_luminance = options.sky;
+    LoadedScene loaded;
+    loaded.scene = load_gltf(options.scene, settings);
+    TessellationSettings tessellation;
+    tessellation.patch_size = options.patch_size;
+    loaded.mesh = tessellate(loaded.scene, tessellation);
+    loaded.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (const std::string& notice : loaded.scene.notices) {
+        spdlog::warn("{}: {}", loaded.scene.name, notice);
+    }
+    spdlog::info("{}: {} triangles, {} patches, {} objects, {} lights, {:.2f} s", loaded.scene.name,
+                 loaded.scene.triangles.size(), loaded.mesh.patch_count(),
+                 loaded.scene.objects.size(), loaded.scene.lights.size(), loaded.seconds);
+    return loaded;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    namespace fs = std::filesystem;
+    const fs::path target(path);
+    const fs::path temporary = target.parent_path() / ("." + target.filename().string() + ".part");
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    std::error_code error;
+    if (stream) {
+        fs::rename(temporary, target, error);
+    }
+    if (!stream || error) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw std::runtime_error(path + ": cannot be written");
+    }
+}
+
+}  // namespace raybundle

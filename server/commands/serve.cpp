@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "commands/command.h"
+#include "gpu/egl_context.h"
+#include "net/server.h"
+#include "render_loop.h"
+
+namespace raybundle {
+
+namespace {
+
+bool is_loopback(const std::string& host) {
+    return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
+}
+
+ServerSettings server_settings(const Options& options) {
+    const auto [host, port] = parse_address(options.listen);
+    if (!is_loopback(host) && !options.allow_remote) {
+        throw UsageError(
+            "--listen " + options.listen +
+            " lets anyone on the network change the scene; add --allow-remote if that is meant");
+    }
+    if (options.tls_cert.empty() != options.tls_key.empty()) {
+        throw UsageError("--tls-cert and --tls-key belong together");
+    }
+    ServerSettings settings;
+    settings.host = host;
+    settings.port = port;
+    settings.tls_certificate = options.tls_cert;
+    settings.tls_key = options.tls_key;
+    return settings;
+}
+
+/// Waits for SIGINT or SIGTERM on a thread of its own and then stops the loop.
+class SignalWatch {
+  public:
+    SignalWatch(std::atomic<bool>& stop, Inbox& inbox) {
+        sigemptyset(&signals_);
+        sigaddset(&signals_, SIGINT);
+        sigaddset(&signals_, SIGTERM);
+        pthread_sigmask(SIG_BLOCK, &signals_, nullptr);  // inherited by threads started later
+        thread_ = std::jthread([this, &stop, &inbox](const std::stop_token& token) {
+            const timespec interval{0, 100'000'000};
+            while (!token.stop_requested()) {
+                if (sigtimedwait(&signals_, nullptr, &interval) > 0) {
+                    stop = true;
+                    inbox.interrupt();
+                    return;
+                }
+            }
+        });
+    }
+
+  private:
+    sigset_t signals_{};
+    std::jthread thread_;
+};
+
+}  // namespace
+
+int run_serve(const Options& options) {
+    Server server(server_settings(options));
+    std::atomic<bool> stop{false};
+    const SignalWatch watch(stop, server.inbox());
+    const EglContext context = create_egl_context({options.gpu, false});
+    LoadedScene loaded = load_scene(options);
+    RenderLoopSettings settings;
+    settings.solver.seed = options.seed;
+    RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server);
+    server.set_metrics_source([&loop] { return loop.metrics(); });
+    server.start();
+    fmt::print("raybundle serves {} at {}\n", options.scene, server.address());
+    std::fflush(stdout);
+    loop.run(stop);
+    spdlog::info("stopping");
+    server.stop();
+    server.set_metrics_source({});
+    return exit_done;
+}
+
+}  // namespace raybundle

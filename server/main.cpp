@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "cli_options.h"
+#include "commands/command.h"
+#include "gpu/egl_context.h"
+#include "scene/gltf_loader.h"
+
+namespace {
+
+using raybundle::Options;
+
+int list_gpus() {
+    const auto devices = raybundle::list_gpu_devices();
+    for (const auto& device : devices) {
+        fmt::print("{}: {}{}\n", device.index, device.usable ? "" : "unusable: ", device.renderer);
+    }
+    if (devices.empty()) {
+        fmt::print("no EGL devices\n");
+    }
+    return raybundle::exit_done;
+}
+
+int run(const Options& options, const CLI::App& app) {
+    if (options.list_gpus) {
+        return list_gpus();
+    }
+    switch (options.command) {
+        case Options::Command::serve:
+            return raybundle::run_serve(options);
+        case Options::Command::render:
+            return raybundle::run_render(options);
+        case Options::Command::inspect:
+            return raybundle::run_inspect(options);
+        case Options::Command::bench:
+            return raybundle::run_bench(options);
+        case Options::Command::selftest:
+            return raybundle::run_selftest(options);
+        default:
+            fmt::print(stderr, "{}", app.help());
+            return raybundle::exit_usage;
+    }
+}
+
+int report(int status, const std::exception& error) {
+    fmt::print(stderr, "raybundle: {}\n", error.what());
+    return status;
+}
+
+int parse_and_run(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("raybundle"));
+    CLI::App app;
+    Options options;
+    raybundle::define_options(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? raybundle::exit_done : raybundle::exit_usage;
+    }
+    spdlog::set_level(
+        spdlog::level::from_str(options.log_level == "warn" ? "warning" : options.log_level));
+    try {
+        return run(options, app);
+    } catch (const raybundle::UsageError& error) {
+        return report(raybundle::exit_usage, error);
+    } catch (const raybundle::SceneError& error) {
+        return report(raybundle::exit_scene_rejected, error);
+    } catch (const raybundle::GpuError& error) {
+        return report(raybundle::exit_no_gpu, error);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return parse_and_run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "raybundle: %s\n", error.what());
+    } catch (...) {
+        std::fprintf(stderr, "raybundle: unknown error\n");
+    }
+    return raybundle::exit_failed;
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "net/server.h"
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+#include "stream/frame_encoder.h"
+#include "transport/solver.h"
+#include "view/viewer_image.h"
+#include "viewer_session.h"
+
+namespace raybundle {
+
+struct RenderLoopSettings {
+    SolverSettings solver;
+    /// Without viewers the solver rests after this many iterations since the last change.
+    std::uint64_t idle_iterations = 4096;
+};
+
+/// The one place that sees both the network's messages and the GPU: owns the solution and the
+/// viewers' pictures on the calling thread, answers requests, sends due frames, and gives the rest
+/// of the time to iterations.
+class RenderLoop {
+  public:
+    RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSettings& settings,
+               Server& server);
+
+    /// Runs until `stop` is set and the inbox is interrupted.
+    void run(const std::atomic<bool>& stop);
+
+    /// Prometheus text; any thread.
+    [[nodiscard]] std::string metrics() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    /// The newest wanted place of an object and everyone who asked for one since.
+    struct PendingMove {
+        std::uint32_t object = 0;  // index
+        std::vector<ClientEvent> requests;
+    };
+
+    void handle(const ClientEvent& event);
+    void handle_message(ViewerSession& session, const ClientEvent& event);
+    void join(const ClientEvent& event);
+    void queue_move(const ClientEvent& event);
+    void start_pending_move();
+    void answer_probe(ViewerSession& session, const ClientEvent& event);
+    bool send_frames();
+    void send_solutions();
+    bool solve();
+    [[nodiscard]] bool idle() const;
+    [[nodiscard]] v1::FrameHeader figures() const;
+    void refresh_receivers();
+    void update_rate(Clock::time_point now);
+
+    Scene scene_;
+    RenderLoopSettings settings_;
+    Server& server_;
+    Solver solver_;
+    ViewPrograms programs_;
+    std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
+    std::vector<BundleReceiver*> receivers_;
+    std::deque<PendingMove> pending_moves_;
+    std::uint32_t epoch_ = 0;
+    std::uint64_t iterations_at_change_ = 0;
+    FrameEncoder encoder_;
+    Clock::time_point last_solution_, rate_since_;
+    std::uint64_t rate_iterations_ = 0;
+    double iterations_per_second_ = 0.0;
+
+    // For metrics().
+    std::atomic<std::uint64_t> metric_iterations_{0}, metric_frames_{0}, metric_non_finite_{0};
+    std::atomic<std::uint64_t> metric_bytes_{0};
+    std::atomic<std::uint32_t> metric_epoch_{0}, metric_viewers_{0};
+    std::atomic<double> metric_settled_{0.0}, metric_rate_{0.0};
+};
+
+}  // namespace raybundle

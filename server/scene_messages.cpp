@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_messages.h"
+
+#include <algorithm>
+
+namespace raybundle {
+
+glm::vec3 from_message(const v1::Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Transform from_message(const v1::Transform& transform) {
+    Transform result;
+    if (transform.has_translation()) {
+        result.translation = from_message(transform.translation());
+    }
+    if (transform.has_rotation()) {
+        const auto& q = transform.rotation();
+        result.rotation = glm::normalize(glm::quat(q.w(), q.x(), q.y(), q.z()));
+    }
+    if (transform.has_scale()) {
+        result.scale = from_message(transform.scale());
+    }
+    return result;
+}
+
+void to_message(const glm::vec3& v, v1::Vec3* message) {
+    message->set_x(v.x);
+    message->set_y(v.y);
+    message->set_z(v.z);
+}
+
+void to_message(const Bounds& bounds, v1::Bounds* message) {
+    to_message(bounds.empty() ? glm::vec3(0.0F) : bounds.min, message->mutable_min());
+    to_message(bounds.empty() ? glm::vec3(0.0F) : bounds.max, message->mutable_max());
+}
+
+void to_message(const Transform& transform, v1::Transform* message) {
+    to_message(transform.translation, message->mutable_translation());
+    message->mutable_rotation()->set_x(transform.rotation.x);
+    message->mutable_rotation()->set_y(transform.rotation.y);
+    message->mutable_rotation()->set_z(transform.rotation.z);
+    message->mutable_rotation()->set_w(transform.rotation.w);
+    to_message(transform.scale, message->mutable_scale());
+}
+
+Bounds world_bounds(const Object& object) {
+    const glm::mat4 matrix = object.world_from_object();
+    Bounds result;
+    if (object.bounds.empty()) {
+        return result;
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1U) != 0 ? object.bounds.max.x : object.bounds.min.x,
+                          (corner & 2U) != 0 ? object.bounds.max.y : object.bounds.min.y,
+                          (corner & 4U) != 0 ? object.bounds.max.z : object.bounds.min.z);
+        result.add(glm::vec3(matrix * glm::vec4(p, 1.0F)));
+    }
+    return result;
+}
+
+namespace {
+
+void add_effect(v1::Scene* message, const char* name, bool active, const std::string& reason) {
+    v1::Effect* effect = message->add_effects();
+    effect->set_name(name);
+    effect->set_active(active);
+    effect->set_reason(reason);
+}
+
+void describe_effects(const Scene& scene, v1::Scene* message) {
+    add_effect(message, "diffuse", true, "every surface reflects diffusely");
+    const bool sky = luminance(scene.sky_radiance) > 0.0F;
+    add_effect(message, "sky", sky,
+               sky ? "uniform sky of " +
+                         std::to_string(static_cast<int>(luminance(scene.sky_radiance))) +
+                         " cd/m²" + (scene.lights.empty() ? ": the scene has no emitter" : "")
+                   : "no sky is set and the scene has emitters");
+    add_effect(message, "textures", !scene.textures.empty(),
+               scene.textures.empty() ? "no material has a texture"
+                                      : std::to_string(scene.textures.size()) + " textures");
+}
+
+}  // namespace
+
+void describe_scene(const Scene& scene, v1::Scene* message) {
+    message->set_name(scene.name);
+    to_message(scene.bounds, message->mutable_bounds());
+    for (const Object& object : scene.objects) {
+        v1::Object* out = message->add_objects();
+        out->set_id(object.id);
+        out->set_name(object.name);
+        out->set_movable(object.movable);
+        to_message(world_bounds(object), out->mutable_bounds());
+        to_message(object.transform, out->mutable_transform());
+        for (int i = 0; i < 16; ++i) {
+            out->add_world_from_parent(object.world_from_parent[i / 4][i % 4]);
+        }
+    }
+    for (const Light& light : scene.lights) {
+        v1::Light* out = message->add_lights();
+        const float intensity = luminance(light.radiance);
+        out->set_id(light.id);
+        out->set_name(light.name);
+        out->set_kind(v1::Light::AREA);
+        out->set_intensity(intensity);
+        out->set_unit(v1::Light::CD_PER_M2);
+        to_message(intensity > 0.0F ? light.radiance / intensity : glm::vec3(1.0F),
+                   out->mutable_colour());
+        out->set_on(true);
+    }
+    for (const Camera& camera : scene.cameras) {
+        v1::Camera* out = message->add_cameras();
+        out->set_name(camera.name);
+        to_message(camera.eye, out->mutable_eye());
+        to_message(camera.target, out->mutable_target());
+        to_message(camera.up, out->mutable_up());
+        out->set_vertical_fov(camera.vertical_fov);
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        v1::Material* out = message->add_materials();
+        out->set_id(static_cast<std::uint32_t>(i) + 1);
+        out->set_name(scene.materials[i].name);
+    }
+    describe_effects(scene, message);
+}
+
+}  // namespace raybundle

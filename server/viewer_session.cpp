@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer_session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "net/server.h"
+#include "scene_messages.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr double moving_s = 0.4;             // after the last change a viewer counts as moving
+constexpr double moving_interval_s = 0.016;  // between frames while moving
+constexpr double statistics_interval_s = 0.15;
+constexpr glm::uvec2 default_size(800, 600);
+
+double seconds(ViewerSession::Clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
+
+glm::uvec2 size_of(const v1::Hello& hello) {
+    return hello.has_viewport() ? glm::uvec2(hello.viewport().width(), hello.viewport().height())
+                                : default_size;
+}
+
+/// Frames of a refining picture: often at first, when it changes much, then less and less.
+double refining_interval(double since_change) {
+    return std::clamp(0.1 * since_change, 0.1, 1.0);
+}
+
+}  // namespace
+
+ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
+                             const RadianceStore& store, const ViewPrograms& programs,
+                             const Camera& camera)
+    : viewer_(viewer),
+      name_(hello.name()),
+      image_(scene, store, programs, size_of(hello)),
+      last_change_(Clock::now()) {
+    lossless_ =
+        std::find(hello.codecs().begin(), hello.codecs().end(), v1::PNG) != hello.codecs().end();
+    image_.set_camera(camera);
+}
+
+double ViewerSession::since_change_s(Clock::time_point now) const {
+    return seconds(now - last_change_);
+}
+
+void ViewerSession::note_change() {
+    changed_ = true;
+    last_change_ = Clock::now();
+}
+
+void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t request_id) {
+    Camera camera = image_.camera();
+    camera.eye = from_message(message.eye());
+    camera.target = from_message(message.target());
+    camera.up = message.has_up() ? from_message(message.up()) : glm::vec3(0.0F, 1.0F, 0.0F);
+    if (message.has_vertical_fov()) {
+        camera.vertical_fov = message.vertical_fov();
+    }
+    image_.set_camera(camera);
+    camera_id_ = request_id;
+    note_change();
+}
+
+void ViewerSession::set_viewport(glm::uvec2 size) {
+    image_.resize(size);
+    rendering_ = false;
+    note_change();
+}
+
+void ViewerSession::set_display(const v1::SetDisplay& message) {
+    if (message.has_mode() && message.mode() != v1::SetDisplay::MODE_UNSPECIFIED) {
+        mode_ = message.mode() == v1::SetDisplay::FALSE_LUMINANCE ? DisplayMode::false_luminance
+                : message.mode() == v1::SetDisplay::FALSE_ILLUMINANCE
+                    ? DisplayMode::false_illuminance
+                    : DisplayMode::photo;
+    }
+    if (message.has_exposure()) {
+        exposure_offset_ = message.exposure();
+    }
+    if (message.has_auto_exposure()) {
+        auto_exposure_ = message.auto_exposure();
+    }
+    shown_exposure_.reset();
+    changed_ = true;
+}
+
+void ViewerSession::set_target(const v1::SetTarget& message) {
+    target_error_ =
+        message.has_relative_error() ? static_cast<double>(message.relative_error()) : 0.0;
+    target_seconds_ = message.has_seconds() ? static_cast<double>(message.seconds()) : 0.0;
+}
+
+bool ViewerSession::moving(Clock::time_point now) const {
+    return since_change_s(now) < moving_s;
+}
+
+bool ViewerSession::due(Clock::time_point now) const {
+    if (rendering_) {
+        return false;
+    }
+    const double since_frame = seconds(now - last_frame_);
+    if (changed_) {
+        return since_frame >= moving_interval_s;
+    }
+    return image_.samples() > samples_at_frame_ &&
+           since_frame >= refining_interval(since_change_s(now));
+}
+
+bool ViewerSession::target_met() {
+    if (target_error_ > 0.0) {
+        const ImageStatistics& statistics = image_.statistics();
+        return statistics.known && statistics.error_high <= target_error_;
+    }
+    return target_seconds_ > 0.0 && since_change_s(Clock::now()) >= target_seconds_;
+}
+
+FrameDemand ViewerSession::demand(Clock::time_point now) const {
+    const glm::uvec2 size = image_.size();
+    return {moving(now), lossless_ && !moving(now),
+            static_cast<double>(size.x) * static_cast<double>(size.y)};
+}
+
+float ViewerSession::exposure() {
+    const float wanted = (auto_exposure_ ? image_.automatic_exposure() : 0.0F) + exposure_offset_;
+    // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
+    const float follow = shown_exposure_ ? 0.15F : 1.0F;
+    const float before = shown_exposure_.value_or(wanted);
+    shown_exposure_ = before + (wanted - before) * follow;
+    return *shown_exposure_;
+}
+
+void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
+                           Clock::time_point now) {
+    const glm::uvec2 size = image_.size();
+    const auto scaled = [&](unsigned pixels) {
+        return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));
+    };
+    const glm::uvec2 frame_size(scaled(size.x), scaled(size.y));
+    const ImageStatistics& statistics = image_.statistics();
+    header_ = figures;
+    header_.set_frame(++frame_);
+    header_.set_camera_id(camera_id_);
+    header_.set_codec(advice.quality == FrameAdvice::kLossless && lossless_ ? v1::PNG : v1::JPEG);
+    header_.set_quality(static_cast<unsigned>(advice.quality));
+    header_.set_width(frame_size.x);
+    header_.set_height(frame_size.y);
+    if (statistics.known) {
+        header_.set_relative_error(static_cast<float>(statistics.relative_error));
+        header_.set_error_low(static_cast<float>(statistics.error_low));
+        header_.set_error_high(static_cast<float>(statistics.error_high));
+    }
+    header_.set_exposure(exposure());
+    header_.set_server_time_ms(Server::now_ms());
+    image_.compose(mode_, header_.exposure(), frame_size);
+    rendering_ = true;
+    changed_ = false;
+    last_frame_ = now;
+    samples_at_frame_ = image_.samples();
+}
+
+std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::take_frame() {
+    rendering_ = false;
+    return {header_, image_.take()};
+}
+
+void ViewerSession::refresh_statistics(Clock::time_point now) {
+    if (seconds(now - last_statistics_) >= statistics_interval_s) {
+        last_statistics_ = now;
+        image_.request_statistics();
+    }
+}
+
+void ViewerSession::fill_solution(v1::Solution* solution) {
+    const ImageStatistics& statistics = image_.statistics();
+    if (!statistics.known) {
+        return;
+    }
+    solution->set_relative_error(static_cast<float>(statistics.relative_error));
+    solution->set_error_low(static_cast<float>(statistics.error_low));
+    solution->set_error_high(static_cast<float>(statistics.error_high));
+    const double elapsed = since_change_s(Clock::now());
+    if (target_error_ > 0.0) {
+        // The error falls like 1/sqrt(time).
+        const double ratio = statistics.error_high / target_error_;
+        solution->set_seconds_to_target(
+            static_cast<float>(std::max(0.0, elapsed * (ratio * ratio - 1.0))));
+    } else if (target_seconds_ > 0.0) {
+        solution->set_seconds_to_target(
+            static_cast<float>(std::max(0.0, target_seconds_ - elapsed)));
+    }
+}
+
+}  // namespace raybundle

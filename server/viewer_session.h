@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "net/client_event.h"
+#include "raybundle.pb.h"
+#include "stream/congestion_window.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// What one viewer wants to see and how far its picture is; everything the render loop keeps of it.
+class ViewerSession {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
+                  const RadianceStore& store, const ViewPrograms& programs, const Camera& camera);
+
+    void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
+    void set_viewport(glm::uvec2 size);
+    void set_display(const v1::SetDisplay& message);
+    void set_target(const v1::SetTarget& message);
+
+    /// Something that the whole picture shows has changed: answer with a frame soon.
+    void note_change();
+    /// The camera or an object moved within the last moments.
+    [[nodiscard]] bool moving(Clock::time_point now) const;
+    /// A new frame is worth sending now.
+    [[nodiscard]] bool due(Clock::time_point now) const;
+    [[nodiscard]] bool target_met();
+    [[nodiscard]] FrameDemand demand(Clock::time_point now) const;
+
+    /// Renders the next frame into its readback. epoch and the other figures go into its header.
+    void render(const FrameAdvice& advice, const v1::FrameHeader& figures, Clock::time_point now);
+    [[nodiscard]] bool frame_finished() const { return rendering_ && image_.finished(); }
+    /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
+    std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
+
+    /// Queues new statistics every few samples.
+    void refresh_statistics(Clock::time_point now);
+    /// Error, interval and prediction for a `solution` message.
+    void fill_solution(v1::Solution* solution);
+
+    [[nodiscard]] ViewerImage& image() { return image_; }
+    [[nodiscard]] ViewerId id() const { return viewer_; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
+
+  private:
+    [[nodiscard]] double since_change_s(Clock::time_point now) const;
+    [[nodiscard]] float exposure();
+
+    ViewerId viewer_;
+    std::string name_;
+    bool lossless_ = false;  // the client decodes PNG
+    ViewerImage image_;
+    DisplayMode mode_ = DisplayMode::photo;
+    float exposure_offset_ = 0.0F;
+    bool auto_exposure_ = true;
+    std::optional<float> shown_exposure_;
+    double target_error_ = 0.0;
+    double target_seconds_ = 0.0;
+    std::uint32_t camera_id_ = 0;
+    std::uint32_t frame_ = 0;
+    bool changed_ = true;
+    bool rendering_ = false;
+    v1::FrameHeader header_;
+    Clock::time_point last_change_, last_frame_, last_statistics_;
+    std::uint64_t samples_at_frame_ = 0;
+};
+
+}  // namespace raybundle
