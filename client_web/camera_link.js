@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells the server where the camera is, at most once per animation frame, and knows for every frame
+// that comes back which view it shows and how long it took.
+
+import {sameView} from './camera.js';
+import {FrameThrottle} from './frame_throttle.js';
+
+/**
+ * @typedef {import('./protocol.js').View} View
+ * @typedef {import('./raybundle_client.js').RaybundleClient} RaybundleClient
+ */
+
+/** Views on their way; more than this are not answered any more. */
+const MAX_PENDING = 256;
+
+export class CameraLink {
+    /** @type {Map<number, {view: View, sent: number}>} by id of the setCamera, in order */
+    #pending = new Map();
+    /** @type {View | null} */
+    #wanted = null;
+    /** @type {View | null} */
+    #sent = null;
+    #throttle = new FrameThrottle(() => this.#send());
+
+    /** @param {RaybundleClient} client */
+    constructor(client) {
+        this.client = client;
+        /**
+         * View of the newest frame.
+         *
+         * @type {View | null}
+         */
+        this.shown = null;
+    }
+
+    /** Starts anew, with a new connection. */
+    reset() {
+        this.#pending.clear();
+        this.#sent = null;
+        this.shown = null;
+    }
+
+    /** @param {View} view */
+    show(view) {
+        this.#wanted = view;
+        this.#throttle.run();
+    }
+
+    /**
+     * Takes note of a frame.
+     *
+     * @param {number} cameraId  FrameHeader.cameraId
+     * @returns {number | null} milliseconds from sending the view to now; null if the frame is not
+     *     the first that shows it
+     */
+    answered(cameraId) {
+        const entry = this.#pending.get(cameraId);
+        for (const id of this.#pending.keys()) {
+            if (id <= cameraId) {
+                this.#pending.delete(id);
+            }
+        }
+        if (!entry) {
+            return null;
+        }
+        this.shown = entry.view;
+        return performance.now() - entry.sent;
+    }
+
+    #send() {
+        const view = this.#wanted;
+        const known = view && this.#sent && sameView(view, this.#sent);
+        if (!view || known || this.client.state !== 'connected') {
+            return;
+        }
+        this.#sent = view;
+        const {eye, target, up, verticalFov} = view;
+        const {id, answer} = this.client.request({setCamera: {eye, target, up, verticalFov}});
+        this.#pending.set(id, {view, sent: performance.now()});
+        if (this.#pending.size > MAX_PENDING) {
+            this.#pending.delete(this.#pending.keys().next().value ?? 0);
+        }
+        answer.catch((error) => {
+            this.#pending.delete(id);
+            this.client.dispatchEvent(new CustomEvent('problem', {detail: error}));
+        });
+    }
+}

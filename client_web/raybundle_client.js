@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connection to a Raybundle server: greeting, requests and their answers, frames, round trips,
+// and reconnecting by itself. Knows nothing of the page around it.
+
+import {FrameReceiver} from './frame_receiver.js';
+import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protocol.js';
+
+/**
+ * @typedef {import('./protocol.js').ServerMessage} ServerMessage
+ * @typedef {import('./protocol.js').Welcome} Welcome
+ * @typedef {import('./protocol.js').Viewport} Viewport
+ * @typedef {'idle' | 'connecting' | 'connected' | 'reconnecting' | 'refused'} ConnectionState
+ * @typedef {object} ClientSettings
+ * @property {string} url  of the WebSocket, e.g. "ws://127.0.0.1:8080/ws"
+ * @property {string} [name]  shown to other viewers
+ * @property {string} [token]
+ * @property {() => Viewport} viewport  size of the pictures wanted, asked at each connection
+ */
+
+/** Silence after which a connection counts as dead, although its socket is still open. */
+const SILENCE_LIMIT_MS = 20000;
+const PING_INTERVAL_MS = 2000;
+const FIRST_RETRY_MS = 500;
+const LAST_RETRY_MS = 10000;
+
+/** Errors in answer to `hello` that trying again will not mend. */
+const FINAL_CODES = new Set([
+    'UNAUTHENTICATED',
+    'PERMISSION_DENIED',
+    'UNIMPLEMENTED',
+    'INVALID_ARGUMENT',
+]);
+
+/**
+ * Waiting time before a connection attempt: doubles from attempt to attempt, and varies so that
+ * viewers of a restarted server do not return all at once.
+ *
+ * @param {number} attempt  0 for the first retry
+ * @param {number} random  0..1
+ * @returns {number} milliseconds
+ */
+export function retryDelay(attempt, random) {
+    return Math.min(FIRST_RETRY_MS * 2 ** attempt, LAST_RETRY_MS) * (0.75 + 0.5 * random);
+}
+
+/**
+ * Events: `state` (detail {state, reason, retryAt}), `welcome`, `frame` (detail {header, image,
+ * decodeMs}), `solution`, `sceneChanged`, `roundTrip` (detail milliseconds), `problem` (detail
+ * ServerError, of a message that expects no answer), `message` (every text message).
+ */
+export class RaybundleClient extends EventTarget {
+    /** @type {WebSocket | null} */
+    #socket = null;
+    /** @type {Map<number, {resolve: (m: ServerMessage) => void, reject: (e: Error) => void}>} */
+    #waiting = new Map();
+    #nextId = 1;
+    #attempt = 0;
+    #lastHeard = 0;
+    #pinging = false;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    #retryTimer;
+    /** @type {ReturnType<typeof setInterval> | undefined} */
+    #pingTimer;
+    #frames = new FrameReceiver({
+        show: (frame) => this.#emit('frame', frame),
+        acknowledge: (frame, decodeMs) => this.send({ack: {frame, decodeMs}}),
+        fail: (error) => this.#emit('problem', new ServerError('INTERNAL', error.message)),
+    });
+
+    /** @param {ClientSettings} settings */
+    constructor(settings) {
+        super();
+        this.settings = settings;
+        /** @type {ConnectionState} */
+        this.state = 'idle';
+        /** Why the state is what it is, for people. */
+        this.reason = '';
+        /** When the next attempt begins, clock of performance.now(). */
+        this.retryAt = 0;
+        /** @type {Welcome | null} */
+        this.welcome = null;
+    }
+
+    /** Connects, or tries again at once. */
+    connect() {
+        clearTimeout(this.#retryTimer);
+        this.#drop();
+        this.#become(this.welcome ? 'reconnecting' : 'connecting', '');
+        const socket = new WebSocket(this.settings.url, SUBPROTOCOL);
+        socket.binaryType = 'arraybuffer';
+        this.#socket = socket;
+        this.#lastHeard = performance.now();
+        socket.onopen = () => this.#greet();
+        socket.onmessage = (event) => this.#receive(event.data);
+        socket.onclose = (event) => this.#lost(event.reason);
+        this.#pingTimer = setInterval(() => this.#watch(), PING_INTERVAL_MS);
+    }
+
+    /** Ends the connection and stays away. */
+    close() {
+        clearTimeout(this.#retryTimer);
+        this.#drop();
+        this.#become('idle', '');
+    }
+
+    /** While paused, frames are neither decoded nor acknowledged, so the server stops sending. */
+    set paused(/** @type {boolean} */ paused) {
+        this.#frames.paused = paused;
+    }
+
+    get paused() {
+        return this.#frames.paused;
+    }
+
+    /**
+     * Sends a message that expects no answer.
+     *
+     * @param {object} body  e.g. {setViewport: {width, height}}
+     * @returns {boolean} false: not connected
+     */
+    send(body) {
+        if (!this.#socket || this.#socket.readyState !== WebSocket.OPEN) {
+            return false;
+        }
+        this.#socket.send(JSON.stringify(body));
+        return true;
+    }
+
+    /**
+     * Sends a request.
+     *
+     * @param {object} body  e.g. {probe: {ray}}
+     * @returns {{id: number, answer: Promise<ServerMessage>}} `answer` rejects with a ServerError,
+     *     or an Error if the connection is lost
+     */
+    request(body) {
+        const id = this.#nextId++;
+        const answer = new Promise((resolve, reject) => {
+            if (this.send({id, ...body})) {
+                this.#waiting.set(id, {resolve, reject});
+            } else {
+                reject(new Error('not connected'));
+            }
+        });
+        return {id, answer};
+    }
+
+    async #greet() {
+        const hello = {
+            protocol: PROTOCOL_VERSION,
+            name: this.settings.name ?? '',
+            token: this.settings.token ?? '',
+            codecs: ['JPEG', 'PNG'],
+            viewport: this.settings.viewport(),
+        };
+        try {
+            const {welcome} = await this.request({hello}).answer;
+            if (!welcome) {
+                throw new ServerError(
+                    'INVALID_ARGUMENT',
+                    'The server did not answer the greeting.',
+                );
+            }
+            this.#welcomed(welcome);
+        } catch (error) {
+            if (error instanceof ServerError) {
+                this.#refused(error);
+            }
+        }
+    }
+
+    /** @param {Welcome} welcome */
+    #welcomed(welcome) {
+        if (majorVersion(welcome.protocol) !== majorVersion(PROTOCOL_VERSION)) {
+            const versions = `${welcome.protocol}, this page ${PROTOCOL_VERSION}`;
+            this.#refused(
+                new ServerError('UNIMPLEMENTED', `The server speaks protocol ${versions}.`),
+            );
+            return;
+        }
+        this.#attempt = 0;
+        this.welcome = welcome;
+        this.#become('connected', '');
+        this.#emit('welcome', welcome);
+        this.#ping();
+    }
+
+    /** @param {ServerError} error */
+    #refused(error) {
+        this.#drop();
+        if (FINAL_CODES.has(error.code)) {
+            this.#become('refused', error.message);
+        } else {
+            this.#retryLater(error.message);
+        }
+    }
+
+    /** @param {string} reason */
+    #lost(reason) {
+        this.#drop();
+        this.#retryLater(reason);
+    }
+
+    /** @param {string} reason */
+    #retryLater(reason) {
+        const delay = retryDelay(this.#attempt++, Math.random());
+        this.retryAt = performance.now() + delay;
+        this.#retryTimer = setTimeout(() => this.connect(), delay);
+        this.#become('reconnecting', reason);
+    }
+
+    /** Lets go of the socket and of everything that waits for it. */
+    #drop() {
+        clearInterval(this.#pingTimer);
+        const socket = this.#socket;
+        this.#socket = null;
+        if (socket) {
+            socket.onopen = socket.onmessage = socket.onclose = null;
+            socket.close();
+        }
+        this.#frames.reset();
+        const waiting = [...this.#waiting.values()];
+        this.#waiting.clear();
+        waiting.forEach(({reject}) => reject(new Error('connection lost')));
+    }
+
+    #watch() {
+        if (performance.now() - this.#lastHeard > SILENCE_LIMIT_MS) {
+            this.#lost('The server has gone silent.');
+        } else if (this.state === 'connected') {
+            this.#ping();
+        }
+    }
+
+    async #ping() {
+        if (this.#pinging) {
+            return;
+        }
+        this.#pinging = true;
+        const start = performance.now();
+        try {
+            await this.request({ping: {}}).answer;
+            this.#emit('roundTrip', performance.now() - start);
+        } catch {
+            // A lost connection tells its own story, by its state.
+        }
+        this.#pinging = false;
+    }
+
+    /** @param {ArrayBuffer | string} data */
+    #receive(data) {
+        this.#lastHeard = performance.now();
+        if (data instanceof ArrayBuffer) {
+            this.#frames.push(data);
+            return;
+        }
+        /** @type {ServerMessage} */
+        let message;
+        try {
+            message = JSON.parse(data);
+        } catch {
+            this.#emit('problem', new ServerError('INTERNAL', 'The server sent unreadable text.'));
+            return;
+        }
+        this.#dispatch(message);
+    }
+
+    /** @param {ServerMessage} message */
+    #dispatch(message) {
+        this.#emit('message', message);
+        if (message.solution) {
+            this.#emit('solution', message.solution);
+        }
+        if (message.sceneChanged) {
+            this.#emit('sceneChanged', message.sceneChanged);
+        }
+        const {replyTo, error} = message;
+        const waiting = replyTo === undefined ? undefined : this.#waiting.get(replyTo);
+        if (replyTo !== undefined) {
+            this.#waiting.delete(replyTo);
+        }
+        if (error) {
+            const failure = new ServerError(error.code, error.message);
+            if (waiting) {
+                waiting.reject(failure);
+            } else if (this.state === 'connected') {
+                this.#emit('problem', failure);
+            } else {
+                this.#refused(failure);
+            }
+        } else {
+            waiting?.resolve(message);
+        }
+    }
+
+    /**
+     * @param {ConnectionState} state
+     * @param {string} reason
+     */
+    #become(state, reason) {
+        this.state = state;
+        this.reason = reason;
+        this.#emit('state', {state, reason, retryAt: this.retryAt});
+    }
+
+    /**
+     * @param {string} type
+     * @param {unknown} detail
+     */
+    #emit(type, detail) {
+        this.dispatchEvent(new CustomEvent(type, {detail}));
+    }
+}

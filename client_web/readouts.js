@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures in the panel: accuracy, progress and stream. Drawn a few times a second, not for
+// every frame.
+
+import {byId, showValue} from './elements.js';
+import {count, milliseconds, percent, progress, rate} from './format.js';
+import {ErrorHistory, RateMeter, Samples} from './meters.js';
+import {drawSparkline} from './sparkline.js';
+
+/**
+ * @typedef {import('./protocol.js').FrameHeader} FrameHeader
+ * @typedef {import('./protocol.js').Solution} Solution
+ */
+
+const REFRESH_MS = 250;
+
+/** From here on the light counts as settled. */
+export const SETTLED = 0.95;
+
+export class Readouts {
+    #frames = new RateMeter();
+    #latency = new Samples();
+    #roundTrip = new Samples(10);
+    #decode = new Samples();
+    #history = new ErrorHistory();
+    /** @type {FrameHeader | null} */
+    #header = null;
+    /** @type {Solution | null} */
+    #solution = null;
+    #sparkline = byId('sparkline', SVGSVGElement);
+    #bar = byId('settled', HTMLProgressElement);
+
+    constructor() {
+        setInterval(() => this.#refresh(), REFRESH_MS);
+        this.#refresh();
+    }
+
+    /** Starts anew, with a new connection. */
+    reset() {
+        this.#solution = null;
+        this.#latency.clear();
+        this.#roundTrip.clear();
+        this.#history.clear();
+    }
+
+    /**
+     * @param {FrameHeader} header
+     * @param {number} decodeMs
+     * @param {number | null} latencyMs  where the frame answers a camera
+     */
+    frame(header, decodeMs, latencyMs) {
+        this.#header = header;
+        this.#frames.count(performance.now());
+        this.#decode.add(decodeMs);
+        if (latencyMs !== null) {
+            this.#latency.add(latencyMs);
+        }
+        this.#history.add(performance.now(), header);
+    }
+
+    /** @param {Solution} solution */
+    solution(solution) {
+        this.#solution = solution;
+        this.#history.add(performance.now(), solution);
+    }
+
+    /** @param {number} ms */
+    roundTrip(ms) {
+        this.#roundTrip.add(ms);
+    }
+
+    /** The figures, for scripts. Delays are medians of the last ones, milliseconds. */
+    get stats() {
+        const state = this.#solution ?? this.#header;
+        return {
+            framesPerSecond: this.#frames.rate(performance.now()),
+            iterations: state?.iterations ?? null,
+            iterationsPerSecond: this.#solution?.iterationsPerSecond ?? null,
+            settled: state?.settled ?? 0,
+            relativeError: state?.relativeError ?? null,
+            errorLow: state?.errorLow ?? null,
+            errorHigh: state?.errorHigh ?? null,
+            secondsToTarget: this.#solution?.secondsToTarget ?? null,
+            latencyMs: this.#latency.quantile(0.5),
+            latencyP95Ms: this.#latency.quantile(0.95),
+            roundTripMs: this.#roundTrip.quantile(0.5),
+            decodeMs: this.#decode.quantile(0.5),
+        };
+    }
+
+    #refresh() {
+        const stats = this.stats;
+        const {errorLow: low, errorHigh: high, settled} = stats;
+        showValue('error', percent(stats.relativeError));
+        const hasInterval = low !== null && high !== null;
+        showValue('errorInterval', hasInterval ? `${percent(low)} to ${percent(high)}` : '–');
+        showValue('iterations', count(stats.iterations));
+        showValue('iterationRate', rate(stats.iterationsPerSecond));
+        showValue('frameRate', rate(stats.framesPerSecond));
+        showValue('latency', milliseconds(stats.latencyMs));
+        showValue('roundTrip', milliseconds(stats.roundTripMs));
+        showValue('decode', milliseconds(stats.decodeMs));
+        showValue('settled', this.#header || this.#solution ? progress(settled) : '–');
+        this.#bar.value = settled;
+        this.#bar.classList.toggle('done', settled >= SETTLED);
+        this.#showTarget(stats.secondsToTarget);
+        this.#showFormat();
+        drawSparkline(this.#sparkline, this.#history.samples);
+    }
+
+    /** @param {number | null} seconds */
+    #showTarget(seconds) {
+        const row = document.querySelector('[data-row="secondsToTarget"]');
+        row?.toggleAttribute('hidden', seconds === null);
+        showValue('secondsToTarget', seconds === null ? '' : `${seconds.toFixed(1)} s`);
+    }
+
+    #showFormat() {
+        const header = this.#header;
+        const quality = header?.codec === 'JPEG' ? ` ${header.quality}` : '';
+        const format = header
+            ? `${header.width} × ${header.height} ${header.codec}${quality}`
+            : '–';
+        showValue('format', format);
+    }
+}

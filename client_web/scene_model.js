@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page knows of the scene: objects, where they stand, and where the server last said they
+// stand. The two differ while a move is on its way.
+
+import {
+    IDENTITY,
+    add,
+    boundsOf,
+    completeTransform,
+    corners,
+    inverseMatrixPoint,
+    inverseMatrixVector,
+    inverseTransformPoint,
+    matrixPoint,
+    matrixVector,
+    sub,
+    transformPoint,
+} from './vector.js';
+
+/**
+ * @typedef {import('./protocol.js').Vec3} Vec3
+ * @typedef {import('./protocol.js').Bounds} Bounds
+ * @typedef {import('./protocol.js').Transform} Transform
+ * @typedef {import('./protocol.js').Scene} Scene
+ * @typedef {import('./protocol.js').SceneObject} SceneObject
+ * @typedef {import('./protocol.js').SceneChanged} SceneChanged
+ */
+
+/**
+ * World bounds after a change of the local transform. Exact for a shift, a box around the turned or
+ * scaled box otherwise.
+ *
+ * @param {Bounds} bounds  world bounds at `before`
+ * @param {Transform} before
+ * @param {Transform} after
+ * @param {readonly number[]} [worldFromParent]
+ * @returns {Bounds}
+ */
+export function movedBounds(bounds, before, after, worldFromParent = IDENTITY) {
+    return boundsOf(
+        corners(bounds).map((corner) => {
+            const inParent = inverseMatrixPoint(worldFromParent, corner);
+            const moved = transformPoint(after, inverseTransformPoint(before, inParent));
+            return matrixPoint(worldFromParent, moved);
+        }),
+    );
+}
+
+/**
+ * A transform shifted along the world's axes.
+ *
+ * @param {Transform} transform
+ * @param {Vec3} shift  metres, world space
+ * @param {readonly number[]} [worldFromParent]
+ * @returns {Required<Transform>}
+ */
+export function shifted(transform, shift, worldFromParent = IDENTITY) {
+    const complete = completeTransform(transform);
+    const inParent = inverseMatrixVector(worldFromParent, shift);
+    return {...complete, translation: add(complete.translation, inParent)};
+}
+
+/** One object, with its place now and its place as the server last told. */
+export class PlacedObject {
+    /** @type {Bounds} */
+    #originalBounds;
+    /** @type {Transform} */
+    #originalTransform;
+
+    /** @param {SceneObject} object */
+    constructor({id, name, movable, bounds, transform, worldFromParent}) {
+        this.id = id;
+        this.name = name || `Object ${id}`;
+        this.movable = movable;
+        /** Affine 4x4 matrix, column by column. */
+        this.worldFromParent = worldFromParent?.length === 16 ? worldFromParent : IDENTITY;
+        this.#originalBounds = bounds;
+        this.#originalTransform = transform;
+        /** Local transform, shown now. */
+        this.transform = completeTransform(transform);
+        /** Local transform that the server has confirmed. */
+        this.confirmed = this.transform;
+        /** World bounds at `transform`. */
+        this.bounds = bounds;
+    }
+
+    /** @param {Transform} transform */
+    place(transform) {
+        this.transform = completeTransform(transform);
+        this.bounds = movedBounds(
+            this.#originalBounds,
+            this.#originalTransform,
+            this.transform,
+            this.worldFromParent,
+        );
+    }
+
+    /** @param {Transform} transform */
+    confirm(transform) {
+        this.confirmed = completeTransform(transform);
+    }
+
+    /** Where it has been moved to since the scene was loaded into this page, metres. */
+    get shift() {
+        const original = completeTransform(this.#originalTransform).translation;
+        return matrixVector(this.worldFromParent, sub(this.transform.translation, original));
+    }
+}
+
+/** The scene of one connection. */
+export class SceneModel {
+    /**
+     * @param {Scene} scene
+     * @param {number} epoch
+     */
+    constructor(scene, epoch) {
+        this.name = scene.name;
+        this.bounds = scene.bounds;
+        this.cameras = scene.cameras ?? [];
+        this.effects = scene.effects ?? [];
+        this.epoch = epoch;
+        this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
+    }
+
+    /**
+     * @param {number | null | undefined} id
+     * @returns {PlacedObject | null}
+     */
+    object(id) {
+        return this.objects.find((object) => object.id === id) ?? null;
+    }
+
+    /**
+     * Takes in a change that the server announces.
+     *
+     * @param {SceneChanged} change
+     * @param {number | null} held  object in the user's hand, which stays there
+     */
+    apply(change, held) {
+        this.epoch = change.epoch;
+        const move = change.moveObject;
+        const object = move ? this.object(move.object) : null;
+        if (!move || !object) {
+            return;
+        }
+        object.confirm(move.transform);
+        if (object.id !== held) {
+            object.place(move.transform);
+        }
+    }
+}
