@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// The client's maths and bookkeeping, without a browser.
+
+import assert from 'node:assert/strict';
+import {describe, it} from 'node:test';
+
+import * as camera from '../../client_web/camera.js';
+import {motionOf, walkingSpeed} from '../../client_web/camera_control.js';
+import {carried, grip, keptInside} from '../../client_web/drag.js';
+import * as format from '../../client_web/format.js';
+import {ErrorHistory, RateMeter, Samples} from '../../client_web/meters.js';
+import {outlinePath, visibleEdges} from '../../client_web/overlay.js';
+import {pickByBounds} from '../../client_web/picking.js';
+import {fitViewport} from '../../client_web/picture.js';
+import {retryDelay} from '../../client_web/raybundle_client.js';
+import {SceneModel, movedBounds, shifted} from '../../client_web/scene_model.js';
+import {notesOf} from '../../client_web/scene_panel.js';
+import {layOut} from '../../client_web/sparkline.js';
+import * as vector from '../../client_web/vector.js';
+
+const {vec3} = vector;
+
+const FRONT = {
+    eye: vec3(2.75, 2.75, -7.5),
+    target: vec3(2.75, 2.75, 2.75),
+    up: vec3(0, 1, 0),
+    verticalFov: 0.7,
+};
+const ROOM = {min: vec3(0, 0, 0), max: vec3(5.5, 5.5, 5.5)};
+const BOX = {min: vec3(1, 0, 1), max: vec3(2, 1, 2)};
+const STILL = {
+    translation: vec3(0, 0, 0),
+    rotation: {x: 0, y: 0, z: 0, w: 1},
+    scale: vec3(1, 1, 1),
+};
+
+/** Asserts that two points are the same but for rounding. */
+function near(actual, expected, tolerance = 1e-9) {
+    const distance = vector.length(vector.sub(actual, expected));
+    const text = `${JSON.stringify(actual)} is not ${JSON.stringify(expected)}`;
+    assert.ok(distance <= tolerance, text);
+}
+
+function close(actual, expected, tolerance = 1e-9) {
+    assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
+}
+
+describe('camera', () => {
+    it('projects the target to the middle of the picture', () => {
+        const {x, y, depth} = camera.project(FRONT, 1.5, FRONT.target);
+        close(x, 0.5);
+        close(y, 0.5);
+        close(depth, 10.25);
+    });
+
+    it('sends rays through the points it projects', () => {
+        for (const point of [vec3(0, 0, 0), vec3(5.5, 1, 5), vec3(3, 5, 1)]) {
+            const {x, y} = camera.project(FRONT, 1.5, point);
+            const ray = camera.rayThrough(FRONT, 1.5, x, y);
+            near(ray.direction, vector.normalise(vector.sub(point, FRONT.eye)));
+        }
+    });
+
+    it('shows +x on the left when it looks along +z', () => {
+        assert.ok(camera.project(FRONT, 1, vec3(3, 2.75, 0)).x < 0.5);
+    });
+
+    it('reports what lies behind the eye by its depth', () => {
+        assert.ok(camera.project(FRONT, 1, vec3(2.75, 2.75, -9)).depth < 0);
+    });
+
+    it('keeps distance and target in orbit, and stops short of the vertical', () => {
+        const turned = camera.orbit(FRONT, 0.4, -9);
+        near(turned.target, FRONT.target);
+        close(vector.length(vector.sub(turned.eye, turned.target)), 10.25, 1e-6);
+        assert.ok(camera.angles(turned).elevation > -Math.PI / 2);
+        const {right} = camera.axes(turned);
+        close(right.y, 0, 1e-9);
+    });
+
+    it('keeps the eye while looking around', () => {
+        const turned = camera.look(FRONT, 0.3, 0.2);
+        near(turned.eye, FRONT.eye);
+        const [before, after] = [camera.angles(FRONT), camera.angles(turned)];
+        const turn = after.heading - before.heading;
+        close(Math.cos(turn), Math.cos(0.3));
+        close(Math.sin(turn), Math.sin(0.3));
+        close(after.elevation, 0.2);
+    });
+
+    it('walks on the level wherever it looks', () => {
+        const down = camera.look(FRONT, 0, -0.8);
+        const walked = camera.walk(down, 2, 0, 0);
+        near(vector.sub(walked.eye, down.eye), vec3(0, 0, 2));
+        const aside = camera.walk(FRONT, 0, 1, 0);
+        near(vector.sub(aside.eye, FRONT.eye), vec3(-1, 0, 0));
+    });
+
+    it('takes the heading of a plan view from its up vector', () => {
+        const plan = {...FRONT, eye: vec3(0, 9, 0), target: vec3(0, 0, 0), up: vec3(0, 0, 1)};
+        near(vector.sub(camera.walk(plan, 1, 0, 0).eye, plan.eye), vec3(0, 0, 1));
+    });
+
+    it('comes no nearer than the target and goes no further than the limit', () => {
+        const distance = (view) => vector.length(vector.sub(view.eye, view.target));
+        assert.ok(distance(camera.dolly(FRONT, 1e-9, 50)) > 0);
+        close(distance(camera.dolly(FRONT, 1e9, 50)), 50, 1e-6);
+    });
+
+    it('pans by heights of the picture', () => {
+        const moved = camera.pan(FRONT, 0, 1);
+        close(moved.eye.y - FRONT.eye.y, 2 * Math.tan(0.35) * 10.25);
+    });
+
+    it('flies from one view to another the short way round', () => {
+        const away = {...camera.look(FRONT, 0.5, 0.1), verticalFov: 1};
+        assert.equal(camera.between(FRONT, away, 1), away);
+        assert.ok(camera.sameView(camera.between(FRONT, away, 1), away));
+        near(camera.between(FRONT, away, 0).target, FRONT.target, 1e-6);
+        const middle = camera.angles(camera.between(FRONT, away, 0.5)).heading;
+        const turn = middle - camera.angles(FRONT).heading;
+        close(Math.sin(turn), Math.sin(0.25), 1e-6);
+    });
+
+    it('widens the field of view on upright screens only', () => {
+        close(camera.framedFov(0.7, 1.6), 0.7);
+        close(camera.framedFov(0.7, 0.5), 2 * Math.atan(2 * Math.tan(0.35)));
+        assert.ok(camera.framedFov(1.5, 0.1) < Math.PI);
+    });
+
+    it('reads held keys as motion, opposite keys cancelling', () => {
+        assert.equal(motionOf(['KeyW', 'KeyS'], 'walk').forwards, 0);
+        assert.equal(motionOf(['KeyW', 'ArrowUp'], 'walk').forwards, 1);
+        assert.equal(motionOf(['ArrowUp'], 'orbit').tilt, -1);
+        assert.equal(motionOf(['KeyX'], 'orbit').forwards, 0);
+        assert.equal(walkingSpeed({min: vec3(0, 0, 0), max: vec3(900, 9, 900)}), 2);
+    });
+});
+
+describe('boxes', () => {
+    it('are entered and left by rays that meet them', () => {
+        const ray = {origin: vec3(-1, 0.5, 1.5), direction: vec3(1, 0, 0)};
+        assert.deepEqual(vector.intersectBounds(ray, BOX), {enter: 2, leave: 3});
+    });
+
+    it('are missed by rays beside them and by rays that point away', () => {
+        const beside = {origin: vec3(-1, 3, 1.5), direction: vec3(1, 0, 0)};
+        const away = {origin: vec3(-1, 0.5, 1.5), direction: vec3(-1, 0, 0)};
+        assert.equal(vector.intersectBounds(beside, BOX), null);
+        assert.equal(vector.intersectBounds(away, BOX), null);
+    });
+
+    it('enclose the eye with a negative entry', () => {
+        const ray = {origin: vec3(1.5, 0.5, 1.5), direction: vec3(0, 0, 1)};
+        assert.deepEqual(vector.intersectBounds(ray, BOX), {enter: -0.5, leave: 0.5});
+    });
+
+    it('move with a shift exactly, whatever the rotation', () => {
+        const before = {...STILL, rotation: {x: 0, y: 0.6, z: 0, w: 0.8}, scale: vec3(2, 3, 4)};
+        const after = shifted(before, vec3(1, 0, -2));
+        const moved = movedBounds(BOX, before, after);
+        near(moved.min, vec3(2, 0, -1));
+        near(moved.max, vec3(3, 1, 0));
+    });
+
+    it('move along the world under a turned and scaled parent', () => {
+        // Z up, in centimetres: the parent turns z to y and scales by 0.01.
+        const parent = [0.01, 0, 0, 0, 0, 0, -0.01, 0, 0, 0.01, 0, 0, 5, 6, 7, 1];
+        const after = shifted(STILL, vec3(1, 0, -2), parent);
+        near(after.translation, vec3(100, 200, 0));
+        const moved = movedBounds(BOX, STILL, after, parent);
+        near(moved.min, vec3(2, 0, -1));
+        near(moved.max, vec3(3, 1, 0));
+    });
+
+    it('show three faces, one face or all edges', () => {
+        assert.equal(visibleEdges(BOX, vec3(9, 9, 9)).length, 9);
+        assert.equal(visibleEdges(BOX, vec3(1.5, 0.5, 9)).length, 4);
+        assert.equal(visibleEdges(BOX, vec3(1.5, 0.5, 1.5)).length, 12);
+    });
+
+    it('are drawn up to the eye and not behind it', () => {
+        const view = {...FRONT, eye: vec3(1.5, 0.5, 1.2), target: vec3(1.5, 0.5, 9)};
+        const path = outlinePath(BOX, view, 400, 300);
+        assert.ok(path.startsWith('M') && !path.includes('NaN'));
+        const behind = {...FRONT, target: vec3(2.75, 2.75, -99)};
+        assert.equal(outlinePath(BOX, behind, 400, 300), '');
+    });
+});
+
+describe('scene', () => {
+    const scene = () => {
+        const box = {id: 2, name: 'box', movable: true, bounds: BOX, transform: STILL};
+        const room = {id: 1, name: '', movable: false, bounds: ROOM, transform: {}};
+        return new SceneModel({name: 's', bounds: ROOM, objects: [room, box]}, 4);
+    };
+    const moved = {...STILL, translation: vec3(0.5, 0, 0)};
+    const change = {epoch: 5, by: 7, moveObject: {object: 2, transform: moved}};
+
+    it('follows announced moves', () => {
+        const model = scene();
+        model.apply(change, null);
+        assert.equal(model.epoch, 5);
+        near(model.object(2).bounds.min, vec3(1.5, 0, 1));
+        near(model.object(2).shift, vec3(0.5, 0, 0));
+    });
+
+    it('leaves what is in the hand where it is, and remembers the place', () => {
+        const model = scene();
+        model.apply(change, 2);
+        near(model.object(2).bounds.min, vec3(1, 0, 1));
+        near(model.object(2).confirmed.translation, vec3(0.5, 0, 0));
+    });
+
+    it('takes unknown objects and nameless ones in its stride', () => {
+        const model = scene();
+        model.apply({epoch: 6, by: 0, moveObject: {object: 99, transform: STILL}}, null);
+        assert.equal(model.epoch, 6);
+        assert.equal(model.object(1).name, 'Object 1');
+        assert.equal(model.object(null), null);
+    });
+
+    it('picks movable objects before the room around them', () => {
+        const {objects} = scene();
+        const through = (x, y, z) => ({origin: vec3(x, y, -9), direction: vec3(0, 0, z)});
+        assert.equal(pickByBounds(objects, through(1.5, 0.5, 1))?.id, 2);
+        assert.equal(pickByBounds(objects, through(4, 4, 1))?.id, 1);
+        assert.equal(pickByBounds(objects, through(4, 4, -1)), null);
+    });
+
+    it('tells only of effects that are on', () => {
+        const effects = [
+            {name: 'sky', active: true, reason: 'the scene has no emitter'},
+            {name: 'glossy', active: false, reason: 'no glossy material'},
+        ];
+        assert.deepEqual(notesOf(effects), ['sky: the scene has no emitter']);
+    });
+});
+
+describe('drag', () => {
+    const rayTo = (view, point) => {
+        const {x, y} = camera.project(view, 1.5, point);
+        return camera.rayThrough(view, 1.5, x, y);
+    };
+
+    it('keeps the grabbed point under the pointer', () => {
+        const held = grip(BOX, rayTo(FRONT, vec3(1.5, 0.5, 1)));
+        near(held.point, vec3(1.5, 0.5, 1), 1e-6);
+        const to = vec3(2.6, 0.5, 1.9);
+        near(carried(held, rayTo(FRONT, to), FRONT), vec3(1.1, 0, 0.9), 1e-6);
+    });
+
+    it('stays put while the pointer is above the horizon', () => {
+        const held = grip(BOX, rayTo(FRONT, vec3(1.5, 0.5, 1)));
+        assert.equal(carried(held, rayTo(FRONT, vec3(1.5, 4, 1)), FRONT), null);
+    });
+
+    it('moves sideways and away where the floor is seen edge-on', () => {
+        const low = {...FRONT, eye: vec3(1.5, 0.5, -7), target: vec3(1.5, 0.5, 1)};
+        const held = grip(BOX, rayTo(low, vec3(1.5, 0.5, 1)));
+        assert.equal(held.level, false);
+        near(carried(held, rayTo(low, vec3(2, 0.5, 1)), low), vec3(0.5, 0, 0), 1e-6);
+        const away = carried(held, rayTo(low, vec3(1.5, 0.7, 1)), low);
+        near(away, vec3(0, 0, 0.2), 1e-6);
+    });
+
+    it('does not grab what the ray misses', () => {
+        assert.equal(grip(BOX, rayTo(FRONT, vec3(5, 5, 1))), null);
+    });
+
+    it('stops at the walls, but leaves what sticks out', () => {
+        near(keptInside(vec3(9, 0, -9), BOX, ROOM), vec3(3.5, 0, -1));
+        const out = {min: vec3(-1, 0, 1), max: vec3(0, 1, 2)};
+        near(keptInside(vec3(-1, 0, 0), out, ROOM), vec3(0, 0, 0));
+        near(keptInside(vec3(2, 0, 0), out, ROOM), vec3(2, 0, 0));
+    });
+});
+
+describe('figures', () => {
+    it('ask for device pixels within the limits, in proportion', () => {
+        const limits = {maxWidth: 3840, maxHeight: 2160};
+        assert.deepEqual(fitViewport(800, 600, 1, 1280 * 960, limits), {width: 800, height: 600});
+        const {width, height} = fitViewport(1000, 750, 3, 1280 * 960, limits);
+        assert.ok(width * height <= 1280 * 960 && Math.abs(width / height - 4 / 3) < 0.01);
+        assert.equal(fitViewport(9000, 100, 1, Infinity, limits).width, 3840);
+        assert.deepEqual(fitViewport(0, 0, 1, Infinity, limits), {width: 16, height: 16});
+    });
+
+    it('wait longer from attempt to attempt, up to a limit', () => {
+        assert.ok(retryDelay(0, 0.5) < retryDelay(1, 0.5));
+        assert.ok(retryDelay(1000, 1) <= 12500);
+    });
+
+    it('count events of the last moments only', () => {
+        const meter = new RateMeter(1000);
+        [0, 900, 1000, 1100].forEach((time) => meter.count(time));
+        assert.equal(meter.rate(1200), 3);
+        assert.equal(meter.rate(5000), 0);
+    });
+
+    it('give quantiles of the last samples', () => {
+        const samples = new Samples(3);
+        assert.equal(samples.quantile(0.5), null);
+        [100, 3, 1, 2].forEach((value) => samples.add(value));
+        assert.equal(samples.quantile(0.5), 2);
+        assert.equal(samples.quantile(1), 3);
+    });
+
+    it('keep the course of the error, thinned and bounded', () => {
+        const history = new ErrorHistory(1000, 100);
+        assert.ok(history.add(0, {epoch: 0, relativeError: 0.5}));
+        assert.ok(!history.add(50, {epoch: 0, relativeError: 0.4}));
+        assert.ok(history.add(60, {epoch: 1, relativeError: 0.4, errorLow: 0.3, errorHigh: 0.6}));
+        assert.ok(!history.add(400, {epoch: 1}));
+        assert.ok(history.add(1050, {epoch: 1, relativeError: 0.2}));
+        assert.equal(history.samples.length, 2);
+        assert.equal(history.samples[0].high, 0.6);
+    });
+
+    it('draw errors from left to right, falling as they fall', () => {
+        const sample = (time, error, epoch) => ({time, error, low: error, high: error, epoch});
+        const samples = [sample(0, 0.5, 0), sample(500, 0.05, 0), sample(1000, 0.02, 1)];
+        const plot = layOut(samples, 100, 50, 1000);
+        const points = [...plot.line.matchAll(/[ML]([\d.]+) ([\d.]+)/g)];
+        const [x, y] = [1, 2].map((part) => points.map((match) => Number(match[part])));
+        assert.deepEqual(x, [0, 50, 100]);
+        assert.ok(y[0] < y[1] && y[1] < y[2] && y[2] <= 50);
+        assert.equal(plot.changes, 'M100.0 0V50');
+        assert.deepEqual(
+            plot.decades.map(({share}) => share),
+            [0.1],
+        );
+        assert.equal(layOut([], 100, 50, 1000).line, '');
+    });
+
+    it('read well, and as a dash where nothing is known', () => {
+        assert.equal(format.percent(0.0184), '1.8 %');
+        assert.equal(format.percent(0.31), '31 %');
+        assert.equal(format.percent(undefined), '–');
+        assert.equal(format.progress(0.9999), '99 %');
+        assert.equal(format.progress(1), '100 %');
+        assert.equal(format.count(1234567), '1\u202f234\u202f567');
+        assert.equal(format.metres(-0.5), '−0.50 m');
+        assert.equal(format.milliseconds(NaN), '–');
+    });
+});

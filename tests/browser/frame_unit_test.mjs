@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames: taken apart, decoded newest first, acknowledged after decoding.
+
+import assert from 'node:assert/strict';
+import {beforeEach, describe, it} from 'node:test';
+
+import {FrameReceiver, parseFrame} from '../../client_web/frame_receiver.js';
+
+/**
+ * A frame on the wire.
+ *
+ * @param {object} header
+ * @param {number[]} image
+ */
+function message(header, image = [1, 2, 3]) {
+    const text = new TextEncoder().encode(JSON.stringify(header));
+    const bytes = new Uint8Array(4 + text.length + image.length);
+    new DataView(bytes.buffer).setUint32(0, text.length, true);
+    bytes.set(text, 4);
+    bytes.set(image, 4 + text.length);
+    return bytes.buffer;
+}
+
+const frame = (number) => message({frame: number, codec: 'JPEG', cameraId: 0});
+
+describe('a binary message', () => {
+    it('is taken apart into header and image', () => {
+        const {header, image} = parseFrame(message({frame: 7, codec: 'PNG'}, [9, 8]));
+        assert.deepEqual(header, {frame: 7, codec: 'PNG'});
+        assert.deepEqual([...image], [9, 8]);
+    });
+
+    it('is refused where it is no frame', () => {
+        const tooLong = message({frame: 1, codec: 'JPEG'});
+        new DataView(tooLong).setUint32(0, 4000, true);
+        const notJson = frame(1);
+        new Uint8Array(notJson)[4] = 0x78;
+        const wrong = [new ArrayBuffer(3), tooLong, notJson, message({codec: 'JPEG'})];
+        wrong.push(message({frame: 1, codec: 'GIF'}), message([1]));
+        for (const bytes of wrong) {
+            assert.throws(() => parseFrame(bytes));
+        }
+    });
+});
+
+describe('the receiver of frames', () => {
+    /** @type {string[]} */
+    let log;
+    /** @type {FrameReceiver} */
+    let receiver;
+    /** @type {((image: object) => void)[]} */
+    let decoding;
+
+    const settle = () => new Promise((resolve) => setTimeout(resolve, 0));
+    const decodeNext = async () => {
+        decoding.shift()({close: () => log.push('close')});
+        await settle();
+    };
+
+    beforeEach(() => {
+        log = [];
+        decoding = [];
+        globalThis.createImageBitmap = () => new Promise((resolve) => decoding.push(resolve));
+        receiver = new FrameReceiver({
+            show: ({header}) => log.push(`show ${header.frame}`),
+            acknowledge: (number) => log.push(`ack ${number}`),
+            fail: () => log.push('fail'),
+        });
+    });
+
+    it('acknowledges after decoding, and closes the image', async () => {
+        receiver.push(frame(1));
+        await settle();
+        assert.deepEqual(log, []);
+        await decodeNext();
+        assert.deepEqual(log, ['show 1', 'close', 'ack 1']);
+    });
+
+    it('decodes only the newest of those that arrive meanwhile', async () => {
+        [1, 2, 3, 4].forEach((number) => receiver.push(frame(number)));
+        await decodeNext();
+        await decodeNext();
+        assert.equal(decoding.length, 0);
+        assert.deepEqual(
+            log.filter((entry) => entry.startsWith('show')),
+            ['show 1', 'show 4'],
+        );
+    });
+
+    it('says nothing of a frame of the last connection', async () => {
+        receiver.push(frame(1));
+        receiver.reset();
+        receiver.push(frame(1));
+        await decodeNext();
+        assert.deepEqual(log, ['close']);
+        await decodeNext();
+        assert.deepEqual(log, ['close', 'show 1', 'close', 'ack 1']);
+    });
+
+    it('acknowledges what it cannot decode, so that the stream goes on', async () => {
+        globalThis.createImageBitmap = () => Promise.reject(new Error('broken'));
+        receiver.push(frame(5));
+        await settle();
+        assert.deepEqual(log, ['fail', 'ack 5']);
+    });
+
+    it('neither decodes nor acknowledges while paused', async () => {
+        receiver.paused = true;
+        receiver.push(frame(1));
+        receiver.push(frame(2));
+        await settle();
+        assert.equal(decoding.length, 0);
+        receiver.paused = false;
+        await decodeNext();
+        assert.deepEqual(log, ['show 2', 'close', 'ack 2']);
+    });
+});

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "bundle/hemicube.h"
+#include "bundle/layered_window.h"
+#include "bundle/low_discrepancy.h"
+#include "transport/iteration_schedule.h"
+
+namespace raybundle {
+namespace {
+
+TEST(LowDiscrepancy, RadicalInverseMirrorsDigits) {
+    EXPECT_DOUBLE_EQ(radical_inverse(2, 0), 0.0);
+    EXPECT_DOUBLE_EQ(radical_inverse(2, 1), 0.5);
+    EXPECT_DOUBLE_EQ(radical_inverse(2, 6), 0.375);      // 110 -> 0.011
+    EXPECT_DOUBLE_EQ(radical_inverse(3, 5), 7.0 / 9.0);  // 12 -> 0.21
+}
+
+TEST(LowDiscrepancy, EveryIntervalGetsItsShare) {
+    const RandomisedHalton numbers(7, 3);
+    std::array<int, 16> counts{};
+    for (std::uint64_t i = 1; i <= 1600; ++i) {
+        ++counts[static_cast<std::size_t>(numbers.sample(0, i) * 16.0)];
+    }
+    for (const int count : counts) {
+        EXPECT_NEAR(count, 100, 2);
+    }
+}
+
+TEST(LowDiscrepancy, BatchesAreShiftedIndependently) {
+    EXPECT_NE(RandomisedHalton(7, 0).sample(0, 1), RandomisedHalton(7, 1).sample(0, 1));
+    EXPECT_EQ(RandomisedHalton(7, 1).sample(0, 1), RandomisedHalton(7, 1).sample(0, 1));
+}
+
+TEST(IterationSchedule, StrategiesComeInTheirProbabilities) {
+    IterationSchedule schedule(1, {0.3F, 0.0F, 0.7F});
+    int layered = 0;
+    for (int i = 0; i < 8000; ++i) {
+        layered += schedule.next().strategy == Strategy::layered ? 1 : 0;
+    }
+    EXPECT_NEAR(layered, 2400, 16);
+}
+
+TEST(IterationSchedule, DirectionsCoverTheSphereEvenly) {
+    glm::dvec3 sum(0.0);
+    double z_squared = 0.0;
+    constexpr int n = 4096;
+    for (int i = 0; i < n; ++i) {
+        const glm::vec3 d = uniform_direction(radical_inverse(2, static_cast<unsigned>(i)),
+                                              radical_inverse(3, static_cast<unsigned>(i)));
+        EXPECT_NEAR(glm::length(d), 1.0F, 1e-5F);
+        sum += glm::dvec3(d);
+        z_squared += static_cast<double>(d.z * d.z);
+    }
+    EXPECT_LT(glm::length(sum) / n, 2e-3);
+    EXPECT_NEAR(z_squared / n, 1.0 / 3.0, 1e-3);
+}
+
+/// The rectangles of a box must hold every point of the box, whichever way the shooter looks.
+TEST(Hemicube, CoveringRectanglesHoldTheBox) {
+    const Hemicube hemicube(128);
+    const Bounds box{{1.0F, 0.2F, 1.5F}, {1.4F, 0.9F, 2.0F}};
+    for (int turn = 0; turn < 16; ++turn) {
+        const BundleFrame frame =
+            make_frame({0.0F, 0.1F, 0.0F}, glm::normalize(glm::vec3(0.2F, 0.5F, 1.0F)),
+                       0.4F * static_cast<float>(turn));
+        const auto rectangles = hemicube.covering(frame, std::array{box});
+        int inside = 0;
+        for (const glm::vec3& corner : corners(box)) {
+            const glm::vec3 d = frame.to_bundle(corner);
+            ASSERT_GT(d.z, 0.0F);
+            if (d.z < std::max(std::abs(d.x), std::abs(d.y))) {
+                continue;  // on a side face
+            }
+            const glm::vec2 pixel = (glm::vec2(d.y, d.x) / d.z * 0.5F + 0.5F) * 128.0F;
+            const PixelRectangle& top = rectangles[0];
+            EXPECT_GE(pixel.x, static_cast<float>(top.x0));
+            EXPECT_LE(pixel.x, static_cast<float>(top.x1));
+            EXPECT_GE(pixel.y, static_cast<float>(top.y0));
+            EXPECT_LE(pixel.y, static_cast<float>(top.y1));
+            ++inside;
+        }
+        EXPECT_GT(inside, 0);
+    }
+}
+
+TEST(Hemicube, ABoxRoundTheShooterNeedsEveryPixel) {
+    const Hemicube hemicube(64);
+    const Bounds box{glm::vec3(-1.0F), glm::vec3(1.0F)};
+    const auto rectangles = hemicube.covering(make_frame({}, {0, 0, 1}, 0.3F), std::array{box});
+    const auto full = hemicube.full();
+    for (std::size_t face = 0; face < full.size(); ++face) {
+        EXPECT_EQ(rectangles[face].width(), full[face].width());
+        EXPECT_EQ(rectangles[face].height(), full[face].height());
+    }
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include <optional>
+
+#include "gpu/egl_context.h"
+
+namespace {
+
+/// One GL context for all tests of the process; listing tests needs none.
+class GlEnvironment : public testing::Environment {
+  public:
+    void SetUp() override {
+        spdlog::set_level(spdlog::level::warn);
+        context_.emplace(raybundle::create_egl_context());
+    }
+    void TearDown() override { context_.reset(); }
+
+  private:
+    std::optional<raybundle::EglContext> context_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    testing::AddGlobalTestEnvironment(new GlEnvironment);  // gtest owns it
+    return RUN_ALL_TESTS();
+}

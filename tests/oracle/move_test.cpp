@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "oracle/scene_builder.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t box_object = 1;
+
+/// A lit room with a box on its floor that can be moved.
+SceneBuilder room_with_box(const glm::vec3& box_place) {
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.6F, 0.5F, 0.4F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(900.0F, 1000.0F, 800.0F));
+    b.add_box({0, 0, 0}, {4, 3, 4}, true, 8, wall);
+    b.add_quad({1.5F, 2.98F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+    Transform transform;
+    transform.translation = box_place;
+    b.add_object("box", transform);
+    b.add_box({-0.4F, 0, -0.4F}, {0.4F, 0.8F, 0.4F}, false, 4, wall);
+    return b;
+}
+
+SolverSettings quick(std::uint64_t seed) {
+    SolverSettings settings;
+    settings.seed = seed;
+    settings.coarse = {128, 200};
+    settings.coarse_iterations = 1'000'000;
+    return settings;
+}
+
+void iterate(Solver& solver, std::uint64_t count) {
+    const std::uint64_t end = solver.iterations() + count;
+    while (solver.iterations() < end) {
+        solver.step({});
+    }
+}
+
+void move_box(Solver& solver, const glm::vec3& place) {
+    Transform transform;
+    transform.translation = place;
+    solver.move_object(box_object, transform.matrix(), {});
+    while (solver.correcting()) {
+        solver.step({});
+    }
+}
+
+/// Root mean square difference over root mean square, green channel.
+double relative_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double d = static_cast<double>(a[i].g) - static_cast<double>(b[i].g);
+        difference += d * d;
+        size += static_cast<double>(b[i].g) * static_cast<double>(b[i].g);
+    }
+    return std::sqrt(difference / size);
+}
+
+const glm::vec3 first_place(1.2F, 0.0F, 1.5F);
+const glm::vec3 second_place(2.6F, 0.0F, 2.4F);
+
+TEST(Move, CorrectionBringsTheSolutionTowardsTheFreshOne) {
+    const SceneBuilder before = room_with_box(first_place);
+    const SceneBuilder after = room_with_box(second_place);
+    Solver fresh(after.scene, after.mesh, quick(11));
+    iterate(fresh, 1024);
+    const auto truth = fresh.store().read_irradiance();
+
+    Solver solver(before.scene, before.mesh, quick(1));
+    iterate(solver, 512);
+    const double stale = relative_difference(solver.store().read_irradiance(), truth);
+    move_box(solver, second_place);
+    const double corrected = relative_difference(solver.store().read_irradiance(), truth);
+    iterate(solver, 256);
+    const double settled = relative_difference(solver.store().read_irradiance(), truth);
+    EXPECT_GT(stale, 0.1);  // the test would show nothing otherwise
+    EXPECT_LT(corrected, 0.7 * stale);
+    EXPECT_LT(settled, 0.5 * corrected);
+    EXPECT_LT(settled, 0.08);
+}
+
+TEST(Move, PatchesThatNoLineThroughTheBoxReachesKeepTheirBits) {
+    // The box moves in a room of its own, out of sight of the lit one.
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.5F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_box({0, 0, 0}, {4, 3, 4}, true, 6, wall);
+    b.add_quad({1.5F, 2.9F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+    const std::size_t room = b.mesh.triangles.size();
+    b.add_box({10, 0, 0}, {13, 3, 3}, true, 6, wall);  // another room, dark
+    b.add_object("box");
+    b.add_box({11, 1, 1}, {11.5F, 1.5F, 1.5F}, false, 2, wall);
+    Solver solver(b.scene, b.mesh, quick(3));
+    iterate(solver, 64);
+    const auto before = solver.store().read_irradiance();
+    move_box(solver, {1.0F, 0.0F, 1.0F});
+    const auto after = solver.store().read_irradiance();
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < room; ++i) {
+        changed += before[i] == after[i] ? 0 : 1;
+    }
+    EXPECT_EQ(changed, 0U);
+}
+
+TEST(Move, ThereAndBackTwentyTimesEndsWhereItBegan) {
+    const SceneBuilder b = room_with_box(first_place);
+    Solver fresh(b.scene, b.mesh, quick(5));
+    iterate(fresh, 1024);
+    Solver solver(b.scene, b.mesh, quick(1));
+    iterate(solver, 256);
+    for (int i = 0; i < 20; ++i) {
+        move_box(solver, second_place);
+        move_box(solver, first_place);
+    }
+    iterate(solver, 512);
+    const auto irradiance = solver.store().read_irradiance();
+    for (const glm::vec4& e : irradiance) {
+        ASSERT_TRUE(std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z));
+    }
+    EXPECT_LT(relative_difference(irradiance, fresh.store().read_irradiance()), 0.08);
+}
+
+TEST(Move, OutOfTheSceneScaledToNothingAndThroughAWallStaysFinite) {
+    const SceneBuilder b = room_with_box(first_place);
+    Solver solver(b.scene, b.mesh, quick(2));
+    iterate(solver, 32);
+    for (const glm::vec3& place :
+         {glm::vec3(4.0F, 0.0F, 2.0F), glm::vec3(40.0F, 0.0F, 2.0F), first_place}) {
+        move_box(solver, place);
+        iterate(solver, 16);
+    }
+    Transform vanished;
+    vanished.translation = first_place;
+    vanished.scale = glm::vec3(0.0F);
+    solver.move_object(box_object, vanished.matrix(), {});
+    iterate(solver, 48);
+    for (const glm::vec4& e : solver.store().read_irradiance()) {
+        ASSERT_TRUE(std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z));
+    }
+}
+
+/// A furnace crowded with boxes: windows need far more hits than there is room for at first. Hits
+/// that were dropped would show as darkness, iterations counted twice as light.
+TEST(Solution, WindowsThatOverflowAreDoneAgain) {
+    SceneBuilder b;
+    const auto m = b.add_material(glm::vec3(0.5F), glm::vec3(100.0F));
+    b.add_box({0, 0, 0}, {4, 4, 4}, true, 6, m);
+    for (int i = 0; i < 36; ++i) {
+        const float x = 0.15F + 0.1F * static_cast<float>(i);
+        b.add_box({x, 0.2F, 0.2F}, {x + 0.05F, 3.8F, 3.8F}, false, 3, m);
+    }
+    SolverSettings settings = quick(1);
+    settings.probabilities = {1.0F, 0.0F, 0.0F};
+    Solver solver(b.scene, b.mesh, settings);
+    const std::size_t before = solver.bytes();
+    iterate(solver, 192);
+    EXPECT_EQ(solver.iterations(), 192U);
+    EXPECT_GT(solver.bytes(), before);  // the lists did grow
+    double mean = 0.0;
+    const auto irradiance = solver.store().read_irradiance();
+    for (const glm::vec4& e : irradiance) {
+        mean += static_cast<double>(e.x) / static_cast<double>(irradiance.size());
+    }
+    const double exact = 3.14159265358979 * 100.0 / 0.5;
+    EXPECT_NEAR(mean, exact, 0.04 * exact);
+}
+
+TEST(Solution, NonFiniteValuesAreDroppedAndCounted) {
+    const SceneBuilder b = room_with_box(first_place);
+    SolverSettings settings = quick(2);
+    settings.probabilities = {1.0F, 0.0F, 0.0F};  // every bundle transfers from every patch
+    Solver solver(b.scene, b.mesh, settings);
+    iterate(solver, 16);
+    EXPECT_EQ(solver.non_finite(), 0U);
+    solver.store().write_radiance(0, glm::vec4(std::nanf(""), INFINITY, 1.0F, 0.1F));
+    iterate(solver, 64);
+    EXPECT_GT(solver.non_finite(), 0U);
+    for (const glm::vec4& e : solver.store().read_irradiance()) {
+        ASSERT_TRUE(std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z));
+    }
+}
+
+}  // namespace
+}  // namespace raybundle

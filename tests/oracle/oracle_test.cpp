@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/oracles.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+
+namespace raybundle {
+namespace {
+
+class ClosedForm : public testing::TestWithParam<Oracle> {};
+
+TEST_P(ClosedForm, HoldsWithinItsBound) {
+    const OracleResult result = GetParam().run();
+    EXPECT_NEAR(result.measured, result.expected, result.bound);
+    EXPECT_TRUE(result.passed);
+}
+
+std::string test_name(const testing::TestParamInfo<Oracle>& info) {
+    std::string name;
+    for (const char c : info.param.name) {
+        name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    }
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Selftest, ClosedForm, testing::ValuesIn(all_oracles()), test_name);
+
+/// An oracle must be able to fail: densities wrong by 2 % leave the bound of 0.5 %.
+TEST(ClosedFormSensitivity, DensityWrongByTwoPercentIsCaught) {
+    OracleSettings settings;
+    settings.iterations = 2048;
+    settings.density_error = 1.02F;
+    EXPECT_LT(furnace_mean(0.5F, settings), 1.0 - 0.005);
+    settings.density_error = 0.98F;
+    EXPECT_GT(furnace_mean(0.5F, settings), 1.0 + 0.005);
+}
+
+struct ThinWallCase {
+    StrategyProbabilities probabilities;
+    float thickness;  // m
+};
+
+class ThinWall : public testing::TestWithParam<ThinWallCase> {};
+
+TEST_P(ThinWall, KeepsTheDarkRoomExactlyDark) {
+    OracleSettings settings;
+    settings.iterations = 256;
+    settings.resolution = {128, 200};
+    settings.probabilities = GetParam().probabilities;
+    EXPECT_EQ(dark_room_irradiance(GetParam().thickness, settings), 0.0);
+}
+
+constexpr StrategyProbabilities only_parallel{1.0F, 0.0F, 0.0F};
+constexpr StrategyProbabilities only_perspective{0.0F, 0.0F, 1.0F};
+INSTANTIATE_TEST_SUITE_P(
+    Strategies, ThinWall,
+    testing::Values(ThinWallCase{only_parallel, 0.0F}, ThinWallCase{only_parallel, 1e-6F},
+                    ThinWallCase{only_parallel, 1e-3F}, ThinWallCase{only_parallel, 0.1F},
+                    ThinWallCase{only_perspective, 0.0F}, ThinWallCase{only_perspective, 1e-6F},
+                    ThinWallCase{only_perspective, 1e-3F}, ThinWallCase{only_perspective, 0.1F}));
+
+TEST(Determinism, AnotherSeedGivesOtherBits) {
+    // Guards the comparison itself: it must be able to see a difference.
+    OracleSettings settings;
+    settings.iterations = 64;
+    EXPECT_EQ(differing_bits(settings), 0U);
+    OracleSettings other = settings;
+    other.seed = settings.seed + 1;
+    EXPECT_NE(furnace_mean(0.5F, settings), furnace_mean(0.5F, other));
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/viewer_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "oracle/scene_builder.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+namespace {
+
+constexpr float emission = 100.0F;
+
+/// A closed room that emits everywhere: the picture is one constant, Le/(1 - albedo).
+struct FurnaceView {
+    explicit FurnaceView(float albedo, glm::uvec2 size = {64, 48}) {
+        const auto m = builder.add_material(glm::vec3(albedo), glm::vec3(emission));
+        builder.add_box({0, 0, 0}, {4, 3, 5}, true, 6, m);
+        SolverSettings settings;
+        settings.coarse = {256, 800};
+        settings.coarse_iterations = 1'000'000;
+        solver.emplace(builder.scene, builder.mesh, settings);
+        programs.emplace(solver->scene());
+        image.emplace(solver->scene(), solver->store(), *programs, size);
+        camera.eye = {0.5F, 1.5F, 0.5F};
+        camera.target = {3.0F, 1.2F, 4.0F};
+        camera.vertical_fov = 1.2F;
+        image->set_camera(camera);
+    }
+
+    void iterate(int count) {
+        BundleReceiver* const receivers[] = {&*image};
+        for (int i = 0; i < count; ++i) {
+            solver->step(receivers);
+        }
+    }
+
+    SceneBuilder builder;
+    std::optional<Solver> solver;
+    std::optional<ViewPrograms> programs;
+    std::optional<ViewerImage> image;
+    Camera camera;
+};
+
+TEST(ViewerImage, FurnaceIsAConstantPicture) {
+    FurnaceView view(0.5F);
+    view.iterate(768);
+    const double exact = static_cast<double>(emission) / 0.5;
+    double mean = 0.0;
+    for (const glm::vec4& pixel : view.image->read_radiance()) {
+        mean += static_cast<double>(pixel.g) / (64.0 * 48.0);
+        EXPECT_NEAR(static_cast<double>(pixel.g), exact, 0.08 * exact);
+    }
+    EXPECT_NEAR(mean, exact, 0.01 * exact);
+}
+
+TEST(ViewerImage, EstimatedErrorIsOfTheSizeOfTheError) {
+    const auto solve = [](std::uint64_t seed, int iterations, double& estimate) {
+        SceneBuilder b;
+        const auto wall = b.add_material(glm::vec3(0.6F));
+        const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+        b.add_box({0, 0, 0}, {4, 3, 5}, true, 6, wall);
+        b.add_quad({1.5F, 2.9F, 2}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+        SolverSettings settings;
+        settings.seed = seed;
+        settings.coarse = {128, 400};
+        settings.coarse_iterations = 1'000'000;
+        Solver solver(b.scene, b.mesh, settings);
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, {64, 48});
+        Camera camera;
+        camera.eye = {0.5F, 1.5F, 0.5F};
+        camera.target = {3.0F, 0.5F, 4.0F};
+        image.set_camera(camera);
+        BundleReceiver* const receivers[] = {&image};
+        for (int i = 0; i < iterations; ++i) {
+            solver.step(receivers);
+        }
+        image.request_statistics();
+        glFinish();
+        estimate = image.statistics().relative_error;
+        return image.read_radiance();
+    };
+    double ignored = 0.0;
+    const auto truth = solve(77, 1536, ignored);
+    double estimate = 0.0;
+    const auto picture = solve(1, 96, estimate);
+    double square = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        square += std::pow(static_cast<double>(picture[i].g - truth[i].g), 2);
+        total += std::pow(static_cast<double>(truth[i].g), 2);
+    }
+    const double error = std::sqrt(square / total);
+    EXPECT_GT(estimate, error / 3.0);
+    EXPECT_LT(estimate, error * 3.0);
+}
+
+TEST(ViewerImage, CameraThereAndBackShowsTheSamePicture) {
+    FurnaceView view(0.5F);
+    view.iterate(256);
+    const auto before = view.image->read_radiance();
+    Camera moved = view.camera;
+    for (int i = 0; i < 8; ++i) {
+        moved.eye.x += 0.05F;
+        view.image->set_camera(moved);
+    }
+    view.image->set_camera(view.camera);
+    const auto after = view.image->read_radiance();
+    double difference = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        difference += std::abs(static_cast<double>(before[i].g - after[i].g)) / 200.0 /
+                      static_cast<double>(before.size());
+    }
+    EXPECT_LT(difference, 0.02);
+}
+
+TEST(ViewerImage, TinyAndOddSizesWork) {
+    FurnaceView view(0.5F);
+    for (const glm::uvec2 size :
+         {glm::uvec2(1, 1), glm::uvec2(3, 1), glm::uvec2(1, 257), glm::uvec2(33, 17)}) {
+        view.image->resize(size);
+        view.iterate(2);
+        view.image->compose(DisplayMode::photo, -7.0F);
+        EXPECT_EQ(view.image->take().size(), std::size_t{size.x} * size.y * 4);
+        view.image->compose(DisplayMode::false_illuminance, -7.0F, {1, 1});
+        EXPECT_EQ(view.image->take().size(), 4U);
+    }
+}
+
+TEST(ViewerImage, ProbeReadsIlluminanceAndPlace) {
+    FurnaceView view(0.5F);
+    view.iterate(512);
+    const auto probe = view.image->probe({32, 24});
+    ASSERT_TRUE(probe.has_value());
+    const double exact = glm::pi<double>() * static_cast<double>(emission) / 0.5;
+    EXPECT_NEAR(static_cast<double>(probe->irradiance.g), exact, 0.1 * exact);
+    const glm::vec3 p = probe->position;
+    const float distance = std::min({p.x, p.y, p.z, 4.0F - p.x, 3.0F - p.y, 5.0F - p.z});
+    EXPECT_NEAR(distance, 0.0F, 1e-3F);  // on a wall
+    EXPECT_NEAR(glm::length(probe->normal), 1.0F, 1e-3F);
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/inbox.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace raybundle {
+namespace {
+
+using std::chrono::milliseconds;
+
+v1::ClientMessage camera(std::uint32_t id, float x) {
+    v1::ClientMessage message;
+    message.set_id(id);
+    message.mutable_set_camera()->mutable_eye()->set_x(x);
+    return message;
+}
+
+v1::ClientMessage move(std::uint32_t object, bool final, float x) {
+    v1::ClientMessage message;
+    message.mutable_move_object()->set_object(object);
+    message.mutable_move_object()->set_final(final);
+    message.mutable_move_object()->mutable_transform()->mutable_translation()->set_x(x);
+    return message;
+}
+
+v1::ClientMessage probe() {
+    v1::ClientMessage message;
+    message.mutable_probe();
+    return message;
+}
+
+TEST(Inbox, KeepsOnlyTheNewestCameraButAllIds) {
+    Inbox inbox;
+    for (std::uint32_t id = 1; id <= 5; ++id) {
+        EXPECT_TRUE(inbox.push(7, camera(id, static_cast<float>(id))));
+    }
+    const auto events = inbox.drain();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].message.id(), 5U);
+    EXPECT_EQ(events[0].message.set_camera().eye().x(), 5.0F);
+    EXPECT_EQ(events[0].superseded, (std::vector<std::uint32_t>{1, 2, 3, 4}));
+    EXPECT_TRUE(inbox.drain().empty());
+}
+
+TEST(Inbox, OtherViewersAndOtherRequestsAreBarriers) {
+    Inbox inbox;
+    ASSERT_TRUE(inbox.push(1, camera(1, 1)));
+    ASSERT_TRUE(inbox.push(2, camera(2, 2)));
+    ASSERT_TRUE(inbox.push(1, probe()));
+    ASSERT_TRUE(inbox.push(1, camera(3, 3)));
+    ASSERT_TRUE(inbox.push(2, camera(4, 4)));
+    const auto events = inbox.drain();
+    ASSERT_EQ(events.size(), 4U);
+    EXPECT_EQ(events[0].message.id(), 1U);
+    EXPECT_TRUE(events[1].message.has_probe());
+    EXPECT_EQ(events[2].message.id(), 3U);
+    EXPECT_EQ(events[3].message.id(), 4U);
+    EXPECT_EQ(events[3].superseded.size(), 1U);
+}
+
+TEST(Inbox, MergesUnfinishedMovesOfOneObjectOnly) {
+    Inbox inbox;
+    ASSERT_TRUE(inbox.push(1, move(1, false, 1)));
+    ASSERT_TRUE(inbox.push(1, move(2, false, 2)));
+    ASSERT_TRUE(inbox.push(1, move(1, false, 3)));
+    ASSERT_TRUE(inbox.push(1, move(1, true, 4)));
+    ASSERT_TRUE(inbox.push(1, move(1, false, 5)));
+    const auto events = inbox.drain();
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0].message.move_object().object(), 2U);
+    EXPECT_EQ(events[1].message.move_object().transform().translation().x(), 4.0F);
+    EXPECT_EQ(events[2].message.move_object().transform().translation().x(), 5.0F);
+}
+
+TEST(Inbox, RefusesAFlood) {
+    Inbox inbox(4);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_TRUE(inbox.push(1, probe()));
+    }
+    EXPECT_FALSE(inbox.push(1, probe()));
+    EXPECT_TRUE(inbox.push(2, probe()));
+    EXPECT_EQ(inbox.drain().size(), 5U);
+    EXPECT_TRUE(inbox.push(1, probe()));
+}
+
+TEST(Inbox, BoundsTheIdsOfMergedRequests) {
+    Inbox inbox(4);
+    std::uint32_t id = 1;
+    while (inbox.push(1, camera(id, 0))) {
+        ASSERT_LT(++id, 100U);
+    }
+    const auto events = inbox.drain();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].message.id(), id - 1);
+    EXPECT_EQ(events[0].superseded.size(), 4U);
+}
+
+TEST(Inbox, ForgetsAViewerThatLeavesUnheard) {
+    Inbox inbox;
+    inbox.joined(1, {});
+    ASSERT_TRUE(inbox.push(1, probe()));
+    inbox.left(1);
+    EXPECT_TRUE(inbox.drain().empty());
+    inbox.joined(2, {});
+    inbox.drain();
+    ASSERT_TRUE(inbox.push(2, probe()));
+    inbox.left(2);
+    const auto events = inbox.drain();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].kind, ClientEvent::Kind::left);
+}
+
+TEST(Inbox, WaitEndsByEventByInterruptAndByTime) {
+    Inbox inbox;
+    EXPECT_FALSE(inbox.wait_for(milliseconds(1)));
+    inbox.interrupt();
+    EXPECT_FALSE(inbox.wait_for(std::chrono::hours(1)));
+    std::thread writer([&inbox] { EXPECT_TRUE(inbox.push(1, probe())); });
+    EXPECT_TRUE(inbox.wait_for(std::chrono::hours(1)));
+    writer.join();
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/message_validation.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace raybundle {
+namespace {
+
+struct Case {
+    const char* text;
+    const char* field;  ///< named by the refusal; null: accepted
+};
+
+std::string camera(const std::string& rest) {
+    return R"({"setCamera":{"eye":{"x":1},"target":{"z":5})" + rest + "}}";
+}
+
+void expect_case(const std::string& text, const char* field) {
+    const ParsedMessage parsed = parse_text_message(text);
+    const auto* refusal = std::get_if<Refusal>(&parsed);
+    if (field == nullptr) {
+        EXPECT_EQ(refusal, nullptr) << text << ": " << (refusal != nullptr ? refusal->text : "");
+        return;
+    }
+    ASSERT_NE(refusal, nullptr) << text;
+    EXPECT_EQ(refusal->code, v1::Error::INVALID_ARGUMENT);
+    EXPECT_EQ(refusal->text.rfind(std::string(field) + ":", 0), 0U) << refusal->text;
+}
+
+TEST(MessageValidation, Camera) {
+    expect_case(camera(""), nullptr);
+    expect_case(camera(R"(,"verticalFov":3.1)"), nullptr);
+    expect_case(camera(R"(,"verticalFov":0)"), "setCamera.verticalFov");
+    expect_case(camera(R"(,"verticalFov":3.1416)"), "setCamera.verticalFov");
+    expect_case(camera(R"(,"verticalFov":"NaN")"), "setCamera.verticalFov");
+    expect_case(camera(R"(,"up":{})"), "setCamera.up");
+    expect_case(camera(R"(,"up":{"x":-1,"z":5})"), "setCamera.up");
+    expect_case(camera(R"(,"up":{"y":"Infinity"})"), "setCamera.up.y");
+    expect_case(R"({"setCamera":{"eye":{"x":1}}})", "setCamera.target");
+    expect_case(R"({"setCamera":{"target":{"x":1}}})", "setCamera.eye");
+    expect_case(R"({"setCamera":{"eye":{"x":1},"target":{"x":1}}})", "setCamera.target");
+    expect_case(R"({"setCamera":{"eye":{"x":1e30},"target":{"x":1}}})", "setCamera.eye.x");
+}
+
+TEST(MessageValidation, Sizes) {
+    for (const Case& c :
+         {Case{R"({"setViewport":{"width":3840,"height":2160}})", nullptr},
+          Case{R"({"setViewport":{"width":0,"height":600}})", "setViewport.width"},
+          Case{R"({"setViewport":{"width":800}})", "setViewport.height"},
+          Case{R"({"setViewport":{"width":3841,"height":600}})", "setViewport.width"},
+          Case{R"({"hello":{"protocol":"1.0","viewport":{"width":9}}})",
+               "hello.viewport.height"}}) {
+        expect_case(c.text, c.field);
+    }
+}
+
+TEST(MessageValidation, SceneChanges) {
+    for (const Case& c :
+         {Case{R"({"moveObject":{"object":1,"transform":{}}})", nullptr},
+          Case{R"({"moveObject":{"object":1}})", "moveObject.transform"},
+          Case{R"({"moveObject":{"transform":{}}})", "moveObject.object"},
+          Case{R"({"moveObject":{"object":1,"transform":{"rotation":{}}}})",
+               "moveObject.transform.rotation"},
+          Case{R"({"moveObject":{"object":1,"transform":{"scale":{"x":1,"y":1}}}})",
+               "moveObject.transform.scale"},
+          Case{R"({"moveObject":{"object":1,"transform":{"translation":{"x":"NaN"}}}})",
+               "moveObject.transform.translation.x"},
+          Case{R"({"setLight":{"light":1,"intensity":-1}})", "setLight.intensity"},
+          Case{R"({"setLight":{"intensity":1}})", "setLight.light"},
+          Case{R"({"setLight":{"light":1,"colour":{}}})", "setLight.colour"},
+          Case{R"({"setMaterial":{"material":1,"baseColour":{"x":1.5}}})",
+               "setMaterial.baseColour"},
+          Case{R"({"setMaterial":{"material":1,"roughness":2}})", "setMaterial.roughness"},
+          Case{R"({"setMaterial":{"material":1,"metallic":1}})", nullptr}}) {
+        expect_case(c.text, c.field);
+    }
+}
+
+TEST(MessageValidation, Requests) {
+    const std::string long_text(501, 'a');
+    for (const Case& c :
+         {Case{R"({"setTarget":{}})", nullptr},
+          Case{R"({"setTarget":{"relativeError":0}})", "setTarget.relativeError"},
+          Case{R"({"setTarget":{"seconds":-1}})", "setTarget.seconds"},
+          Case{R"({"setDisplay":{"exposure":31}})", "setDisplay.exposure"},
+          Case{R"({"setDisplay":{"mode":"MODE_UNSPECIFIED"}})", "setDisplay.mode"},
+          Case{R"({"probe":{}})", "probe"}, Case{R"({"probe":{"pixel":{"x":-1}}})", "probe.pixel"},
+          Case{R"({"probe":{"ray":{"origin":{},"direction":{}}}})", "probe.ray.direction"},
+          Case{R"({"ack":{"frame":1,"decodeMs":-1}})", "ack.decodeMs"},
+          Case{R"({"addPin":{"text":"","position":{}}})", "addPin.text"},
+          Case{R"({"addPin":{"text":"a"}})", "addPin.position"},
+          Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1}})", "snapshot.format"},
+          Case{R"({"hello":{}})", "hello.protocol"}}) {
+        expect_case(c.text, c.field);
+    }
+    expect_case(R"({"addPin":{"position":{},"text":")" + long_text + "\"}}", "addPin.text");
+}
+
+}  // namespace
+}  // namespace raybundle

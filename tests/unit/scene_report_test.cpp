@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_report.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "gltf_builder.h"
+
+namespace raybundle::test {
+namespace {
+
+Bounds cube(float size) {
+    Bounds bounds;
+    bounds.add(glm::vec3(0));
+    bounds.add(glm::vec3(size));
+    return bounds;
+}
+
+TEST(SceneReport, HintsAtWrongUnits) {
+    EXPECT_FALSE(unit_hint(cube(5.0F)));
+    EXPECT_FALSE(unit_hint(cube(999.0F)));
+    EXPECT_NE(unit_hint(cube(1600.0F))->find("--unit"), std::string::npos);
+    EXPECT_NE(unit_hint(cube(9000.0F))->find("--unit cm"), std::string::npos);
+    EXPECT_NE(unit_hint(cube(90'000.0F))->find("--unit mm"), std::string::npos);
+    EXPECT_NE(unit_hint(cube(0.005F))->find("--unit m"), std::string::npos);
+}
+
+TEST(SceneReport, CountsIrregularEdges) {
+    GltfBuilder closed;
+    closed.add_node({{"mesh", closed.add_box_mesh({0, 0, 0}, {1, 1, 1})}});
+    const EdgeDefects none = count_edge_defects(closed.load());
+    EXPECT_EQ(none.boundary, 0U);
+    EXPECT_EQ(none.non_manifold, 0U);
+
+    GltfBuilder fins;
+    // Three triangles at one edge.
+    fins.add_node({{"mesh", fins.add_triangle_mesh({{0, 0, 0},
+                                                    {0, 1, 0},
+                                                    {1, 0, 0},
+                                                    {0, 0, 0},
+                                                    {0, 1, 0},
+                                                    {-1, 0, 0},
+                                                    {0, 0, 0},
+                                                    {0, 1, 0},
+                                                    {0, 0, 1}})}});
+    const EdgeDefects defects = count_edge_defects(fins.load());
+    EXPECT_EQ(defects.boundary, 6U);
+    EXPECT_EQ(defects.non_manifold, 1U);
+}
+
+TEST(SceneReport, PrintsAndGivesJson) {
+    GltfBuilder builder;
+    builder.add_node({{"mesh", builder.add_box_mesh({0, 0, 0}, {1, 1, 1})}, {"name", "crate"}});
+    Scene scene = builder.load();
+    TessellationSettings settings;
+    settings.target_patches = 500;
+    const PatchMesh mesh = tessellate(scene, settings);
+    const SceneReport report = make_scene_report(scene, mesh);
+    EXPECT_NEAR(report.area, 6.0, 1e-5);
+    EXPECT_EQ(report.patches, mesh.patch_count());
+    std::ostringstream text;
+    print_scene_report(text, scene, report);
+    EXPECT_NE(text.str().find("crate"), std::string::npos);
+    const Json json = scene_report_json(scene, report);
+    EXPECT_EQ(json.at("triangles"), 12);
+    EXPECT_EQ(json.at("objects").at(0).at("name"), "crate");
+    EXPECT_EQ(json.at("boundaryEdges"), 0);
+    EXPECT_FALSE(json.contains("unitHint"));
+}
+
+}  // namespace
+}  // namespace raybundle::test
