@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs what is missing on Debian 12 and builds Release into build/.
+set -euo pipefail
+# shellcheck source=deploy/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+usage() {
+    cat <<'TEXT'
+usage: deploy/setup.sh [--with-tests]
+Installs the packages that are missing (Debian 12) and builds build/raybundle in Release mode.
+  --with-tests   build the tests as well
+TEXT
+}
+
+packages=(
+    g++ cmake ninja-build pkg-config ccache
+    libcli11-dev libdraco-dev libegl-dev libembree-dev libepoxy-dev libglm-dev
+    libmeshoptimizer-dev libopenimageio-dev libpng-dev libprotobuf-dev libspdlog-dev
+    libturbojpeg0-dev libwebsockets-dev nlohmann-json3-dev protobuf-compiler
+    libegl1 libegl-mesa0 libgl1-mesa-dri
+)
+
+# The cache of a checkout that was moved or copied names the old place.
+build_dir_is_ours() {
+    [[ -f $build_dir/build.ninja ]] &&
+        grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build_dir/CMakeCache.txt"
+}
+
+# Configures on the first run; later ninja itself re-runs cmake when a CMakeLists.txt has changed.
+configure() {
+    local tests=$1
+    if ! build_dir_is_ours; then
+        say "configuring"
+        (cd "$root" && cmake --fresh --preset release -DRAYBUNDLE_TESTS="$tests")
+    elif [[ $tests == ON ]] &&
+        ! grep -qx 'RAYBUNDLE_TESTS:BOOL=ON' "$build_dir/CMakeCache.txt"; then
+        say "configuring the tests"
+        (cd "$root" && cmake --preset release -DRAYBUNDLE_TESTS=ON)
+    fi
+}
+
+main() {
+    local tests=OFF target=raybundle
+    case "${1:-}" in
+        "") ;;
+        --with-tests) tests=ON target=all ;;
+        -h | --help) usage && exit 0 ;;
+        *) usage >&2 && exit 2 ;;
+    esac
+    install_packages "${packages[@]}"
+    mkdir -p "$build_dir"
+    exec 9>"$build_dir/.setup.lock"
+    flock 9 # two builds in one folder would spoil each other
+    configure "$tests" || die "raybundle setup: FAILED to configure (see above)"
+    say "building with $(build_jobs) jobs"
+    cmake --build "$build_dir" --target "$target" --parallel "$(build_jobs)" ||
+        die "raybundle setup: FAILED to build (see above)"
+    echo "raybundle setup: build/raybundle is ready"
+}
+
+main "$@"

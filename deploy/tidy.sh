@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# clang-tidy over the tracked sources of a configured and built build/. A file is checked again only
+# when it, a header of the project that it includes, or .clang-tidy has changed.
+set -euo pipefail
+# shellcheck source=deploy/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+stamps="$build_dir/tidy"
+export root stamps
+
+# Lines "source<TAB>dependency..." of the project's own files, from ninja's dependency log.
+project_dependencies() {
+    ninja -C "$build_dir" -t deps | awk -v root="$root/" -v build="$build_dir/" '
+        function flush() { if (line != "") print line; line = "" }
+        /^[^ ]/ { flush(); first = 1; next }
+        NF {
+            file = $0; sub(/^ +/, "", file)
+            if (file !~ /^\//) file = build file
+            own = index(file, root) == 1 && index(file, build) != 1
+            if (first) { if (own) line = file; first = 0 }
+            else if (own && line != "") line = line "\t" file
+        }
+        END { flush() }'
+}
+
+# Checks one source; $1 is its stamp, $2 the source. The build's own warnings are GCC's, some of
+# which clang does not know.
+tidy_one() {
+    local log checks=""
+    [[ $2 != "$root"/tests/* ]] || checks="-clang-analyzer-*" # 20 s a file, all in gtest's macros
+    if log=$(clang-tidy -p "$build_dir" --quiet --checks="$checks" \
+        --extra-arg=-Wno-unknown-warning-option "$2" 2>&1); then
+        touch "$stamps/$1"
+        printf 'tidy: %s\n' "${2#"$PWD"/}"
+    else
+        printf '%s\n' "$log"
+        return 1
+    fi
+}
+export -f tidy_one
+
+cd "$root"
+mkdir -p "$stamps"
+declare -A tracked=()
+while IFS= read -r -d '' file; do
+    tracked["$root/$file"]=1
+done < <(git -c safe.directory="$root" ls-files -z -- 'server/*.cpp' 'tests/*.cpp')
+
+work=()
+declare -A seen=()
+while IFS=$'\t' read -r -a files; do
+    source_file=${files[0]}
+    [[ -n ${tracked[$source_file]:-} && -z ${seen[$source_file]:-} ]] || continue
+    seen[$source_file]=1
+    stamp=$(cat .clang-tidy "${files[@]}" | sha256sum | cut -c1-32)
+    [[ -e $stamps/$stamp ]] || work+=("$stamp" "$source_file")
+done < <(project_dependencies)
+
+# An empty list would pass without having looked at anything.
+((${#seen[@]} > 0)) || die "clang-tidy: no compiled sources found; run deploy/setup.sh --with-tests"
+echo "${#seen[@]} sources, $((${#work[@]} / 2)) to check"
+((${#work[@]} == 0)) ||
+    printf '%s\0' "${work[@]}" | xargs -0 -n 2 -P "$(nproc)" bash -c 'tidy_one "$@"' tidy
