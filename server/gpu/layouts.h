@@ -25,6 +25,7 @@ static_assert(sizeof(LayerNode) == 16 && sizeof(Counters) == 48);
 static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 48);
 static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_patch) == 16);
 static_assert(sizeof(MaterialData) == 80);
+static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(PickResult) == 64);
 static_assert(sizeof(BundleParameters) == 16 * 14);

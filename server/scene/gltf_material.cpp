@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "scene/gltf_image.h"
+#include "scene/gltf_max_phong.h"
 
 namespace raybundle {
 namespace {
@@ -81,7 +82,9 @@ class MaterialReader {
         read_alpha(json, material);
         if (const Json* specular = find_extension(json, "KHR_materials_specular")) {
             material.specular = value_or(*specular, "specularFactor", 1.0F);
+            material.specular_colour = vector_or(*specular, "specularColorFactor", glm::vec3(1.0F));
         }
+        material.max_phong = read_max_phong(document_, json, item_path("materials", index));
         material.double_sided = value_or(json, "doubleSided", false);
         note_unused(json);
         scene_.materials.push_back(std::move(material));

@@ -123,6 +123,7 @@ constexpr Rule rules[] = {
     flag("materials[].doubleSided"),
     number("materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", 0, 1e12),
     number("materials[].extensions.KHR_materials_specular.specularFactor", 0, 1),
+    numbers("materials[].extensions.KHR_materials_specular.specularColorFactor", 3, 0, huge),
     object(specular_glossiness),
     numbers("materials[].extensions.KHR_materials_pbrSpecularGlossiness.diffuseFactor", 4, 0, huge),
     number("materials[].extensions.KHR_materials_pbrSpecularGlossiness.glossinessFactor", 0, 1),

@@ -42,6 +42,26 @@ PatchColour patch_colour(const Scene& scene, const Material& material,
     return result;
 }
 
+glm::vec3 mean_base_colour(const Scene& scene, const Material& material) {
+    const Texture* texture = texture_of(scene, material.base_colour_texture);
+    if (texture == nullptr) {
+        return material.base_colour;
+    }
+    // The image is two triangles.
+    const glm::mat3 whole(1.0F);
+    const std::optional<float> cutoff = texture_cutoff(material);
+    const TextureMean lower =
+        texture_mean(*texture, whole, {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}, cutoff);
+    const TextureMean upper =
+        texture_mean(*texture, whole, {glm::vec2(1, 1), glm::vec2(0, 1), glm::vec2(1, 0)}, cutoff);
+    const float covered = lower.coverage + upper.coverage;
+    if (covered <= 0.0F) {
+        return material.base_colour;
+    }
+    return material.base_colour *
+           ((lower.colour * lower.coverage + upper.colour * upper.coverage) / covered);
+}
+
 glm::vec3 patch_emission(const Scene& scene, const Material& material,
                          const std::array<glm::vec2, 3>& mesh_uv) {
     const Texture* texture = texture_of(scene, material.emission_texture);

@@ -20,6 +20,9 @@ struct PatchColour {
 PatchColour patch_colour(const Scene& scene, const Material& material,
                          const std::array<glm::vec2, 3>& mesh_uv);
 
+/// Base colour, linear, of a material as a whole: factor times the mean of the texture.
+glm::vec3 mean_base_colour(const Scene& scene, const Material& material);
+
 /// Only the emission, cd/m².
 glm::vec3 patch_emission(const Scene& scene, const Material& material,
                          const std::array<glm::vec2, 3>& mesh_uv);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,16 @@ struct TextureSlot {
 
 enum class AlphaMode { opaque, mask, blend };
 
+/// A specular lobe after Neumann, Neumann and Szirmay-Kalos 1999, "Compact Metallic Reflectance
+/// Models": k cos^exponent / max(cos_in, cos_out). The dissertation's scenes have it.
+struct MaxPhong {
+    glm::vec3 specular{0.0F};  ///< albedo at normal incidence, the largest; half of it at grazing
+    float exponent = 1.0F;     ///< "shine", min_exponent to max_exponent
+
+    static constexpr float min_exponent = 1.0F;  ///< below, oblique light would be reflected more
+    static constexpr float max_exponent = 1000.0F;
+};
+
 /// glTF 2.0 metallic-roughness material. Colours are linear Rec. 709.
 struct Material {
     std::string name;
@@ -53,7 +64,10 @@ struct Material {
     float alpha_cutoff = 0.5F;
     float metallic = 1.0F;
     float roughness = 1.0F;
-    float specular = 1.0F;     ///< KHR_materials_specular specularFactor; 0: pure Lambert
+    float specular = 1.0F;            ///< KHR_materials_specular specularFactor; 0: pure Lambert
+    glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
+    /// Over a Lambert base_colour, instead of metallic-roughness.
+    std::optional<MaxPhong> max_phong;
     glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
     bool double_sided = false;

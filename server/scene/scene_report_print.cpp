@@ -96,6 +96,11 @@ Json objects_json(const Scene& scene) {
     return result;
 }
 
+Json max_phong_json(const std::optional<MaxPhong>& lobe) {
+    return lobe ? Json{{"specular", json_of(lobe->specular)}, {"exponent", lobe->exponent}}
+                : Json(nullptr);
+}
+
 Json materials_json(const Scene& scene) {
     Json result = Json::array();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -106,6 +111,8 @@ Json materials_json(const Scene& scene) {
                           {"metallic", material.metallic},
                           {"roughness", material.roughness},
                           {"specular", material.specular},
+                          {"specularColour", json_of(material.specular_colour)},
+                          {"maxPhong", max_phong_json(material.max_phong)},
                           {"emission", json_of(material.emission)},
                           {"textured", material.base_colour_texture.texture >= 0},
                           {"alphaMode", name_of(material.alpha_mode)},

@@ -60,6 +60,7 @@
 #define UNIT_WORLD_POSITIONS 10   // rgba32f
 #define UNIT_VERTEX_DATA 11       // rgba32ui: VertexData, two texels each
 #define UNIT_MATERIALS 12         // rgba32f: MaterialData, five texels each
+#define UNIT_REFLECTANCE 13       // rgba32f: Reflectance, three texels each, then tables, see brdf.glsl
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -140,6 +141,19 @@ struct MaterialData {
     vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
     vec4 uv_row1;       // xyz: second row
     uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
+};
+
+#define MAX_ALBEDO 0.999  // of a base colour: the iteration contracts
+#define REFLECTANCE_NODES 80
+#define LOBE_NONE 0
+#define LOBE_GGX 1
+#define LOBE_MAX_PHONG 2
+
+// A material's BRDF apart from its base colour, see scene/brdf.h.
+struct Reflectance {
+    vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
+    vec4 lobe;   // alpha (max-Phong: exponent), f90, share of the base colour in lambert, 1/mean transmission
+    vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w unused
 };
 
 struct PixelSurface {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/brdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "scene/ggx_albedo.h"
+#include "scene/lambert_albedo.h"
+
+namespace raybundle {
+namespace {
+
+constexpr float pi = glm::pi<float>();
+constexpr float dielectric_f0 = 0.04F;  // index of refraction 1.5
+
+/// Cosines below this count as this: f_r is then finite, and it reflects nothing worth the name.
+constexpr float min_cosine = 1e-6F;
+
+/// A Lambert part gets light through its coating only if it is worth a division.
+constexpr float min_mean_transmission = 1e-4F;
+
+/// Share by which a dielectric is darkened per specular factor, so that the error of the tabulated
+/// albedo in its coupling (at most 2.3e-3, of a smooth lobe near grazing) creates no energy.
+constexpr float energy_margin = 3e-3F;
+
+float max_component(const glm::vec3& v) {
+    return std::max({v.r, v.g, v.b});
+}
+
+ReflectanceModel max_phong_model(const MaxPhong& phong) {
+    ReflectanceModel model;
+    model.f0 = glm::clamp(phong.specular, 0.0F, 1.0F);
+    if (model.f0 == glm::vec3(0.0F)) {
+        return model;
+    }
+    model.lobe.kind = LobeKind::max_phong;
+    model.lobe.exponent =
+        std::clamp(phong.exponent, MaxPhong::min_exponent, MaxPhong::max_exponent);
+    model.lobe.alpha = std::sqrt(2.0F / (model.lobe.exponent + 2.0F));
+    return model;
+}
+
+float inverse_mean_transmission(const SpecularLobe& lobe) {
+    const LobeAlbedo mean = ggx_mean_albedo(lobe.alpha);
+    const float passed = 1.0F - lobe.coating.x * mean.scale - lobe.coating.y * mean.bias;
+    return passed > min_mean_transmission ? 1.0F / passed : 0.0F;
+}
+
+glm::vec3 ggx(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
+    const float cos_in = std::max(w_in.z, min_cosine);
+    const float cos_out = std::max(w_out.z, min_cosine);
+    const float a2 = brdf.lobe.alpha * brdf.lobe.alpha;
+    // The half vector, not normalised: its length is 2 v.h.
+    const glm::vec2 across = glm::vec2(w_in) + glm::vec2(w_out);
+    const float along = cos_in + cos_out;
+    const float sine2 = glm::dot(across, across);
+    const float length2 = sine2 + along * along;
+    // D = a^2 / (pi (sin^2 + a^2 cos^2)^2): no cancellation near the mirrored direction.
+    const float spread = (sine2 + a2 * along * along) / length2;
+    const float distribution = a2 / (pi * spread * spread);
+    const float smith = cos_in * std::sqrt(a2 + (1.0F - a2) * cos_out * cos_out) +
+                        cos_out * std::sqrt(a2 + (1.0F - a2) * cos_in * cos_in);
+    const float grazing = std::max(0.0F, 1.0F - 0.5F * std::sqrt(length2));
+    const float p = grazing * grazing * grazing * grazing * grazing;
+    return (brdf.f0 * (1.0F - p) + brdf.lobe.f90 * p) * (0.5F * distribution / smith);
+}
+
+glm::vec3 max_phong(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
+    const float n = brdf.lobe.exponent;
+    // 1 - cosine between w_out and the mirrored w_in, by their distance: exact where it is small.
+    const glm::vec3 apart(w_in.x + w_out.x, w_in.y + w_out.y, w_in.z - w_out.z);
+    const float gap = 0.5F * glm::dot(apart, apart);
+    if (gap >= 1.0F) {
+        return glm::vec3(0.0F);
+    }
+    const float power = std::exp(n * std::log1p(-gap));
+    return brdf.f0 * (power * (n + 2.0F) / (2.0F * pi * std::max({w_in.z, w_out.z, min_cosine})));
+}
+
+}  // namespace
+
+ReflectanceModel reflectance_model(const Material& material) {
+    if (material.max_phong) {
+        return max_phong_model(*material.max_phong);
+    }
+    const float metallic = std::clamp(material.metallic, 0.0F, 1.0F);
+    const float specular = std::clamp(material.specular, 0.0F, 1.0F);
+    ReflectanceModel model;
+    if (metallic <= 0.0F && specular <= 0.0F) {
+        return model;
+    }
+    const float roughness = std::clamp(material.roughness, min_roughness, 1.0F);
+    const glm::vec3 dielectric =
+        glm::clamp(dielectric_f0 * material.specular_colour, 0.0F, 1.0F) * specular;
+    const float dielectric_share = (1.0F - metallic) * (1.0F - energy_margin * specular);
+    model.f0 = dielectric_share * dielectric;
+    model.f0_share = metallic;
+    model.lambert_share = dielectric_share;
+    model.lobe.kind = LobeKind::ggx;
+    model.lobe.alpha = roughness * roughness;
+    model.lobe.f90 = dielectric_share * specular + metallic;
+    if (metallic < 1.0F) {
+        model.lobe.coating = glm::vec2(max_component(dielectric), specular);
+        model.lobe.inverse_mean = inverse_mean_transmission(model.lobe);
+    }
+    return model;
+}
+
+Brdf make_brdf(const ReflectanceModel& model, const glm::vec3& base_colour) {
+    const glm::vec3 colour = glm::clamp(base_colour, 0.0F, max_albedo);
+    Brdf brdf{model.lambert_share * colour, model.f0 + model.f0_share * colour, model.lobe};
+    if (model.lobe.kind == LobeKind::max_phong) {
+        const glm::vec3 scale = glm::min(glm::vec3(1.0F), max_albedo / (brdf.lambert + brdf.f0));
+        brdf.lambert *= scale;
+        brdf.f0 *= scale;
+    }
+    return brdf;
+}
+
+Brdf make_brdf(const Material& material, const glm::vec3& base_colour) {
+    return make_brdf(reflectance_model(material), base_colour);
+}
+
+float transmission(const SpecularLobe& lobe, float cosine) {
+    if (lobe.coating == glm::vec2(0.0F)) {
+        return 1.0F;
+    }
+    const LobeAlbedo albedo = ggx_albedo(lobe.alpha, cosine);
+    return 1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias;
+}
+
+glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
+    return evaluate(brdf, w_in, w_out,
+                    transmission(brdf.lobe, w_in.z) * transmission(brdf.lobe, w_out.z));
+}
+
+glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out, float passed) {
+    if (!(w_in.z > 0.0F && w_out.z > 0.0F)) {
+        return glm::vec3(0.0F);
+    }
+    const glm::vec3 diffuse = brdf.lambert * (passed * brdf.lobe.inverse_mean / pi);
+    switch (brdf.lobe.kind) {
+        case LobeKind::ggx:
+            return diffuse + ggx(brdf, w_in, w_out);
+        case LobeKind::max_phong:
+            return diffuse + max_phong(brdf, w_in, w_out);
+        case LobeKind::none:
+            break;
+    }
+    return diffuse;
+}
+
+}  // namespace raybundle

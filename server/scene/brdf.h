@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflectance of surfaces. Directions are unit vectors away from the surface in its local frame,
+// z = normal; w_in looks to where the light comes from. All BRDFs are isotropic and reciprocal.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+enum class LobeKind { none, ggx, max_phong };
+
+/// The specular part without its colour, and how much it takes from the Lambert part below it.
+struct SpecularLobe {
+    LobeKind kind = LobeKind::none;
+    float alpha = 1.0F;         ///< GGX: roughness^2; max-Phong: of about the same width
+    float exponent = 0.0F;      ///< max-Phong
+    float f90 = 0.0F;           ///< GGX: reflectance at grazing angles
+    glm::vec2 coating{0.0F};    ///< f0, f90 of the dielectric surface over the Lambert part
+    float inverse_mean = 1.0F;  ///< 1 / mean over the hemisphere of transmission()
+
+    bool operator==(const SpecularLobe&) const = default;
+};
+
+/// A BRDF, 1/sr:
+///
+///   f_r = lambert/pi * t(cos_in) t(cos_out) / mean(t)  +  (f0 (1 - p) + f90 p) D V   (GGX)
+///   f_r = lambert/pi  +  f0 (n + 2)/(2 pi) cos^n / max(cos_in, cos_out)              (max-Phong)
+///
+/// with p = (1 - v.h)^5 (Schlick), D the GGX distribution, V the height-correlated Smith term (glTF
+/// 2.0 appendix B), and t = transmission().
+///
+/// Appendix B multiplies the Lambert part by 1 - p instead of the t. That creates energy: at
+/// grazing angles a smooth dielectric reflects nearly everything by its lobe and 95 % of `lambert`
+/// again, an albedo of up to 1.9. Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled
+/// Specular-Matte BRDF Model", couple both by the lobe's tabulated directional albedo instead: the
+/// albedo is then lambert * t + lobe <= 1 at every angle. At normal incidence it differs from
+/// appendix B's by less than 3 %, the light that a rough surface would lose between its facets.
+struct Brdf {
+    glm::vec3 lambert{0.0F};  ///< albedo of the Lambert part alone
+    glm::vec3 f0{0.0F};       ///< GGX: reflectance at normal incidence; max-Phong: albedo there
+    SpecularLobe lobe;
+
+    bool operator==(const Brdf&) const = default;
+};
+
+/// What a material's BRDF is apart from its base colour, which may come from a texture.
+struct ReflectanceModel {
+    glm::vec3 f0{0.0F};          ///< part of Brdf::f0 that has a colour of its own
+    float f0_share = 0.0F;       ///< share of the base colour in Brdf::f0 (metals)
+    float lambert_share = 1.0F;  ///< share of the base colour in Brdf::lambert
+    SpecularLobe lobe;
+};
+
+/// glTF 2.0 appendix B (metallic-roughness) with KHR_materials_specular, or max-Phong over a
+/// Lambert base. Roughness is at least min_roughness. Some 10 us; the first call for a glossy
+/// material also integrates the GGX table.
+ReflectanceModel reflectance_model(const Material& material);
+
+/// Cheap. base_colour: factor times texture, linear; clamped to 0..max_albedo. A max-Phong lobe and
+/// its Lambert base are scaled down together where they would reflect more than max_albedo.
+Brdf make_brdf(const ReflectanceModel& model, const glm::vec3& base_colour);
+Brdf make_brdf(const Material& material, const glm::vec3& base_colour);
+
+/// Share of the light from an angle that the specular lobe lets pass to the Lambert part.
+float transmission(const SpecularLobe& lobe, float cosine);
+
+/// f_r, 1/sr. 0 if either direction is not above the horizon; finite everywhere.
+glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out);
+/// The same where transmission() is known at both angles: `passed` is its product.
+glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out, float passed);
+
+struct BrdfSample {
+    glm::vec3 w_in{0.0F, 0.0F, 1.0F};  ///< may lie below the horizon, where evaluate() is 0
+    float pdf = 0.0F;                  ///< 1/sr, of pdf(); 0: no direction, w_out was below
+};
+
+/// Draws w_in for a given w_out: the lobe (visible normals for GGX, Heitz 2018; cos^n round the
+/// mirrored direction for max-Phong) if `choice` is below its share, else the cosine. u and choice:
+/// uniform in [0, 1), independent.
+BrdfSample sample(const Brdf& brdf, const glm::vec3& w_out, const glm::vec2& u, float choice);
+
+/// Density of sample(), 1/sr; integrates to 1 over the whole sphere. 0 if w_out is not above the
+/// horizon.
+float pdf(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out);
+
+/// The lobe alone: a direction for a uniformly distributed point of the unit disc, and its density
+/// over the sphere, 1/sr. Not for LobeKind::none; w_out above the horizon. Points with opposite
+/// disc.y give directions that mirror each other in the plane of w_out and the normal.
+glm::vec3 lobe_direction(const SpecularLobe& lobe, const glm::vec3& w_out, const glm::vec2& disc);
+float lobe_density(const SpecularLobe& lobe, const glm::vec3& w_in, const glm::vec3& w_out);
+
+/// The direction above a point of the unit disc: of density cos/pi for uniform points.
+glm::vec3 cosine_direction(const glm::vec2& disc);
+
+}  // namespace raybundle

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/reflectance_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "scene/ggx_albedo.h"
+
+namespace raybundle {
+namespace {
+
+constexpr float pi = glm::pi<float>();
+float cosine_of(const SpecularLobe& lobe, int node) {
+    return cosine_of_node(static_cast<float>(node), grazing_scale(lobe.alpha));
+}
+
+glm::vec3 albedo_of(const Brdf& brdf, const ReflectanceNode& node) {
+    return brdf.lambert * node.transmission + brdf.f0 * node.scale + brdf.lobe.f90 * node.bias;
+}
+
+}  // namespace
+
+ReflectanceTable::ReflectanceTable(const Brdf& brdf) : brdf_(brdf) {
+    const SpecularLobe& lobe = brdf.lobe;
+    if (lobe.kind == LobeKind::none) {
+        return;
+    }
+    for (int i = 0; i < reflectance_nodes; ++i) {
+        const LobeAlbedo albedo = lobe.kind == LobeKind::ggx
+                                      ? ggx_albedo_at_node(lobe.alpha, i)
+                                      : integrate_albedo(lobe, cosine_of(lobe, i));
+        ReflectanceNode& node = nodes_[static_cast<std::size_t>(i)];
+        node.scale = albedo.scale;
+        node.bias = albedo.bias;
+        node.transmission = 1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias;
+    }
+    for (int i = 0; i < reflectance_nodes; ++i) {
+        nodes_[static_cast<std::size_t>(i)].importance = integrate_importance(i);
+    }
+}
+
+/// S, by two lattices: one where the lobe is, one over the hemisphere, weighted by the balance
+/// heuristic.
+float ReflectanceTable::integrate_importance(int index) const {
+    const ReflectanceNode& node = nodes_[static_cast<std::size_t>(index)];
+    const glm::vec3 w_in = direction_at(cosine_of(brdf_.lobe, index));
+    const glm::vec3 mean = albedo_of(brdf_, node) / pi;
+    double sum = 0.0;
+    const auto add = [&](const glm::vec3& w, float weight) {
+        if (w.z > 0.0F) {
+            const float passed = node.transmission * at(w.z).transmission;
+            const glm::vec3 df = glm::abs(evaluate(brdf_, w_in, w, passed) - mean);
+            const float density = lobe_density(brdf_.lobe, w, w_in) + w.z / pi;
+            sum += static_cast<double>(weight * std::max({df.r, df.g, df.b}) * w.z / density);
+        }
+    };
+    for (const auto& [disc, weight] : half_disc_lattice()) {
+        add(lobe_direction(brdf_.lobe, w_in, disc), weight);
+        add(cosine_direction(disc), weight);
+    }
+    return static_cast<float>(sum);
+}
+
+ReflectanceNode ReflectanceTable::at(float cosine) const {
+    const float position = node_of_cosine(cosine, grazing_scale(brdf_.lobe.alpha));
+    const int first = std::min(static_cast<int>(position), reflectance_nodes - 2);
+    const ReflectanceNode& a = nodes_[static_cast<std::size_t>(first)];
+    const ReflectanceNode& b = nodes_[static_cast<std::size_t>(first) + 1];
+    const float t = position - static_cast<float>(first);
+    return {glm::mix(a.scale, b.scale, t), glm::mix(a.bias, b.bias, t),
+            glm::mix(a.transmission, b.transmission, t), glm::mix(a.importance, b.importance, t)};
+}
+
+glm::vec3 ReflectanceTable::albedo(const Brdf& recoloured, float cosine) const {
+    return albedo_of(recoloured, at(cosine));
+}
+
+}  // namespace raybundle

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflectance of surfaces, as in scene/brdf.h and scene/reflectance_table.h, which say what is what.
+// MAX_PHONG is defined where the scene has such a material; else its code is not compiled.
+
+// Records of all materials (Reflectance), then rows of REFLECTANCE_NODES texels from grazing to normal
+// incidence: scale, bias, transmission, importance.
+layout(binding = UNIT_REFLECTANCE) uniform samplerBuffer reflectance_texels;
+
+const float brdf_inverse_pi = 0.31830988618379067;
+const float brdf_min_cosine = 1e-6;
+
+struct Brdf {
+    vec3 lambert;
+    vec3 f0;
+    float f90;
+    float width;         // alpha; max-Phong: exponent
+    float inverse_mean;  // 1 / mean transmission
+    float grazing;       // scale q of the nodes
+    int first_node;
+    int kind;            // LOBE_*
+};
+
+/// The BRDF of a material where its base colour (factor times texture, linear) is known.
+Brdf make_brdf(uint material, vec3 base_colour) {
+    int at = 3 * int(material);
+    vec4 f0 = texelFetch(reflectance_texels, at);
+    vec4 lobe = texelFetch(reflectance_texels, at + 1);
+    vec4 table = texelFetch(reflectance_texels, at + 2);
+    vec3 colour = clamp(base_colour, 0.0, MAX_ALBEDO);
+    Brdf b;
+    b.lambert = lobe.z * colour;
+    b.f0 = f0.rgb + f0.w * colour;
+    b.width = lobe.x;
+    b.f90 = lobe.y;
+    b.inverse_mean = lobe.w;
+    b.grazing = table.x;
+    b.first_node = int(table.y);
+    b.kind = int(table.z);
+#ifdef MAX_PHONG
+    if (b.kind == LOBE_MAX_PHONG) {
+        vec3 scale = min(vec3(1.0), MAX_ALBEDO / max(b.lambert + b.f0, 1e-6));
+        b.lambert *= scale;
+        b.f0 *= scale;
+    }
+#endif
+    return b;
+}
+
+/// Scale, bias, transmission and importance S at an angle.
+vec4 brdf_at(Brdf b, float cosine) {
+    // node_of_cosine() of scene/reflectance_nodes.h
+    float c = clamp(cosine, 0.0, 1.0);
+    float shadowing = c * (1.0 + b.grazing) / (c + b.grazing);
+    float fresnel = c * (2.0 - c);
+    float normal = 1.0 - sqrt(1.0 - c);
+    float node = (0.3 * shadowing + 0.2 * fresnel + 0.5 * normal) * float(REFLECTANCE_NODES - 1);
+    int first = min(int(node), REFLECTANCE_NODES - 2);
+    vec4 low = texelFetch(reflectance_texels, b.first_node + first);
+    vec4 high = texelFetch(reflectance_texels, b.first_node + first + 1);
+    return mix(low, high, node - float(first));
+}
+
+/// Directional albedo; at = brdf_at() of the angle.
+vec3 brdf_albedo(Brdf b, vec4 at) { return b.lambert * at.z + b.f0 * at.x + b.f90 * at.y; }
+
+/// f_r, 1/sr; 0 where a direction is not above the horizon. Unit vectors away from the surface.
+/// passed: product of the transmissions, brdf_at().z, at both angles.
+vec3 brdf_value(Brdf b, vec3 normal, vec3 w_in, vec3 w_out, float passed) {
+    float cos_in = dot(normal, w_in);
+    float cos_out = dot(normal, w_out);
+    vec3 sum = w_in + w_out;
+    vec3 lambert = b.lambert * (passed * b.inverse_mean * brdf_inverse_pi);
+    vec3 value = lambert;
+    if (b.kind == LOBE_GGX) {
+        // Height-correlated Smith; the half vector's length is 2 v.h.
+        float clamped_in = max(cos_in, brdf_min_cosine);
+        float clamped_out = max(cos_out, brdf_min_cosine);
+        vec3 across = sum - (cos_in + cos_out) * normal;
+        float along = clamped_in + clamped_out;
+        float sine2 = dot(across, across);
+        float length2 = sine2 + along * along;
+        float a2 = b.width * b.width;
+        float spread = (sine2 + a2 * along * along) / length2;
+        float smith = clamped_in * sqrt(a2 + (1.0 - a2) * clamped_out * clamped_out) +
+                      clamped_out * sqrt(a2 + (1.0 - a2) * clamped_in * clamped_in);
+        float grazing = max(0.0, 1.0 - 0.5 * sqrt(length2));
+        float grazing2 = grazing * grazing;
+        float p = grazing2 * grazing2 * grazing;
+        value += mix(b.f0, vec3(b.f90), p) * (0.5 * brdf_inverse_pi * a2 / (spread * spread * smith));
+    }
+#ifdef MAX_PHONG
+    if (b.kind == LOBE_MAX_PHONG) {
+        vec3 apart = 2.0 * cos_in * normal - sum;  // from w_out to the mirrored w_in
+        float cosine = max(1.0 - 0.5 * dot(apart, apart), 0.0);
+        value += b.f0 * (pow(cosine, b.width) * (b.width + 2.0) * 0.5 * brdf_inverse_pi /
+                         max(max(cos_in, cos_out), brdf_min_cosine));
+    }
+#endif
+    return cos_in > 0.0 && cos_out > 0.0 ? value : vec3(0.0);
+}
+
+/// df_r = f_r - a(w_in)/pi; in, out = brdf_at() of the angles.
+vec3 brdf_difference(Brdf b, vec3 normal, vec3 w_in, vec3 w_out, vec4 at_in, vec4 at_out) {
+    return brdf_value(b, normal, w_in, w_out, at_in.z * at_out.z) - brdf_albedo(b, at_in) * brdf_inverse_pi;
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/reflectance_tables.h"
+
+#include <array>
+#include <map>
+
+#include "gpu/egl_context.h"
+#include "gpu/layouts.h"
+#include "scene/lambert_albedo.h"
+#include "scene/patch_colour.h"
+
+namespace raybundle {
+namespace {
+
+static_assert(reflectance_nodes == REFLECTANCE_NODES);
+static_assert(max_albedo == static_cast<float>(MAX_ALBEDO));
+static_assert(static_cast<int>(LobeKind::none) == LOBE_NONE &&
+              static_cast<int>(LobeKind::ggx) == LOBE_GGX &&
+              static_cast<int>(LobeKind::max_phong) == LOBE_MAX_PHONG);
+static_assert(sizeof(ReflectanceNode) == sizeof(glm::vec4));
+
+constexpr std::size_t texels_per_record = sizeof(layout::Reflectance) / sizeof(glm::vec4);
+
+/// What a material's table is made for. All Lambert surfaces share one.
+Brdf representative(const Scene& scene, const Material& material) {
+    const ReflectanceModel model = reflectance_model(material);
+    return model.lobe.kind == LobeKind::none ? Brdf{}
+                                             : make_brdf(model, mean_base_colour(scene, material));
+}
+
+using Key = std::array<float, 13>;
+
+Key key_of(const Brdf& b) {
+    return {b.lambert.r,
+            b.lambert.g,
+            b.lambert.b,
+            b.f0.r,
+            b.f0.g,
+            b.f0.b,
+            b.lobe.alpha,
+            b.lobe.exponent,
+            b.lobe.f90,
+            b.lobe.coating.x,
+            b.lobe.coating.y,
+            b.lobe.inverse_mean,
+            static_cast<float>(b.lobe.kind)};
+}
+
+layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_texel) {
+    const SpecularLobe& lobe = model.lobe;
+    const float width = lobe.kind == LobeKind::max_phong ? lobe.exponent : lobe.alpha;
+    return {glm::vec4(model.f0, model.f0_share),
+            glm::vec4(width, lobe.f90, model.lambert_share, lobe.inverse_mean),
+            glm::vec4(grazing_scale(lobe.alpha), static_cast<float>(first_texel),
+                      static_cast<float>(lobe.kind), 0.0F)};
+}
+
+}  // namespace
+
+ReflectanceTables::ReflectanceTables(const Scene& scene) {
+    std::map<Key, std::size_t> known;
+    bool max_phong = false;
+    for (const Material& material : scene.materials) {
+        const Brdf brdf = representative(scene, material);
+        const auto [it, inserted] = known.try_emplace(key_of(brdf), tables_.size());
+        if (inserted) {
+            tables_.emplace_back(brdf);
+        }
+        table_of_material_.push_back(it->second);
+        glossy_ |= brdf.lobe.kind != LobeKind::none;
+        max_phong |= brdf.lobe.kind == LobeKind::max_phong;
+    }
+    if (max_phong) {
+        defines_.emplace_back("MAX_PHONG 1");
+    }
+    upload(scene);
+}
+
+void ReflectanceTables::upload(const Scene& scene) {
+    const std::size_t records = texels_per_record * scene.materials.size();
+    const std::size_t texels = records + reflectance_nodes * tables_.size();
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+    // Texel numbers travel as floats.
+    constexpr std::size_t exact_in_float = 1U << 24U;
+    if (texels > std::min(static_cast<std::size_t>(limit), exact_in_float)) {
+        throw GpuError("the scene has too many materials: " + std::to_string(texels) +
+                       " texels of reflectance do not fit into a buffer texture");
+    }
+    std::vector<layout::Reflectance> record;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        record.push_back(record_of(reflectance_model(scene.materials[i]),
+                                   records + reflectance_nodes * table_of_material_[i]));
+    }
+    buffer_ = Buffer("reflectance", texels * sizeof(glm::vec4));
+    buffer_.write<layout::Reflectance>(record, 0);
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+        buffer_.write(tables_[i].nodes(),
+                      (records + reflectance_nodes * i) * sizeof(ReflectanceNode));
+    }
+    texture_ = create_buffer_texture("reflectance", GL_RGBA32F, buffer_);
+}
+
+void ReflectanceTables::bind() const {
+    glBindTextureUnit(UNIT_REFLECTANCE, texture_.get());
+}
+
+}  // namespace raybundle

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// brdf.glsl against scene/brdf.h and scene/reflectance_table.h.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../unit/random_brdf.h"
+#include "embedded_file.h"
+#include "gpu/egl_context.h"
+#include "gpu/layouts.h"
+#include "scene/patch_colour.h"
+#include "solution/reflectance_tables.h"
+
+namespace raybundle {
+namespace {
+
+using test::RandomBrdfs;
+
+constexpr char probe_main[] = R"(
+struct Query { vec4 normal; vec4 w_in; vec4 w_out; vec4 colour; };  // normal.w: material
+struct Answer { vec4 value; vec4 albedo; vec4 difference; };        // albedo.w: importance
+layout(std430, binding = 0) readonly buffer Queries { Query queries[]; };
+layout(std430, binding = 1) writeonly buffer Answers { Answer answers[]; };
+layout(local_size_x = 64) in;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= uint(queries.length())) {
+        return;
+    }
+    Query q = queries[i];
+    vec3 n = q.normal.xyz;
+    Brdf b = make_brdf(uint(q.normal.w), q.colour.rgb);
+    vec4 at_in = brdf_at(b, dot(n, q.w_in.xyz));
+    vec4 at_out = brdf_at(b, dot(n, q.w_out.xyz));
+    vec3 value = brdf_value(b, n, q.w_in.xyz, q.w_out.xyz, at_in.z * at_out.z);
+    vec3 difference = brdf_difference(b, n, q.w_in.xyz, q.w_out.xyz, at_in, at_out);
+    answers[i] = Answer(vec4(value, 0.0), vec4(brdf_albedo(b, at_in), at_in.w), vec4(difference, 0.0));
+}
+)";
+
+std::string shader_text(std::string_view name) {
+    for (const EmbeddedFile& file : shader_files()) {
+        if (file.name == name) {
+            return std::string(file.contents);
+        }
+    }
+    throw GpuError("no such shader: " + std::string(name));
+}
+
+/// A program of the test's own: it is no part of the executable.
+Program build_probe(const std::vector<std::string>& defines) {
+    std::string text = "#version 450 core\n";
+    for (const std::string& define : defines) {
+        text += "#define " + define + "\n";
+    }
+    text += shader_text("layouts.glsl") + shader_text("brdf.glsl") + probe_main;
+    const char* source = text.c_str();
+    Program program(glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &source));
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE) {
+        char log[4096] = "";
+        glGetProgramInfoLog(program.get(), sizeof log, nullptr, log);
+        throw GpuError(log);
+    }
+    return program;
+}
+
+struct Query {
+    glm::vec4 normal, w_in, w_out, colour;
+};
+struct Answer {
+    glm::vec4 value, albedo, difference;
+};
+
+std::vector<Answer> ask(const ReflectanceTables& tables, const std::vector<Query>& queries) {
+    const Program program = build_probe(tables.defines());
+    const Buffer input = Buffer::from<Query>("queries", queries);
+    const Buffer output("answers", queries.size() * sizeof(Answer));
+    input.bind_storage(0);
+    output.bind_storage(1);
+    tables.bind();
+    glUseProgram(program.get());
+    glDispatchCompute(static_cast<GLuint>(queries.size() / 64 + 1), 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    std::vector<Answer> answers(queries.size());
+    output.read<Answer>(answers);
+    return answers;
+}
+
+Scene random_scene(unsigned seed, int materials, bool max_phong) {
+    RandomBrdfs random(seed);
+    Scene scene;
+    for (int i = 0; i < materials; ++i) {
+        Material material = random.material();
+        if (!max_phong) {
+            material.max_phong.reset();
+        }
+        if (i % 10 == 0) {  // a Lambert surface, and the smoothest of all
+            material.metallic = material.specular = 0.0F;
+        } else if (i % 10 == 1) {
+            material.roughness = 0.0F;
+        }
+        scene.materials.push_back(material);
+    }
+    return scene;
+}
+
+/// Every relative error is measured by the CPU's value, that of a difference by its two terms.
+void expect_equal(const Scene& scene, const ReflectanceTables& tables,
+                  const std::vector<Query>& queries, const std::vector<glm::mat3>& frames,
+                  float tolerance) {
+    const std::vector<Answer> answers = ask(tables, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const Query& q = queries[i];
+        const auto material = static_cast<std::size_t>(q.normal.w);
+        const Brdf brdf = make_brdf(scene.materials[material], glm::vec3(q.colour));
+        const ReflectanceTable& table = tables.table(material);
+        const glm::mat3 local_from_world = glm::transpose(frames[i]);
+        const glm::vec3 w_in = local_from_world * glm::vec3(q.w_in);
+        const glm::vec3 w_out = local_from_world * glm::vec3(q.w_out);
+        const glm::vec3 f = evaluate(brdf, w_in, w_out);
+        const glm::vec3 mean = table.albedo(brdf, w_in.z) / glm::pi<float>();
+        for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(answers[i].value[c], f[c], tolerance * f[c] + 1e-12F)
+                << i << " material " << material << " kind " << static_cast<int>(brdf.lobe.kind)
+                << " alpha " << brdf.lobe.alpha << " exponent " << brdf.lobe.exponent << " cos "
+                << w_in.z << " " << w_out.z;
+            ASSERT_NEAR(answers[i].albedo[c], mean[c] * glm::pi<float>(),
+                        tolerance * mean[c] * glm::pi<float>())
+                << i << " material " << material << " cos " << w_in.z;
+            ASSERT_NEAR(answers[i].difference[c], f[c] - mean[c], tolerance * (f[c] + mean[c]));
+        }
+        const float importance = table.importance(w_in.z);
+        ASSERT_NEAR(answers[i].albedo.w, importance, tolerance * importance);
+    }
+}
+
+class BrdfGpu : public testing::TestWithParam<bool> {};
+
+/// Local frames, all angles (half of them grazing), a third near the mirrored direction.
+TEST_P(BrdfGpu, AgreesWithTheCpu) {
+    const Scene scene = random_scene(31, 120, GetParam());
+    const ReflectanceTables tables(scene);
+    RandomBrdfs random(32);
+    std::vector<Query> queries;
+    for (int i = 0; i < 60'000; ++i) {
+        const glm::vec3 in = random.direction();
+        glm::vec3 out = random.direction();
+        if (i % 3 == 0) {
+            out = glm::vec3(-in.x, -in.y, in.z) + 0.03F * random.uniform() * out;
+            out = glm::normalize(out);
+        } else if (i % 100 == 1) {
+            out.z = -out.z;
+        }
+        queries.push_back({{0.0F, 0.0F, 1.0F, static_cast<float>(i % 120)},
+                           glm::vec4(in, 0.0F),
+                           glm::vec4(out, 0.0F),
+                           glm::vec4(1.1F * random.colour(), 0.0F)});
+    }
+    const std::vector<glm::mat3> frames(queries.size(), glm::mat3(1.0F));
+    expect_equal(scene, tables, queries, frames, 1e-4F);
+}
+
+/// Any normal. Cosines then have an error of 1e-7, which smooth lobes and grazing angles magnify.
+TEST_P(BrdfGpu, AgreesWithTheCpuInAnyFrame) {
+    Scene scene = random_scene(33, 60, GetParam());
+    for (Material& material : scene.materials) {
+        material.roughness = std::max(material.roughness, 0.25F);
+    }
+    const ReflectanceTables tables(scene);
+    RandomBrdfs random(34);
+    std::vector<Query> queries;
+    std::vector<glm::mat3> frames;
+    while (queries.size() < 20'000) {
+        const glm::vec3 in = random.direction();
+        const glm::vec3 out = random.direction();
+        if (std::min(in.z, out.z) < 0.05F) {
+            continue;
+        }
+        const glm::vec3 n = glm::normalize(random.direction() - glm::vec3(0, 0, 0.4F));
+        const glm::vec3 t = glm::normalize(glm::cross(n, glm::vec3(0.3F, 0.8F, 0.1F)));
+        frames.emplace_back(t, glm::cross(n, t), n);
+        queries.push_back({glm::vec4(n, static_cast<float>(queries.size() % 60)),
+                           glm::vec4(frames.back() * in, 0.0F),
+                           glm::vec4(frames.back() * out, 0.0F), glm::vec4(random.colour(), 0.0F)});
+    }
+    expect_equal(scene, tables, queries, frames, 1e-3F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BrdfGpu, testing::Bool(), [](const auto& test) {
+    return std::string(test.param ? "WithMaxPhong" : "WithoutMaxPhong");
+});
+
+TEST(ReflectanceTables, LambertScenesShareOneTable) {
+    Scene scene;
+    Material matte;
+    matte.metallic = matte.specular = 0.0F;
+    for (const float shade : {0.2F, 0.5F, 0.8F}) {
+        matte.base_colour = glm::vec3(shade);
+        scene.materials.push_back(matte);
+    }
+    const ReflectanceTables tables(scene);
+    EXPECT_EQ(tables.table_count(), 1U);
+    EXPECT_FALSE(tables.glossy());
+    EXPECT_TRUE(tables.defines().empty());
+}
+
+TEST(ReflectanceTables, EqualGlossyMaterialsShareOneTable) {
+    Scene scene;
+    Material plastic;
+    plastic.metallic = 0.0F;
+    plastic.roughness = 0.3F;
+    scene.materials = {plastic, plastic, plastic};
+    scene.materials[1].name = "the same under another name";
+    scene.materials[2].roughness = 0.31F;
+    const ReflectanceTables tables(scene);
+    EXPECT_EQ(tables.table_count(), 2U);
+    EXPECT_EQ(&tables.table(0), &tables.table(1));
+    EXPECT_TRUE(tables.glossy());
+    EXPECT_EQ(tables.bytes(), 16U * (3U * 3U + 2U * reflectance_nodes));
+}
+
+}  // namespace
+}  // namespace raybundle
