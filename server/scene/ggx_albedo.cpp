@@ -50,7 +50,7 @@ class Table {
 
   private:
     [[nodiscard]] static std::size_t index(int row, int node) {
-        return static_cast<std::size_t>(row * reflectance_nodes + node);
+        return static_cast<std::size_t>(row) * reflectance_nodes + static_cast<std::size_t>(node);
     }
     [[nodiscard]] const LobeAlbedo& at(int row, int node) const {
         return values_[index(row, node)];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/reflectance_tables.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 

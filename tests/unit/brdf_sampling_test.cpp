@@ -62,6 +62,10 @@ glm::vec3 tilted(float cosine) {
     return {sine * std::cos(1.1F), sine * std::sin(1.1F), cosine};
 }
 
+std::size_t bin(int row, int column) {
+    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+}
+
 /// Probability of each bin: the density's integral, midpoints.
 std::vector<double> bin_probabilities(const Brdf& brdf, const glm::vec3& w_out) {
     constexpr int fine = 24;
@@ -72,9 +76,8 @@ std::vector<double> bin_probabilities(const Brdf& brdf, const glm::vec3& w_out) 
         for (int j = 0; j < columns * fine; ++j) {
             const double phi = 2.0 * pi * (j + 0.5) / (columns * fine);
             const glm::vec3 w(sine * std::cos(phi), sine * std::sin(phi), z);
-            result[static_cast<std::size_t>(i / fine * columns + j / fine)] +=
-                static_cast<double>(pdf(brdf, w, w_out)) * 4.0 * pi /
-                (double{rows} * columns * fine * fine);
+            result[bin(i / fine, j / fine)] += static_cast<double>(pdf(brdf, w, w_out)) * 4.0 * pi /
+                                               (double{rows} * columns * fine * fine);
         }
     }
     return result;
@@ -91,7 +94,7 @@ std::vector<int> bin_counts(const Brdf& brdf, const glm::vec3& w_out, int sample
         const int row = std::clamp(static_cast<int>((w.z + 1.0F) * 0.5F * rows), 0, rows - 1);
         const int column =
             std::clamp(static_cast<int>((turn - std::floor(turn)) * columns), 0, columns - 1);
-        ++result[static_cast<std::size_t>(row * columns + column)];
+        ++result[bin(row, column)];
     }
     return result;
 }
