@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gpu/gl_scope.h"
+
 namespace raybundle {
 
 namespace {

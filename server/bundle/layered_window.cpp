@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gpu/egl_context.h"
+#include "gpu/gl_scope.h"
 
 namespace raybundle {
 

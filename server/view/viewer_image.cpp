@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gpu/gl_scope.h"
+
 namespace raybundle {
 
 namespace {
