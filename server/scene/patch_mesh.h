@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/facet_tree.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -25,6 +26,13 @@ struct PatchMesh {
     std::vector<glm::uvec3> triangles;  ///< vertex indices, counter-clockwise from the front
     std::vector<std::uint32_t> triangle_material;
     std::vector<std::uint32_t> back_patch;  ///< patch of the back side, or no_patch
+
+    // Facets: the flat triangles that bundles and pictures rasterise, tiled by `triangles`. Which
+    // triangle a point of a facet belongs to, facet_tree tells. A mesh without any rasterises its
+    // triangles.
+    std::vector<glm::uvec3> facets;  ///< vertex indices, counter-clockwise from the front
+    std::vector<FacetNode> facet_roots;
+    std::vector<FacetNode> facet_tree;
 
     // Patches.
     std::vector<std::uint32_t> patch_triangle;

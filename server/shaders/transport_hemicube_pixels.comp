@@ -5,6 +5,7 @@
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#include "facets.glsl"
 #include "hemicube.glsl"
 #include "pixel_receiver.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
@@ -14,7 +15,7 @@ layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 /// True where the shooter sees x. d: x in bundle coordinates.
 bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
     uint surface = texelFetch(surface_ids, texel, 0).r;
-    if (surface == NO_HIT || patch_of_surface(surface) == x.patch_id) {
+    if (surface == NO_HIT || surface == x.surface) {
         return true;
     }
     float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;

@@ -186,7 +186,7 @@ void ViewerImage::bind_pixels() const {
 
 void ViewerImage::prepare_receiving(const ShaderProgram& program, const Context& context) {
     bind_pixels();
-    program.set("patch_base", scene_.patch_base(context.place));
+    program.set("facet_base", scene_.facet_base(context.place));
     program.set("vertex_base", scene_.vertex_base(context.place));
     program.set("moved_object", context.moved_object);
     program.dispatch(pixel_count(size_));
