@@ -25,7 +25,7 @@ SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, Transfer
       store_(store),
       transfer_(transfer),
       object_(object),
-      numbers_(seed, 0),
+      numbers_(seed),
       boxes_{scene.object_bounds(object, Place::now), scene.object_bounds(object, Place::before)} {
     std::vector<glm::vec4> numbers;
     for (unsigned i = 0; i < perspective_iterations; ++i) {
