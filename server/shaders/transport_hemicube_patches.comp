@@ -129,7 +129,7 @@ void main() {
     float pixel_area = 4.0 * float(row_stride) / (n * n);  // at unit focal distance
     int face;
     mat3 world_from_bundle = mat3(bundle.axis_x.xyz, bundle.axis_y.xyz, bundle.axis_z.xyz);
-    vec3 in_bundle = hemicube_direction(vec2(texel) + 0.5, n, face);
+    vec3 in_bundle = hemicube_direction(sample_point(texel), n, face);
     vec3 d = world_from_bundle * in_bundle;
     vec3 d_step = world_from_bundle * hemicube_face(face)[0] * (2.0 / n);
     float d_z = in_bundle.z;

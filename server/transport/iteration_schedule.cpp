@@ -19,7 +19,14 @@ std::pair<float, float> split(double u) {
 
 // Dimensions of the Halton sequences; perspective and layered iterations count separately.
 constexpr unsigned rows = 5;  // of both kinds
-enum Dimension : unsigned { choose_patch = 0, point_u = 1, point_v = 2, turn = 3 };
+enum Dimension : unsigned {
+    choose_patch = 0,
+    point_u = 1,
+    point_v = 2,
+    turn = 3,
+    point_x = 4,
+    point_y = 6
+};
 enum LayeredDimension : unsigned {
     polar = 0,
     azimuth = 1,
@@ -76,6 +83,8 @@ IterationSample IterationSchedule::next() {
     sample.shooter_numbers = {leading, trailing, static_cast<float>(numbers_.sample(point_u, k)),
                               static_cast<float>(numbers_.sample(point_v, k))};
     sample.angle = turn_range * numbers_.sample(turn, k);
+    sample.shift = {static_cast<float>(numbers_.sample(point_x, k)),
+                    static_cast<float>(numbers_.sample(point_y, k))};
     return sample;
 }
 

@@ -14,9 +14,9 @@ enum class Strategy { layered, perspective };
 
 /// Probabilities of the strategies (ch. 6.2): the densities of all receivers use the same numbers.
 struct StrategyProbabilities {
-    float layered = 0.25F;      ///< P1
+    float layered = 0.15F;      ///< P1
     float plane = 0.0F;         ///< P2
-    float perspective = 0.75F;  ///< P3
+    float perspective = 0.85F;  ///< P3
 };
 
 /// The random numbers of one iteration.
@@ -27,7 +27,7 @@ struct IterationSample {
     unsigned row_phase = 0;                 ///< which pixel rows sum for the patches
     double angle = 0.0;                     ///< of the bundle about its z axis, radians
     glm::vec3 direction{0.0F, 0.0F, 1.0F};  ///< layered: uniform over the sphere
-    glm::vec2 shift{0.0F};                  ///< layered: share of a window pixel
+    glm::vec2 shift{0.0F};                  ///< of the samples in their pixels, [0, 1)
 };
 
 /// Hands out iterations: one low-discrepancy sequence per strategy, dealt out to interleaved

@@ -69,6 +69,8 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     store_.bind();
     layout::BundleParameters p = common_parameters(frame, settings);
     p.densities.w = shooter.density;
+    p.axis_x.w = frame.pixel_shift.x;
+    p.axis_y.w = frame.pixel_shift.y;
     p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());
     p.resolution.z = shooter.patch_id;
     for (std::size_t face = 0; face < rectangles.size(); ++face) {
