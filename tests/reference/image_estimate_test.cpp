@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/emitter_pixels.h"
 #include "rooms.h"
 
 namespace raybundle {
@@ -133,6 +134,25 @@ TEST(ImageEstimate, DropsAndCountsWhatIsNotFinite) {
     image.add_pass(rays, broken);
     EXPECT_EQ(image.non_finite(), 4U);
     EXPECT_EQ(image.mean(3), glm::dvec3(0.0));
+}
+
+TEST(EmitterPixels, AreThoseWhoseAreaShowsAnEmitter) {
+    const SceneBuilder room = enclosure(0.5F);
+    const View view(room);
+    Camera up;
+    up.eye = glm::vec3(odd_rotation() * glm::vec4(1.5F, 1.0F, 1.5F, 1.0F));
+    up.target = glm::vec3(odd_rotation() * glm::vec4(1.5F, 4.0F, 1.5F, 1.0F));
+    up.up = glm::vec3(odd_rotation() * glm::vec4(0.0F, 0.0F, 1.0F, 0.0F));
+    up.vertical_fov = 2.0F * std::atan(0.5F);  // shows 3 m of the ceiling
+    // The lamp covers the middle third: pixels 4..7 of 12 and what overlaps by rounding.
+    const auto found =
+        pixels_that_see_emitters(view.tracing.scene, CameraRays(view.tracing.scene, up, {12, 12}));
+    for (std::size_t y = 0; y < 12; ++y) {
+        for (std::size_t x = 0; x < 12; ++x) {
+            const bool inside = x >= 4 && x < 8 && y >= 4 && y < 8;
+            EXPECT_EQ(found[12 * y + x], inside) << x << ", " << y;
+        }
+    }
 }
 
 }  // namespace
