@@ -94,29 +94,30 @@ ImageError ImageEstimate::error(const std::vector<bool>& measured) const {
     if (passes_ < batches) {
         return {};
     }
-    double squares = 0.0;
-    double variances = 0.0;
-    double squared_variances = 0.0;
+    VarianceSum sum;
     for (std::size_t pixel = 0; pixel < sums_.size() / batches; ++pixel) {
-        if (!measured.empty() && !measured[pixel]) {
-            continue;
+        if (measured.empty() || measured[pixel]) {
+            const glm::dvec3 e = standard_error(pixel);
+            sum.add(mean(pixel), e * e);
         }
-        const glm::dvec3 m = mean(pixel);
-        const glm::dvec3 e = standard_error(pixel);
-        const double variance = glm::dot(e, e);
-        squares += glm::dot(m, m);
-        variances += variance;
-        squared_variances += variance * variance;
     }
-    if (!(squares > 0.0) || !(variances > 0.0)) {
+    return sum.independent_error(batches - 1);
+}
+
+double VarianceSum::relative() const {
+    return squares_ > 0.0 ? std::sqrt(variances_ / squares_) : 0.0;
+}
+
+ImageError VarianceSum::independent_error(double freedom) const {
+    if (!(variances_ > 0.0)) {
         return {0.0, 0.0, 0.0};
     }
-    // Satterthwaite 1946: the sum of independent estimates of variance, batches - 1 degrees of
-    // freedom each, is nearly chi-square with this many.
-    const double freedom = (batches - 1) * variances * variances / squared_variances;
-    const double relative = std::sqrt(variances / squares);
-    const double half_width = 1.96 / std::sqrt(2.0 * freedom);
-    return {relative, relative * std::max(1.0 - half_width, 0.0), relative * (1.0 + half_width)};
+    // Satterthwaite 1946: a sum of independent estimates of variance is nearly chi-square with this
+    // many degrees of freedom.
+    const double all = freedom * variances_ * variances_ / squared_variances_;
+    const double half_width = 1.96 / std::sqrt(2.0 * all);
+    return {relative(), relative() * std::max(1.0 - half_width, 0.0),
+            relative() * (1.0 + half_width)};
 }
 
 }  // namespace raybundle

@@ -18,6 +18,25 @@ struct ImageError {
     double high = 1.0;
 };
 
+/// Sums over pixels for the error of a picture from the variances of their means.
+class VarianceSum {
+  public:
+    void add(const glm::dvec3& mean, const glm::dvec3& variance) {
+        squares_ += glm::dot(mean, mean);
+        const double sum = variance.r + variance.g + variance.b;
+        variances_ += sum;
+        squared_variances_ += sum * sum;
+    }
+    /// sqrt(sum of variances / sum of squares); 0 where nothing varies.
+    [[nodiscard]] double relative() const;
+    /// The same with its interval where the pixels are independent of each other and each variance
+    /// has this many degrees of freedom.
+    [[nodiscard]] ImageError independent_error(double freedom) const;
+
+  private:
+    double squares_ = 0.0, variances_ = 0.0, squared_variances_ = 0.0;
+};
+
 /// Radiance that arrives at `origin` against `direction` (own space of the ray scene), cd/m².
 using RadianceEstimator = std::function<glm::dvec3(
     const glm::dvec3& origin, const glm::dvec3& direction, PixelSampler& sampler)>;
@@ -45,6 +64,7 @@ class ImageEstimate {
     /// Of the mean, cd/m²; infinite before every batch has a sample.
     [[nodiscard]] glm::dvec3 standard_error(std::size_t pixel) const;
     [[nodiscard]] std::vector<glm::dvec3> means() const;
+    [[nodiscard]] std::size_t bytes() const { return sums_.size() * sizeof(glm::dvec3); }
     /// measured: pixels that count, row by row; empty: all.
     [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
 

@@ -20,15 +20,25 @@ struct LightSample {
     std::optional<SurfacePoint> emitter;  ///< nothing: the sky
 };
 
-/// Random choice of light sources for next-event estimation: emitting patches by their power, a
-/// point on them uniformly; the uniform sky by the flux it could send into the scene, a direction
-/// by its cosine.
+/// A random point and direction from which light sets out, with the power that a particle carries
+/// from there: flux in cd/m² times own area, so that the mean over particles is the scene's flux.
+struct EmittedParticle {
+    std::optional<SurfacePoint> emitter;  ///< nothing: the sky, from `origin`
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0};  ///< unit
+    glm::dvec3 power{0.0};
+};
+
+/// Random choice of light sources. Emitting patches are chosen by their power, with a defensive
+/// share of 10 % by area so that no dim one is starved, and a point on them uniformly; the uniform
+/// sky by the flux it could send into the scene.
 class LightSampling {
   public:
     explicit LightSampling(const RayScene& scene);
 
     [[nodiscard]] bool empty() const { return emitters_.empty() && !(sky_probability_ > 0.0); }
-    /// receiver: frame about the normal whose cosine counts. choice and at: uniform random numbers.
+    /// For next-event estimation; a direction of the sky by its cosine. receiver: frame about the
+    /// normal whose cosine counts. choice and at: uniform random numbers.
     [[nodiscard]] std::optional<LightSample> sample(const SurfacePoint& from, const Frame& receiver,
                                                     double choice, const glm::dvec2& at) const;
     /// Whether the sample's light arrives.
@@ -39,7 +49,13 @@ class LightSampling {
                                  const glm::dvec3& direction,
                                  const std::optional<SurfacePoint>& hit) const;
 
+    /// For particles that are followed from the light. Must not be empty().
+    [[nodiscard]] EmittedParticle emit(double choice, const glm::dvec2& at,
+                                       const glm::dvec2& direction) const;
+
   private:
+    [[nodiscard]] EmittedParticle emit_from_sky(const glm::dvec2& at,
+                                                const glm::dvec2& direction) const;
     [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
                                                             const glm::dvec2& at) const;
 

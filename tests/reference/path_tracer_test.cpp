@@ -24,10 +24,10 @@ std::uint32_t patch_count(const SceneBuilder& builder) {
     return static_cast<std::uint32_t>(builder.mesh.patch_count());
 }
 
-class Furnace : public testing::TestWithParam<float> {};
+class PathTracerFurnace : public testing::TestWithParam<float> {};
 
 /// Isothermal enclosure (Siegel, Howell): irradiance pi Le/(1 - albedo) everywhere.
-TEST_P(Furnace, HasTheSameIrradianceEverywhere) {
+TEST_P(PathTracerFurnace, HasTheSameIrradianceEverywhere) {
     const float albedo = GetParam();
     const SceneBuilder room = furnace_room(albedo, 100.0F);
     const Tracing t(room);
@@ -35,12 +35,12 @@ TEST_P(Furnace, HasTheSameIrradianceEverywhere) {
     expect_estimate(mean_irradiance(t.scene, t.tracer, 0, patch_count(room), 40'000), exact, 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Albedos, Furnace, testing::Values(0.0F, 0.5F, 0.9F, 0.99F));
+INSTANTIATE_TEST_SUITE_P(Albedos, PathTracerFurnace, testing::Values(0.0F, 0.5F, 0.9F, 0.99F));
 
-class Enclosure : public testing::TestWithParam<float> {};
+class PathTracerEnclosure : public testing::TestWithParam<float> {};
 
 /// Flux balance in a closed room of uniform albedo: mean irradiance Phi/(S (1 - albedo)).
-TEST_P(Enclosure, HasTheMeanIrradianceOfItsFluxBalance) {
+TEST_P(PathTracerEnclosure, HasTheMeanIrradianceOfItsFluxBalance) {
     const float albedo = GetParam();
     const SceneBuilder room = enclosure(albedo);
     const Tracing t(room);
@@ -49,7 +49,7 @@ TEST_P(Enclosure, HasTheMeanIrradianceOfItsFluxBalance) {
                     0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Albedos, Enclosure, testing::Values(0.5F, 0.8F, 0.95F));
+INSTANTIATE_TEST_SUITE_P(Albedos, PathTracerEnclosure, testing::Values(0.5F, 0.8F, 0.95F));
 
 /// Same room a thousandth and a thousand times as large, and 10 km away: the same illuminance but
 /// for the lamp's flux, which grows with its area.
@@ -152,10 +152,10 @@ TEST(PathTracer, DiscLampLightsThePointBelow) {
     }
 }
 
-class ThinWall : public testing::TestWithParam<float> {};
+class PathTracerThinWall : public testing::TestWithParam<float> {};
 
 /// Light neither leaks through a wall without thickness nor is lost at it.
-TEST_P(ThinWall, KeepsTheDarkRoomExactlyDarkAndTheLitRoomLit) {
+TEST_P(PathTracerThinWall, KeepsTheDarkRoomExactlyDarkAndTheLitRoomLit) {
     const TwoRooms rooms = two_rooms(0.8F, GetParam());
     const Tracing t(rooms.builder);
     const Estimate dark =
@@ -165,7 +165,8 @@ TEST_P(ThinWall, KeepsTheDarkRoomExactlyDarkAndTheLitRoomLit) {
                     enclosure_flux / (enclosure_surface * 0.2), 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Thicknesses, ThinWall, testing::Values(0.0F, 1e-6F, 1e-3F, 0.1F));
+INSTANTIATE_TEST_SUITE_P(Thicknesses, PathTracerThinWall,
+                         testing::Values(0.0F, 1e-6F, 1e-3F, 0.1F));
 
 /// Under an open sky a floor receives pi L, whether the sky is sampled or met.
 TEST(PathTracer, OpenFloorReceivesTheSky) {
