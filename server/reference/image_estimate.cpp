@@ -46,8 +46,9 @@ bool ImageEstimate::add_sample(std::size_t pixel, const CameraRays& camera,
     const auto batch = static_cast<std::uint32_t>(passes_ % batches);
     PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch,
                          static_cast<std::uint32_t>(passes_ / batches));
-    const glm::dvec2 corner(static_cast<double>(pixel % size_.x),
-                            static_cast<double>(pixel / size_.x));
+    const std::size_t column = pixel % size_.x;
+    const std::size_t row = pixel / size_.x;
+    const glm::dvec2 corner(static_cast<double>(column), static_cast<double>(row));
     const glm::dvec2 within = filter_ == PixelFilter::box ? sampler.next_pair() : glm::dvec2(0.5);
     const glm::dvec3 direction = camera.direction(corner + within);
     const glm::dvec3 value = estimator(camera.origin(), direction, sampler);
@@ -74,8 +75,8 @@ glm::dvec3 ImageEstimate::standard_error(std::size_t pixel) const {
     const glm::dvec3 centre = mean(pixel);
     glm::dvec3 scatter(0.0);
     for (std::uint64_t batch = 0; batch < batches; ++batch) {
-        const auto count =
-            static_cast<double>(passes_ / batches + (batch < passes_ % batches ? 1 : 0));
+        const std::uint64_t samples = passes_ / batches + (batch < passes_ % batches ? 1 : 0);
+        const auto count = static_cast<double>(samples);
         const glm::dvec3 deviation = sums_[pixel * batches + batch] / count - centre;
         scatter += count * deviation * deviation;
     }
