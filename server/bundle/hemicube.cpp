@@ -50,12 +50,12 @@ bool contains(const Bounds& box, const glm::vec3& p) {
 
 }  // namespace
 
-Hemicube::Hemicube(int n)
+Hemicube::Hemicube(int n, const std::vector<std::string>& defines)
     : n_((n + 15) / 16 * 16),
       surface_ids_(create_texture_2d("hemicube surface ids", GL_R32UI, n_, 3 * n_)),
       depths_(create_texture_2d("hemicube depths", GL_DEPTH_COMPONENT32F, n_, 3 * n_)),
       framebuffer_(create_framebuffer("hemicube", surface_ids_.get(), depths_.get())),
-      raster_({"bundle_raster.vert", "bundle_nearest.frag"}) {}
+      raster_({"bundle_raster.vert", "bundle_nearest.frag"}, defines) {}
 
 Hemicube::FaceRectangles Hemicube::full() const {
     FaceRectangles result;

@@ -13,10 +13,10 @@ constexpr std::uint32_t initial_capacity = 8;  // surfaces per pixel to begin wi
 constexpr std::size_t max_list_bytes = std::size_t{2} << 30U;
 }  // namespace
 
-LayeredWindow::LayeredWindow(int n)
+LayeredWindow::LayeredWindow(int n, const std::vector<std::string>& defines)
     : n_(n),
       counts_("layer counts", static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * 4),
-      raster_({"bundle_raster.vert", "bundle_layers.frag"}),
+      raster_({"bundle_raster.vert", "bundle_layers.frag"}, defines),
       clear_({"bundle_layers_clear.comp"}) {
     grow(initial_capacity);
     // Nothing is drawn into it: the framebuffer only has a size.

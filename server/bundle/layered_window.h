@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "bundle/bundle_frame.h"
 #include "gpu/gl_objects.h"
@@ -16,8 +18,8 @@ namespace raybundle {
 /// there is room for is counted, not transferred, and drawn again after grow().
 class LayeredWindow {
   public:
-    /// n: pixels along the window's side.
-    explicit LayeredWindow(int n);
+    /// n: pixels along the window's side. defines: of the scene to be drawn.
+    explicit LayeredWindow(int n, const std::vector<std::string>& defines = {});
 
     /// The window's geometry for a direction: origin at a corner, square pixels, covering the
     /// sphere of the given diameter round the scene's centre, shifted by a random share of a pixel.

@@ -184,6 +184,9 @@ class MeshBuilder {
         add_facets();
         add_back_patches();
         add_notices();
+        if (!cut_) {
+            mesh_.coverage.clear();
+        }
         if (mesh_.triangles.empty()) {
             throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
         }
@@ -201,6 +204,8 @@ class MeshBuilder {
         mesh_.triangle_material.push_back(triangle.material);
         mesh_.albedo.push_back(colour.albedo);
         mesh_.emission.push_back(colour.emission);
+        mesh_.coverage.push_back(colour.coverage);
+        cut_ = cut_ || colour.coverage < 1.0F;
     }
 
     std::uint32_t vertex_of(const EdgeRefinement::Corner& corner, std::uint32_t object) {
@@ -228,6 +233,7 @@ class MeshBuilder {
                         vertex_of(whole.corners[static_cast<std::size_t>(k)], whole.object);
                 }
                 mesh_.facets.push_back(corners);
+                mesh_.facet_material.push_back(whole.material);
                 mesh_.facet_roots.push_back(pack_facet(refinement_.nodes(), whole.node,
                                                        triangle_of_node_, mesh_.facet_tree));
                 continue;
@@ -235,6 +241,7 @@ class MeshBuilder {
             for (const std::uint32_t triangle : pieces) {
                 if (triangle != PatchMesh::no_patch) {
                     mesh_.facets.push_back(mesh_.triangles[triangle]);
+                    mesh_.facet_material.push_back(whole.material);
                     mesh_.facet_roots.push_back(FacetNode::leaf(triangle));
                 }
             }
@@ -270,6 +277,7 @@ class MeshBuilder {
             mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(t));
             mesh_.albedo.push_back(glm::vec3(mesh_.albedo[t]));
             mesh_.emission.push_back(glm::vec3(mesh_.emission[t]));
+            mesh_.coverage.push_back(float{mesh_.coverage[t]});
         }
     }
 
@@ -288,6 +296,7 @@ class MeshBuilder {
     PatchPainter painter_;
     std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
+    bool cut_ = false;  // alpha MASK has left less than the whole of some patch
     std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
     std::size_t invisible_ = 0;
 };

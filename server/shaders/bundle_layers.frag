@@ -6,16 +6,24 @@
 #include "layouts.glsl"
 #include "density.glsl"
 #include "layers.glsl"
+#ifdef ALPHA_MASK
+#include "alpha_mask.glsl"
+#endif
 
 layout(std430, binding = BINDING_COUNTERS) buffer CounterBuffer { Counters counters; };
 uniform uint first_facet;
 
 void main() {
+    uint facet = first_facet + uint(gl_PrimitiveID);
+#ifdef ALPHA_MASK
+    if (!covered(facet)) {
+        return;
+    }
+#endif
     uint pixel = uint(gl_FragCoord.y) * bundle.resolution.x + uint(gl_FragCoord.x);
     uint slot = atomicAdd(layer_counts[pixel], 1u);
     if (slot < layer_capacity()) {
-        layer_surfaces[layer_slot(slot, pixel)] =
-            (first_facet + uint(gl_PrimitiveID)) * 2u + (gl_FrontFacing ? 0u : 1u);
+        layer_surfaces[layer_slot(slot, pixel)] = facet * 2u + (gl_FrontFacing ? 0u : 1u);
     } else {  // the window is not transferred but drawn again with more room
         atomicMax(counters.layers, slot + 1u);
     }

@@ -90,11 +90,11 @@ struct FacetGeometry {
     uint root_code;
     uint root_first;
     uint object;
-    uint pad;
+    uint material;
 };
 
 struct PatchSurface {
-    vec4 albedo;    // rgb
+    vec4 albedo;    // rgb; w: share of the patch that alpha MASK leaves
     vec4 emission;  // rgb, radiance units
 };
 
@@ -143,7 +143,7 @@ struct VertexData {
 };
 
 struct MaterialData {
-    vec4 base_colour;   // rgb factor of the Lambert albedo; w unused
+    vec4 base_colour;   // rgb factor of the Lambert albedo; w: alpha of the texture below which nothing is there, 0: none
     vec4 emission;      // rgb, radiance units
     vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
     vec4 uv_row1;       // xyz: second row

@@ -31,13 +31,14 @@ float largest_scale(const glm::mat4& matrix) {
 struct Facets {
     std::vector<glm::uvec3> corners;
     std::vector<FacetNode> roots;
+    std::vector<std::uint32_t> materials;
 };
 
 Facets facets_of(const PatchMesh& mesh) {
     if (!mesh.facets.empty()) {
-        return {mesh.facets, mesh.facet_roots};
+        return {mesh.facets, mesh.facet_roots, mesh.facet_material};
     }
-    Facets facets{mesh.triangles, {}};
+    Facets facets{mesh.triangles, {}, mesh.triangle_material};
     for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
         facets.roots.push_back(FacetNode::leaf(i));
     }
@@ -58,7 +59,11 @@ FacetRaster::FacetRaster(const PatchMesh& mesh, const Buffer& world_positions)
         const std::size_t facet = i % facets.corners.size();
         geometry[i].root_code = facets.roots[facet].code;
         geometry[i].root_first = facets.roots[facet].first;
+        geometry[i].material = facets.materials[facet];
         geometry[i].object = mesh.vertex_object[facets.corners[facet].x];
+    }
+    if (!mesh.coverage.empty()) {
+        uvs_ = Buffer::from<glm::vec2>("facet uvs", mesh.uvs);
     }
     indices_ = Buffer::from<glm::uvec3>("facet indices", facets.corners);
     geometry_ = Buffer::from<layout::FacetGeometry>("facets", geometry);
@@ -77,6 +82,12 @@ FacetRaster::FacetRaster(const PatchMesh& mesh, const Buffer& world_positions)
         glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
         glVertexArrayAttribBinding(name, 0, 0);
         glVertexArrayElementBuffer(name, indices_.get());
+        if (!mesh.coverage.empty()) {
+            glVertexArrayVertexBuffer(name, 1, uvs_.get(), 0, sizeof(glm::vec2));
+            glEnableVertexArrayAttrib(name, 1);
+            glVertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, 0);
+            glVertexArrayAttribBinding(name, 1, 1);
+        }
     }
 }
 

@@ -46,7 +46,7 @@ class FacetRaster {
 
     std::uint32_t count_, vertex_count_;
     std::vector<Cluster> clusters_;
-    Buffer indices_, geometry_, nodes_;
+    Buffer indices_, geometry_, nodes_, uvs_;
     VertexArray vertex_array_[2];
     Texture2D geometry_texture_, node_texture_;
     ShaderProgram place_facets_;

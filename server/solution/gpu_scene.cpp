@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/gpu_scene.h"
 
+#include "scene/patch_colour.h"
 #include "solution/creases.h"
 #include "solution/thin_walls.h"
 
@@ -129,7 +130,8 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         surfaces.push_back(
-            {glm::vec4(mesh.albedo[i], 0.0F), glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+            {glm::vec4(mesh.albedo[i], mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
+             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> texture_offset;
@@ -145,7 +147,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     std::vector<layout::MaterialData> materials;
     for (const Material& material : scene.materials) {
         layout::MaterialData data{};
-        data.base_colour = glm::vec4(material.base_colour, 1.0F);
+        data.base_colour = glm::vec4(material.base_colour, 0.0F);
         data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
         const TextureSlot& slot = material.base_colour_texture;
         if (slot.texture >= 0) {
@@ -154,6 +156,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
             const glm::mat3& m = slot.uv_from_mesh_uv;
             data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
             data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
+            data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
             data.texture_info = {texture_offset[index], texture.width, texture.height,
                                  (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U)};
         }
@@ -211,6 +214,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(mesh.patch_count() > mesh.triangle_count(), "DOUBLE_SIDED");
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
+    define_if(!mesh.coverage.empty(), "ALPHA_MASK");
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");

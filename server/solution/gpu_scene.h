@@ -34,8 +34,8 @@ class GpuScene {
               const ShaderProgram& program) const;
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
-    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH, SKY,
-    /// THIN_WALLS. What is absent is not even compiled.
+    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
+    /// ALPHA_MASK, SKY, THIN_WALLS. What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;

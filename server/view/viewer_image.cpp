@@ -27,7 +27,7 @@ std::size_t pixel_count(glm::uvec2 size) {
 }  // namespace
 
 ViewPrograms::ViewPrograms(const GpuScene& scene)
-    : raster({"bundle_raster.vert", "bundle_nearest.frag"}),
+    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()),
       resolve_new({"view_resolve.comp"}, scene.defines()),
       resolve_reprojected({"view_resolve.comp"}, with(scene.defines(), "REPROJECT 1")),
       resolve_moved({"view_resolve.comp"}, with(with(scene.defines(), "REPROJECT 1"), "MOVED 1")),
