@@ -26,6 +26,29 @@ constexpr CommandRow command_table[] = {
     {"selftest", "Compare with closed forms on this machine", Options::Command::selftest, false},
 };
 
+struct MethodRow {
+    const char* name;
+    RenderMethod method;
+};
+
+/// Methods of `render`: ray bundles on the GPU, then references on the CPU.
+const MethodRow method_table[] = {
+    {"combined", StrategyProbabilities{}},
+    {"parallel-layered", StrategyProbabilities{1.0F, 0.0F, 0.0F}},
+    {"perspective", StrategyProbabilities{0.0F, 0.0F, 1.0F}},
+    {"path", ReferenceKind::path},
+    {"single-ray", ReferenceKind::single_ray},
+    {"ray-cast", ReferenceKind::ray_cast},
+};
+
+std::string method_names() {
+    std::string names;
+    for (const MethodRow& row : method_table) {
+        names += (names.empty() ? "" : ", ") + std::string(row.name);
+    }
+    return names;
+}
+
 void add_common(CLI::App& app, Options& o) {
     app.add_option("--gpu", o.gpu, "EGL device number, see --list-gpus")
         ->check(CLI::NonNegativeNumber);
@@ -72,7 +95,9 @@ void add_render(CLI::App& app, Options& o) {
         ->check(CLI::PositiveNumber);
     app.add_option("--error", o.error, "Stop when the estimated relative error is below, e.g. 0.02")
         ->check(CLI::PositiveNumber);
-    app.add_option("--method", o.method, "combined, parallel-layered or perspective")
+    app.add_option("--method", o.method,
+                   "On the GPU combined, parallel-layered, perspective; on the CPU, as references, "
+                   "path, single-ray, ray-cast (direct light alone)")
         ->capture_default_str();
     app.add_option("--stats", o.stats, "Write statistics as JSON");
 }
@@ -163,18 +188,13 @@ float metres_per_unit(const std::string& unit) {
     return found->second;
 }
 
-StrategyProbabilities parse_method(const std::string& method) {
-    static const std::map<std::string, StrategyProbabilities> methods = {
-        {"combined", {}},
-        {"parallel-layered", {1.0F, 0.0F, 0.0F}},
-        {"perspective", {0.0F, 0.0F, 1.0F}},
-    };
-    const auto found = methods.find(method);
-    if (found == methods.end()) {
-        throw UsageError("--method: '" + method +
-                         "' is none of combined, parallel-layered, perspective");
+RenderMethod parse_method(const std::string& method) {
+    for (const MethodRow& row : method_table) {
+        if (method == row.name) {
+            return row.method;
+        }
     }
-    return found->second;
+    throw UsageError("--method: '" + method + "' is none of " + method_names());
 }
 
 }  // namespace raybundle

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "reference/reference_method.h"
 #include "transport/iteration_schedule.h"
 
 namespace CLI {
@@ -80,7 +82,9 @@ glm::vec3 parse_vector(const std::string& option, const std::string& text);
 std::pair<std::string, std::uint16_t> parse_address(const std::string& text);
 /// Metres of one unit of length: m, cm, mm, in, ft. Throws UsageError.
 float metres_per_unit(const std::string& unit);
-/// Probabilities of the strategies that a ray-bundle --method stands for. Throws UsageError.
-StrategyProbabilities parse_method(const std::string& method);
+/// What a --method stands for: probabilities of the ray-bundle strategies, or a reference method.
+using RenderMethod = std::variant<StrategyProbabilities, ReferenceKind>;
+/// Throws UsageError.
+RenderMethod parse_method(const std::string& method);
 
 }  // namespace raybundle

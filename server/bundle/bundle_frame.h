@@ -16,6 +16,8 @@ struct BundleFrame {
     glm::vec3 x{1.0F, 0.0F, 0.0F};
     glm::vec3 y{0.0F, 1.0F, 0.0F};
     glm::vec3 z{0.0F, 0.0F, 1.0F};
+    /// Of the points that a hemicube's pixels sample from their centres, pixels, in [-0.5, 0.5).
+    glm::vec2 pixel_shift{0.0F};
 
     [[nodiscard]] glm::vec3 to_bundle(const glm::vec3& world) const {
         const glm::vec3 d = world - origin;

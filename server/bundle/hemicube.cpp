@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gpu/gl_scope.h"
+
 namespace raybundle {
 
 namespace {
@@ -24,8 +26,9 @@ FaceAxes face_axes(int face) {
     return {glm::cross(forward, z), z, forward};
 }
 
-/// Rows of clip_from_bundle for a face: reversed infinite depth; sides show their upper half only.
-glm::mat4 clip_from_world(const BundleFrame& frame, int face, float near_distance) {
+/// Rows of clip_from_bundle for a face of n pixels: reversed infinite depth; sides show their upper
+/// half only. Moved so that pixel centres show the points that are to be sampled.
+glm::mat4 clip_from_world(const BundleFrame& frame, int face, int n, float near_distance) {
     const FaceAxes axes = face_axes(face);
     const glm::mat3 world_from_bundle(frame.x, frame.y, frame.z);
     const glm::vec3 right = world_from_bundle * axes.right;
@@ -34,7 +37,11 @@ glm::mat4 clip_from_world(const BundleFrame& frame, int face, float near_distanc
     const auto row = [&](const glm::vec3& v) { return glm::vec4(v, -glm::dot(v, frame.origin)); };
     const glm::vec4 w = row(forward);
     const glm::vec4 y = face == 0 ? row(up) : 2.0F * row(up) - w;
-    return glm::transpose(glm::mat4(row(right), y, glm::vec4(0, 0, 0, near_distance), w));
+    const glm::vec2 pixel(2.0F / static_cast<float>(n),
+                          (face == 0 ? 2.0F : 4.0F) / static_cast<float>(n));
+    const glm::vec2 move = -frame.pixel_shift * pixel;
+    return glm::transpose(
+        glm::mat4(row(right) + move.x * w, y + move.y * w, glm::vec4(0, 0, 0, near_distance), w));
 }
 
 bool contains(const Bounds& box, const glm::vec3& p) {
@@ -43,12 +50,12 @@ bool contains(const Bounds& box, const glm::vec3& p) {
 
 }  // namespace
 
-Hemicube::Hemicube(int n)
+Hemicube::Hemicube(int n, const std::vector<std::string>& defines)
     : n_((n + 15) / 16 * 16),
       surface_ids_(create_texture_2d("hemicube surface ids", GL_R32UI, n_, 3 * n_)),
       depths_(create_texture_2d("hemicube depths", GL_DEPTH_COMPONENT32F, n_, 3 * n_)),
       framebuffer_(create_framebuffer("hemicube", surface_ids_.get(), depths_.get())),
-      raster_({"bundle_raster.vert", "bundle_nearest.frag"}) {}
+      raster_({"bundle_raster.vert", "bundle_nearest.frag"}, defines) {}
 
 Hemicube::FaceRectangles Hemicube::full() const {
     FaceRectangles result;
@@ -120,7 +127,7 @@ void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_
         glScissor(r.x0, first_row(face) + r.y0, r.width(), r.height());
         glClearBufferuiv(GL_COLOR, 0, no_hit);
         glClearBufferfv(GL_DEPTH, 0, &far_depth);
-        const glm::mat4 clip = clip_from_world(frame, face, near_distance);
+        const glm::mat4 clip = clip_from_world(frame, face, n_, near_distance);
         raster_.set("clip_from_world", clip);
         scene.draw(place, clip, true, raster_);
     }

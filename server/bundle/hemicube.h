@@ -3,6 +3,8 @@
 
 #include <array>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "bundle/bundle_frame.h"
 #include "gpu/gl_objects.h"
@@ -19,8 +21,9 @@ class Hemicube {
     static constexpr int face_count = 5;
     using FaceRectangles = std::array<PixelRectangle, face_count>;
 
-    /// n: pixels along the top face, rounded up to a multiple of 16.
-    explicit Hemicube(int n);
+    /// n: pixels along the top face, rounded up to a multiple of 16. defines: of the scene to be
+    /// drawn, see GpuScene::defines().
+    explicit Hemicube(int n, const std::vector<std::string>& defines = {});
 
     [[nodiscard]] int size() const { return n_; }
     [[nodiscard]] FaceRectangles full() const;

@@ -4,21 +4,21 @@
 #include <algorithm>
 
 #include "gpu/egl_context.h"
+#include "gpu/gl_scope.h"
 
 namespace raybundle {
 
 namespace {
-constexpr std::uint32_t initial_layers = 6;              // nodes per pixel to begin with
-constexpr std::uint32_t max_nodes = 128U * 1024 * 1024;  // 2 GiB
+constexpr std::uint32_t initial_capacity = 8;  // surfaces per pixel to begin with
+constexpr std::size_t max_list_bytes = std::size_t{2} << 30U;
 }  // namespace
 
-LayeredWindow::LayeredWindow(const GpuScene& scene, int n)
+LayeredWindow::LayeredWindow(int n, const std::vector<std::string>& defines)
     : n_(n),
-      heads_("layer heads", static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * 4),
-      raster_({"bundle_raster.vert", "bundle_layers.frag"}),
-      sort_({"transport_layers_sort.comp"}, scene.defines()),
+      counts_("layer counts", static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * 4),
+      raster_({"bundle_raster.vert", "bundle_layers.frag"}, defines),
       clear_({"bundle_layers_clear.comp"}) {
-    grow(initial_layers * static_cast<std::uint32_t>(n) * static_cast<std::uint32_t>(n));
+    grow(initial_capacity);
     // Nothing is drawn into it: the framebuffer only has a size.
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
@@ -57,24 +57,20 @@ PixelRectangle LayeredWindow::covering(const Geometry& geometry,
 }
 
 void LayeredWindow::draw(const GpuScene& scene, const Geometry& geometry, Place place,
-                         const PixelRectangle& rectangle, const Buffer& counters,
-                         unsigned slot) const {
+                         const PixelRectangle& rectangle, const Buffer& counters) const {
     if (rectangle.empty()) {
         return;
     }
     bind();
-    const auto set_rectangle = [&](const ShaderProgram& program) {
-        program.set("first_column", static_cast<unsigned>(rectangle.x0));
-        program.set("first_row", static_cast<unsigned>(rectangle.y0));
-        program.set("columns", static_cast<unsigned>(rectangle.width()));
-        program.set("rows", static_cast<unsigned>(rectangle.height()));
-    };
     const auto pixels =
         static_cast<std::size_t>(rectangle.width()) * static_cast<std::size_t>(rectangle.height());
     const GLuint zero = 0;
-    glClearNamedBufferSubData(counters.get(), GL_R32UI, offsetof(layout::Counters, nodes), 4,
+    glClearNamedBufferSubData(counters.get(), GL_R32UI, offsetof(layout::Counters, layers), 4,
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-    set_rectangle(clear_);
+    clear_.set("first_column", static_cast<unsigned>(rectangle.x0));
+    clear_.set("first_row", static_cast<unsigned>(rectangle.y0));
+    clear_.set("columns", static_cast<unsigned>(rectangle.width()));
+    clear_.set("rows", static_cast<unsigned>(rectangle.height()));
     clear_.set("window_width", static_cast<unsigned>(n_));
     clear_.dispatch(pixels);
 
@@ -86,45 +82,35 @@ void LayeredWindow::draw(const GpuScene& scene, const Geometry& geometry, Place 
     const glm::mat4 clip_from_world =
         glm::transpose(glm::mat4(row(f.x, 2.0F / extent, -1.0F), row(f.y, 2.0F / extent, -1.0F),
                                  row(f.z, 1.0F / geometry.depth, 0.0F), glm::vec4(0, 0, 0, 1)));
-    {
-        const GlScope scope("layered raster");
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-        glViewport(0, 0, n_, n_);
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
-        raster_.use();
-        raster_.set("clip_from_world", clip_from_world);
-        raster_.set("window_width", static_cast<unsigned>(n_));
-        raster_.set("window_depth", geometry.depth);
-        raster_.set("window_origin", f.origin);
-        raster_.set("window_x", f.x * geometry.pixel_size);
-        raster_.set("window_y", f.y * geometry.pixel_size);
-        raster_.set("window_z", f.z);
-        raster_.set("patch_base", scene.patch_base(place));
-        scene.draw(place, clip_from_world, false, raster_);
-        glDisable(GL_SCISSOR_TEST);
-        storage_barrier();
-    }
-    set_rectangle(sort_);
-    sort_.set("slot", slot);
-    sort_.set("patch_base", scene.patch_base(place));
-    sort_.dispatch(pixels);
+    const GlScope scope("layered raster");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glViewport(0, 0, n_, n_);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
+    raster_.use();
+    raster_.set("clip_from_world", clip_from_world);
+    scene.draw(place, clip_from_world, false, raster_);
+    glDisable(GL_SCISSOR_TEST);
+    storage_barrier();
 }
 
 void LayeredWindow::bind() const {
-    heads_.bind_storage(BINDING_LAYER_HEADS);
-    nodes_.bind_storage(BINDING_LAYER_NODES);
+    counts_.bind_storage(BINDING_LAYER_COUNTS);
+    surfaces_.bind_storage(BINDING_LAYER_SURFACES);
 }
 
-void LayeredWindow::grow(std::uint32_t nodes) {
-    if (nodes > max_nodes) {
-        throw GpuError("a parallel bundle of this scene needs " + std::to_string(nodes) +
-                       " surface hits, more than the limit of " + std::to_string(max_nodes) +
-                       "; use a smaller bundle resolution");
+void LayeredWindow::grow(std::uint32_t capacity) {
+    if (capacity <= capacity_) {
+        return;
     }
-    if (std::size_t{nodes} * sizeof(layout::LayerNode) > nodes_.bytes()) {
-        nodes_ = Buffer("layer nodes", std::size_t{nodes} * sizeof(layout::LayerNode), 0);
+    const std::size_t bytes = counts_.bytes() * capacity;
+    if (bytes > max_list_bytes) {
+        throw GpuError("a parallel bundle of this scene meets " + std::to_string(capacity) +
+                       " surfaces along a line, for which there is no room; use a smaller bundle "
+                       "resolution");
     }
+    surfaces_ = Buffer("layer surfaces", bytes, 0);
+    capacity_ = capacity;
 }
 
 }  // namespace raybundle

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "bundle/bundle_frame.h"
 #include "gpu/gl_objects.h"
@@ -12,12 +14,12 @@
 namespace raybundle {
 
 /// A parallel bundle with all surfaces along every line (ch. 4.3.1, "software z-buffer"): one
-/// sorted list per window pixel. Hits are never dropped: a window that needs more nodes than there
-/// are is counted, not transferred, and drawn again after grow().
+/// list per window pixel. Hits are never dropped: a window with more surfaces along a line than
+/// there is room for is counted, not transferred, and drawn again after grow().
 class LayeredWindow {
   public:
-    /// n: pixels along the window's side.
-    LayeredWindow(const GpuScene& scene, int n);
+    /// n: pixels along the window's side. defines: of the scene to be drawn.
+    explicit LayeredWindow(int n, const std::vector<std::string>& defines = {});
 
     /// The window's geometry for a direction: origin at a corner, square pixels, covering the
     /// sphere of the given diameter round the scene's centre, shifted by a random share of a pixel.
@@ -34,20 +36,22 @@ class LayeredWindow {
     [[nodiscard]] PixelRectangle covering(const Geometry& geometry,
                                           std::span<const Bounds> boxes) const;
 
-    /// Rasterises all surfaces into the lists of a rectangle and sorts them. `counters` (bound at
-    /// BINDING_COUNTERS) counts the nodes and remembers under `slot` if they were too many.
+    /// Rasterises all surfaces into the lists of a rectangle. The bundle's parameters are bound.
+    /// `counters` (bound at BINDING_COUNTERS) tell whether the surfaces were too many.
     void draw(const GpuScene& scene, const Geometry& geometry, Place place,
-              const PixelRectangle& rectangle, const Buffer& counters, unsigned slot) const;
+              const PixelRectangle& rectangle, const Buffer& counters) const;
     void bind() const;
-    /// Room for at least this many nodes. Throws GpuError where memory ends.
-    void grow(std::uint32_t nodes);
-    [[nodiscard]] std::size_t bytes() const { return heads_.bytes() + nodes_.bytes(); }
+    /// Room for this many surfaces along a line. Throws GpuError where memory ends.
+    void grow(std::uint32_t capacity);
+    [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
+    [[nodiscard]] std::size_t bytes() const { return counts_.bytes() + surfaces_.bytes(); }
 
   private:
     int n_;
-    Buffer heads_, nodes_;
+    std::uint32_t capacity_ = 0;  // surfaces along a line
+    Buffer counts_, surfaces_;
     Framebuffer framebuffer_;
-    ShaderProgram raster_, sort_, clear_;
+    ShaderProgram raster_, clear_;
 };
 
 }  // namespace raybundle

@@ -13,11 +13,10 @@ double radical_inverse(unsigned base, std::uint64_t index);
 std::uint64_t mix_bits(std::uint64_t value);
 
 /// One dimension of a Halton sequence, randomised by a Cranley-Patterson rotation (1976) that
-/// depends on the seed, the batch and the dimension: independent between batches, evenly spread
-/// within one.
+/// depends on the seed and the dimension.
 class RandomisedHalton {
   public:
-    RandomisedHalton(std::uint64_t seed, unsigned batch) : key_(mix_bits(seed) + batch) {}
+    explicit RandomisedHalton(std::uint64_t seed) : key_(mix_bits(seed)) {}
 
     /// Dimension 0..11, any index; in [0, 1).
     [[nodiscard]] double sample(unsigned dimension, std::uint64_t index) const;

@@ -11,6 +11,7 @@
 
 #include "commands/command.h"
 #include "gpu/egl_context.h"
+#include "gpu/gl_scope.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
@@ -47,6 +48,24 @@ void print(const std::string& name, const Json& result) {
                result["medianMs"].get<double>(), result["p95Ms"].get<double>(),
                result["perSecond"].get<double>());
     std::fflush(stdout);
+}
+
+/// Where the time of `work` goes: milliseconds per run and label of GL work.
+Json profile(int repeats, const std::function<void()>& work) {
+    glFinish();
+    start_gl_profile();
+    for (int i = 0; i < repeats; ++i) {
+        work();
+    }
+    Json result = Json::object();
+    for (const GlProfileEntry& entry : stop_gl_profile()) {
+        const double milliseconds = entry.milliseconds / repeats;
+        result[entry.label] = milliseconds;
+        if (milliseconds > 0.1) {
+            fmt::print("      {:<48} {:8.2f} ms\n", entry.label, milliseconds);
+        }
+    }
+    return result;
 }
 
 class SceneBench {
@@ -94,6 +113,7 @@ class SceneBench {
         }
         report_["iteration"][name] = measure(48, [&] { solver.step(receivers); });
         print(name, report_["iteration"][name]);
+        report_["profile"][name] = profile(16, [&] { solver.step(receivers); });
     }
 
     /// Frames of a camera in motion, with one iteration between frames as the server does.

@@ -63,6 +63,25 @@ class SignalWatch {
     std::jthread thread_;
 };
 
+/// Lets the server ask the loop for its metrics, and stops it before the loop goes, however that
+/// comes.
+class Serving {
+  public:
+    Serving(Server& server, const RenderLoop& loop) : server_(server) {
+        server_.set_metrics_source([&loop] { return loop.metrics(); });
+        server_.start();
+    }
+    ~Serving() {
+        server_.stop();
+        server_.set_metrics_source({});
+    }
+    Serving(const Serving&) = delete;
+    Serving& operator=(const Serving&) = delete;
+
+  private:
+    Server& server_;
+};
+
 }  // namespace
 
 int run_serve(const Options& options) {
@@ -74,14 +93,11 @@ int run_serve(const Options& options) {
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
     RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server);
-    server.set_metrics_source([&loop] { return loop.metrics(); });
-    server.start();
+    const Serving serving(server, loop);
     fmt::print("raybundle serves {} at {}\n", options.scene, server.address());
     std::fflush(stdout);
     loop.run(stop);
     spdlog::info("stopping");
-    server.stop();
-    server.set_metrics_source({});
     return exit_done;
 }
 

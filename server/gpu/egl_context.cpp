@@ -84,6 +84,11 @@ void enable_debug_output(bool synchronous) {
 
 /// Opens a display and makes a context current on it; nullptr and a reason where that fails.
 std::unique_ptr<EglContext::Impl> open(EGLenum platform, void* native, std::string& reason) {
+    // Without any vendor's library epoxy would abort at the first call.
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
+        reason = "no EGL driver is installed";
+        return nullptr;
+    }
     auto impl = std::make_unique<EglContext::Impl>();
     impl->display = eglGetPlatformDisplayEXT(platform, native, nullptr);
     if (impl->display == EGL_NO_DISPLAY) {

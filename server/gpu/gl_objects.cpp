@@ -120,11 +120,4 @@ Framebuffer create_framebuffer(const std::string& label, GLuint colour, GLuint d
     return framebuffer;
 }
 
-GlScope::GlScope(const char* label) {
-    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, label);
-}
-GlScope::~GlScope() {
-    glPopDebugGroup();
-}
-
 }  // namespace raybundle

@@ -95,13 +95,4 @@ Texture2D create_texture_2d(const std::string& label, GLenum format, int width, 
 /// Throws GpuError naming the status where the framebuffer is incomplete.
 Framebuffer create_framebuffer(const std::string& label, GLuint colour, GLuint depth);
 
-/// Names a group of GL commands in profiles for the lifetime of the object.
-class GlScope {
-  public:
-    explicit GlScope(const char* label);
-    ~GlScope();
-    GlScope(const GlScope&) = delete;
-    GlScope& operator=(const GlScope&) = delete;
-};
-
 }  // namespace raybundle

@@ -7,6 +7,7 @@
 
 #include "embedded_file.h"
 #include "gpu/egl_context.h"
+#include "gpu/gl_scope.h"
 
 namespace raybundle {
 

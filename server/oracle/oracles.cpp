@@ -261,7 +261,8 @@ std::vector<Oracle> all_oracles() {
     perspective.iterations = 3072;
     perspective.probabilities = {0.0F, 0.0F, 1.0F};
     OracleSettings small_target = perspective;  // the receiver covers few pixels
-    small_target.resolution = {256, 400};
+    small_target.resolution = {512, 400};
+    small_target.iterations = 1536;
     OracleSettings parallel = usual;
     parallel.probabilities = {1.0F, 0.0F, 0.0F};
     OracleSettings brief;

@@ -107,9 +107,12 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
             refined.corners[k] = {global[triangle.object][local], vertex.normal + 0.0F,
                                   vertex.uv + 0.0F};
         }
+        refined.node = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.emplace_back();
         patch_count_ += sides(refined);
         triangles_.push_back(refined);
     }
+    unrefined_ = triangles_;
 }
 
 bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
@@ -228,40 +231,43 @@ void EdgeRefinement::add_midpoints(const std::vector<bool>& marked, Edges& edges
     }
 }
 
+std::array<EdgeRefinement::RefinedTriangle, 2> EdgeRefinement::split(
+    const RefinedTriangle& triangle, std::size_t edge, std::uint32_t midpoint) {
+    const Corner& p = triangle.corners[edge];
+    const Corner& q = triangle.corners[(edge + 1) % 3];
+    const Corner& r = triangle.corners[(edge + 2) % 3];
+    const Corner m = midway(p, q, midpoint);
+    const auto first = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[triangle.node] = {static_cast<std::uint8_t>(edge), first};
+    nodes_.resize(nodes_.size() + 2);
+    return {RefinedTriangle{{p, m, r}, triangle.material, triangle.object, first},
+            RefinedTriangle{{m, q, r}, triangle.material, triangle.object, first + 1}};
+}
+
+/// Bisects the longest edge, then each half whose own outer edge is marked.
 void EdgeRefinement::split_triangles(const Edges& edges) {
+    constexpr std::array<std::size_t, 2> outer_edge = {2, 1};  // of the two halves
     std::vector<RefinedTriangle> refined;
     refined.reserve(patch_count_);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        const RefinedTriangle& triangle = triangles_[t];
-        const auto first = static_cast<std::size_t>(longest_edge(edges, t));
-        const auto mid = [&](std::size_t k) {
-            return edges.midpoint[edges.of_triangle[t][(first + k) % 3]];
+        const auto longest = static_cast<std::size_t>(longest_edge(edges, t));
+        const auto midpoint = [&](std::size_t k) {
+            return edges.midpoint[edges.of_triangle[t][(longest + k) % 3]];
         };
-        if (mid(0) == no_point) {
-            refined.push_back(triangle);
+        if (midpoint(0) == no_point) {
+            refined.push_back(triangles_[t]);
             continue;
         }
-        const auto add = [&](const Corner& p, const Corner& q, const Corner& r) {
-            refined.push_back({{p, q, r}, triangle.material, triangle.object});
-        };
-        // a to b is the longest edge; bisect it, then each half whose own outer edge is marked.
-        const Corner& a = triangle.corners[first];
-        const Corner& b = triangle.corners[(first + 1) % 3];
-        const Corner& c = triangle.corners[(first + 2) % 3];
-        const Corner m = midway(a, b, mid(0));
-        if (mid(2) == no_point) {
-            add(a, m, c);
-        } else {
-            const Corner n = midway(a, c, mid(2));
-            add(a, m, n);
-            add(n, m, c);
-        }
-        if (mid(1) == no_point) {
-            add(m, b, c);
-        } else {
-            const Corner n = midway(b, c, mid(1));
-            add(m, b, n);
-            add(m, n, c);
+        const auto halves = split(triangles_[t], longest, midpoint(0));
+        for (std::size_t h = 0; h < halves.size(); ++h) {
+            const std::uint32_t outer = midpoint(outer_edge[h]);
+            if (outer == no_point) {
+                refined.push_back(halves[h]);
+                continue;
+            }
+            for (const RefinedTriangle& quarter : split(halves[h], outer_edge[h], outer)) {
+                refined.push_back(quarter);
+            }
         }
     }
     triangles_ = std::move(refined);

@@ -25,6 +25,14 @@ class EdgeRefinement {
         std::array<Corner, 3> corners;
         std::uint32_t material = 0;
         std::uint32_t object = 0;
+        std::uint32_t node = 0;  ///< its leaf in nodes()
+    };
+    /// A triangle on the way from the file's to the refined ones. Corners p, q, r with an edge pq
+    /// that is split at m leave the children (p, m, r) and (m, q, r).
+    struct Node {
+        static constexpr std::uint32_t no_children = 0xffffffffU;
+        std::uint8_t split_edge = 0;              ///< k: from corner k to corner k + 1
+        std::uint32_t first_child = no_children;  ///< the second one follows it
     };
 
     explicit EdgeRefinement(const Scene& scene);
@@ -35,6 +43,10 @@ class EdgeRefinement {
 
     [[nodiscard]] const std::vector<RefinedTriangle>& triangles() const { return triangles_; }
     [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
+    /// The scene's triangles as they were before; triangle i has node i.
+    [[nodiscard]] const std::vector<RefinedTriangle>& unrefined() const { return unrefined_; }
+    /// All triangles there ever were; the scene's own come first, in their order.
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     /// Front sides and the back sides of doubleSided materials.
     [[nodiscard]] std::size_t patch_count() const { return patch_count_; }
 
@@ -54,11 +66,14 @@ class EdgeRefinement {
                                             const std::vector<bool>& marked) const;
     void add_midpoints(const std::vector<bool>& marked, Edges& edges);
     void split_triangles(const Edges& edges);
+    std::array<RefinedTriangle, 2> split(const RefinedTriangle& triangle, std::size_t edge,
+                                         std::uint32_t midpoint);
     [[nodiscard]] std::size_t sides(const RefinedTriangle& triangle) const {
         return double_sided_[triangle.material] ? 2 : 1;
     }
 
-    std::vector<RefinedTriangle> triangles_;
+    std::vector<RefinedTriangle> triangles_, unrefined_;
+    std::vector<Node> nodes_;
     std::vector<glm::vec3> points_;  // object space
     std::vector<glm::dvec3> world_points_;
     std::vector<std::uint32_t> point_object_;

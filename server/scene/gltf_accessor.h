@@ -9,23 +9,6 @@
 
 namespace raybundle {
 
-/// How the elements of an accessor lie in its buffer view.
-struct AccessorLayout {
-    int component_type = 0;  ///< 5120 (int8) to 5126 (float)
-    std::size_t components = 0;
-    std::size_t component_bytes = 0;
-    std::size_t element_bytes = 0;
-    std::size_t packed_bytes = 0;  ///< element_bytes, for matrices padded to the next column
-    std::size_t count = 0;
-    std::size_t offset = 0;  ///< bytes from the start of the view
-    std::size_t stride = 0;  ///< bytes from element to element
-    bool normalized = false;
-    int view = -1;  ///< -1: all zeros, where not sparse
-};
-
-/// The layout that an entry of "accessors" declares.
-AccessorLayout accessor_layout(const GltfDocument& document, int accessor);
-
 /// Checks component types, alignment, stride and ranges of all accessors and their sparse parts.
 /// Throws SceneError.
 void check_accessors(const GltfDocument& document);

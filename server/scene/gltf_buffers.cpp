@@ -57,18 +57,28 @@ void apply_meshopt_filter(const std::string& filter, std::vector<std::uint8_t>& 
     }
 }
 
-}  // namespace
-
-GltfBuffers::GltfBuffers(const std::string& file, const Json& json,
-                         std::optional<std::vector<std::uint8_t>> glb_binary) {
-    load_buffers(file, json, std::move(glb_binary));
-    slice_views(file, json);
+/// Where the compressed bytes of a view are.
+tinygltf::BufferView compressed_range(const tinygltf::Value& compression) {
+    tinygltf::BufferView range;
+    range.buffer = integer_or(compression, "buffer", -1);
+    range.byteOffset = static_cast<std::size_t>(integer_or(compression, "byteOffset", 0));
+    range.byteLength = static_cast<std::size_t>(integer_or(compression, "byteLength", 0));
+    return range;
 }
 
-void GltfBuffers::load_buffers(const std::string& file, const Json& json,
+}  // namespace
+
+GltfBuffers::GltfBuffers(const std::string& file, const Json& buffers,
+                         std::optional<std::vector<std::uint8_t>> glb_binary,
+                         const std::vector<tinygltf::BufferView>& views) {
+    load_buffers(file, buffers, std::move(glb_binary));
+    slice_views(file, views);
+}
+
+void GltfBuffers::load_buffers(const std::string& file, const Json& buffers,
                                std::optional<std::vector<std::uint8_t>> glb_binary) {
     std::size_t total = 0;
-    for (const Json& buffer : array_or_empty(json, "buffers")) {
+    for (const Json& buffer : buffers) {
         const std::string path = item_path("buffers", buffers_.size());
         const auto length = buffer.at("byteLength").get<std::size_t>();
         total += length;
@@ -97,13 +107,11 @@ void GltfBuffers::load_buffers(const std::string& file, const Json& json,
     }
 }
 
-void GltfBuffers::slice_views(const std::string& file, const Json& json) {
-    for (const Json& view : array_or_empty(json, "bufferViews")) {
+void GltfBuffers::slice_views(const std::string& file,
+                              const std::vector<tinygltf::BufferView>& views) {
+    for (const tinygltf::BufferView& view : views) {
         const std::string path = item_path("bufferViews", views_.size());
-        if (value_or(view, "byteStride", 4) % 4 != 0) {
-            throw SceneError(file, path + ".byteStride", "must be a multiple of 4");
-        }
-        const Json* compression = find_extension(view, "EXT_meshopt_compression");
+        const auto* compression = find_extension(view.extensions, "EXT_meshopt_compression");
         views_.push_back(compression == nullptr ? slice(file, path, view)
                                                 : decode_meshopt(file, path, view, *compression));
     }
@@ -111,37 +119,35 @@ void GltfBuffers::slice_views(const std::string& file, const Json& json) {
 
 std::span<const std::uint8_t> GltfBuffers::slice(const std::string& file,
                                                  const std::string& json_path,
-                                                 const Json& range) const {
-    const auto index = range.at("buffer").get<std::size_t>();
-    const std::vector<std::uint8_t>& buffer = buffers_[index];
+                                                 const tinygltf::BufferView& range) const {
+    const std::vector<std::uint8_t>& buffer = item(buffers_, range.buffer);
     if (buffer.empty()) {
-        throw SceneError(file, item_path("buffers", index) + ".uri",
+        throw SceneError(file, item_path("buffers", range.buffer) + ".uri",
                          "is missing, and there is no GLB binary chunk");
     }
-    const std::size_t offset = size_or(range, "byteOffset", 0);
-    const auto length = range.at("byteLength").get<std::size_t>();
-    if (offset > buffer.size() || length > buffer.size() - offset) {
-        throw SceneError(file, json_path,
-                         fmt::format("bytes {} to {} are outside of the buffer's {} bytes", offset,
-                                     offset + length, buffer.size()));
+    if (range.byteOffset > buffer.size() || range.byteLength > buffer.size() - range.byteOffset) {
+        throw SceneError(
+            file, json_path,
+            fmt::format("bytes {} to {} are outside of the buffer's {} bytes", range.byteOffset,
+                        range.byteOffset + range.byteLength, buffer.size()));
     }
-    return std::span(buffer).subspan(offset, length);
+    return std::span(buffer).subspan(range.byteOffset, range.byteLength);
 }
 
 std::span<const std::uint8_t> GltfBuffers::decode_meshopt(const std::string& file,
                                                           const std::string& json_path,
-                                                          const Json& view,
-                                                          const Json& compression) {
+                                                          const tinygltf::BufferView& view,
+                                                          const tinygltf::Value& compression) {
     const std::string path = json_path + ".extensions.EXT_meshopt_compression";
-    const auto count = compression.at("count").get<std::size_t>();
-    const auto stride = compression.at("byteStride").get<std::size_t>();
-    const auto mode = compression.at("mode").get<std::string>();
-    const auto filter = value_or<std::string>(compression, "filter", "NONE");
+    const auto count = static_cast<std::size_t>(integer_or(compression, "count", 0));
+    const auto stride = static_cast<std::size_t>(integer_or(compression, "byteStride", 0));
+    const auto& mode = compression.Get("mode").Get<std::string>();
+    const auto& filter = compression.Get("filter").Get<std::string>();  // empty if absent
     if (const char* fault = meshopt_fault(mode, filter, count, stride)) {
         throw SceneError(file, path, fault);
     }
     const std::size_t bytes = count * stride;
-    if (bytes != view.at("byteLength").get<std::size_t>()) {
+    if (bytes != view.byteLength) {
         throw SceneError(file, path, "count * byteStride differs from the view's byteLength");
     }
     decoded_bytes_ += bytes;
@@ -150,7 +156,8 @@ std::span<const std::uint8_t> GltfBuffers::decode_meshopt(const std::string& fil
                          fmt::format("decoded data exceeds {} bytes", max_decoded_bytes));
     }
     std::vector<std::uint8_t>& out = decoded_.emplace_back(bytes);
-    if (decode_meshopt_stream(mode, out, count, stride, slice(file, path, compression)) != 0) {
+    if (decode_meshopt_stream(mode, out, count, stride,
+                              slice(file, path, compressed_range(compression))) != 0) {
         throw SceneError(file, path, "compressed data is corrupt");
     }
     apply_meshopt_filter(filter, out, count, stride);

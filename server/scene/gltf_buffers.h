@@ -8,17 +8,20 @@
 #include <vector>
 
 #include "scene/gltf_json.h"
+#include "scene/gltf_model.h"
 
 namespace raybundle {
 
 /// The bytes behind a file's buffers and buffer views, all ranges checked, meshopt-compressed views
-/// (EXT_meshopt_compression) decoded.
+/// (EXT_meshopt_compression) decoded. Buffers are read from the JSON array: tinygltf's have no
+/// length but that of the bytes that it has loaded itself.
 class GltfBuffers {
   public:
     /// Throws SceneError for a missing file, a buffer shorter than it says, a view outside of its
     /// buffer, or compressed data that cannot be decoded.
-    GltfBuffers(const std::string& file, const Json& json,
-                std::optional<std::vector<std::uint8_t>> glb_binary);
+    GltfBuffers(const std::string& file, const Json& buffers,
+                std::optional<std::vector<std::uint8_t>> glb_binary,
+                const std::vector<tinygltf::BufferView>& views);
 
     /// Bytes of a buffer view, by its index in "bufferViews".
     [[nodiscard]] std::span<const std::uint8_t> view(int index) const {
@@ -26,14 +29,15 @@ class GltfBuffers {
     }
 
   private:
-    void load_buffers(const std::string& file, const Json& json,
+    void load_buffers(const std::string& file, const Json& buffers,
                       std::optional<std::vector<std::uint8_t>> glb_binary);
-    void slice_views(const std::string& file, const Json& json);
+    void slice_views(const std::string& file, const std::vector<tinygltf::BufferView>& views);
     std::span<const std::uint8_t> slice(const std::string& file, const std::string& json_path,
-                                        const Json& range) const;
+                                        const tinygltf::BufferView& range) const;
     std::span<const std::uint8_t> decode_meshopt(const std::string& file,
-                                                 const std::string& json_path, const Json& view,
-                                                 const Json& compression);
+                                                 const std::string& json_path,
+                                                 const tinygltf::BufferView& view,
+                                                 const tinygltf::Value& compression);
 
     std::vector<std::vector<std::uint8_t>> buffers_;
     std::vector<std::vector<std::uint8_t>> decoded_;

@@ -39,21 +39,20 @@ std::vector<Camera> read_cameras(GltfDocument& document, const GltfNodeTree& tre
                                  const Bounds& bounds) {
     std::vector<Camera> cameras;
     for (const int index : tree.order) {
-        const int source = index_or_none(document.item("nodes", index), "camera");
-        if (source < 0) {
+        const int camera_index = item(document.model().nodes, index).camera;
+        if (camera_index < 0) {
             continue;
         }
-        const GltfNode& node = tree.nodes[static_cast<std::size_t>(index)];
-        const Json& json = document.item("cameras", source);
-        const Json* perspective = find_member(json, "perspective");
+        const GltfNode& node = item(tree.nodes, index);
+        const tinygltf::Camera& source = item(document.model().cameras, camera_index);
         Camera camera;
-        if (perspective == nullptr || !place_camera(node, bounds, camera)) {
+        if (source.type != "perspective" || !place_camera(node, bounds, camera)) {
             document.note("orthographic and degenerate cameras are left out");
             continue;
         }
         camera.vertical_fov =
-            static_cast<float>(std::min(perspective->at("yfov").get<double>(), max_vertical_fov));
-        camera.name = node.name.empty() ? value_or<std::string>(json, "name", "") : node.name;
+            static_cast<float>(std::min(source.perspective.yfov, max_vertical_fov));
+        camera.name = node.name.empty() ? source.name : node.name;
         if (camera.name.empty()) {
             camera.name = fmt::format("camera {}", cameras.size() + 1);
         }

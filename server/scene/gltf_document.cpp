@@ -7,7 +7,9 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
+#include "scene/gltf_max_phong.h"
 #include "scene/gltf_schema.h"
 
 namespace raybundle {
@@ -15,11 +17,12 @@ namespace {
 
 constexpr std::size_t max_notices = 100;
 
-// Before any buffer is read: an unreadable extension is the better message than its symptoms.
-Json checked(const std::string& path, Json json) {
+tinygltf::Model read_checked_model(const std::string& path, Json& json) {
     check_schema(path, json);
+    check_max_phong(path, json);
+    // Before any buffer is read: an unreadable extension is the better message than its symptoms.
     check_required_extensions(path, json);
-    return json;
+    return read_model(path, json);
 }
 
 }  // namespace
@@ -29,10 +32,12 @@ GltfDocument::GltfDocument(const std::string& path)
 
 GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
-      json_(checked(path, std::move(container.json))),
-      buffers_(path, json_, std::move(container.binary)) {
+      model_(read_checked_model(path, container.json)),
+      buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),
+               model_.bufferViews) {
     check_accessors(*this);
-    note_ignored_extensions(*this);
+    model_.images = read_images(path, array_or_empty(container.json, "images"));
+    note_ignored_extensions(container.json, *this);
 }
 
 void GltfDocument::note(const std::string& text) {

@@ -54,22 +54,21 @@ std::unique_ptr<draco::Mesh> decode_mesh(const GltfDocument& document,
 
 }  // namespace
 
-DracoMesh decode_draco(const GltfDocument& document, const Json& extension,
+DracoMesh decode_draco(const GltfDocument& document, const tinygltf::Value& extension,
                        const std::string& json_path) {
-    const int view = extension.at("bufferView").get<int>();
+    const int view = integer_or(extension, "bufferView", -1);
     const auto mesh = decode_mesh(document, document.view_bytes(view), json_path);
     DracoMesh result;
     result.vertex_count = mesh->num_points();
-    if (const Json* attributes = find_member(extension, "attributes")) {
-        for (const auto& [semantic, id] : attributes->items()) {
-            const draco::PointAttribute* attribute =
-                mesh->GetAttributeByUniqueId(id.get<std::uint32_t>());
-            if (attribute == nullptr || attribute->num_components() > 4) {
-                document.fail(fmt::format("{}.attributes.{}", json_path, semantic),
-                              "the Draco data has no such attribute");
-            }
-            result.attributes[semantic] = read_attribute(document, *mesh, *attribute, json_path);
+    for (const auto& [semantic, id] : extension.Get("attributes").Get<tinygltf::Value::Object>()) {
+        // Unsigned in the file; tinygltf keeps the same 32 bits as an int.
+        const draco::PointAttribute* attribute =
+            mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id.GetNumberAsInt()));
+        if (attribute == nullptr || attribute->num_components() > 4) {
+            document.fail(fmt::format("{}.attributes.{}", json_path, semantic),
+                          "the Draco data has no such attribute");
         }
+        result.attributes[semantic] = read_attribute(document, *mesh, *attribute, json_path);
     }
     result.indices.reserve(std::size_t{mesh->num_faces()} * 3);
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face) {

@@ -24,7 +24,7 @@ struct DracoMesh {
 };
 
 /// Decodes the extension object of a primitive. Throws SceneError at `json_path`.
-DracoMesh decode_draco(const GltfDocument& document, const Json& extension,
+DracoMesh decode_draco(const GltfDocument& document, const tinygltf::Value& extension,
                        const std::string& json_path);
 
 }  // namespace raybundle

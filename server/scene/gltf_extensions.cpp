@@ -65,8 +65,8 @@ void check_required_extensions(const std::string& file, const Json& json) {
     }
 }
 
-void note_ignored_extensions(GltfDocument& document) {
-    for (const Json& used : document.array("extensionsUsed")) {
+void note_ignored_extensions(const Json& json, GltfDocument& document) {
+    for (const Json& used : array_or_empty(json, "extensionsUsed")) {
         const auto name = used.get<std::string>();
         if (is_fully_read(name)) {
             continue;
@@ -77,7 +77,7 @@ void note_ignored_extensions(GltfDocument& document) {
             document.note(fmt::format("extension {} is ignored", name));
         }
     }
-    if (!document.array("animations").empty()) {
+    if (!array_or_empty(json, "animations").empty()) {
         document.note("animations are ignored: the rest pose is used");
     }
 }

@@ -13,6 +13,6 @@ void check_required_extensions(const std::string& file, const Json& json);
 
 /// Adds a notice for every used extension that is ignored or only approximated, for animations,
 /// and for other features that are read in a simplified way.
-void note_ignored_extensions(GltfDocument& document);
+void note_ignored_extensions(const Json& json, GltfDocument& document);
 
 }  // namespace raybundle

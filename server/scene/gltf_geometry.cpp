@@ -17,17 +17,16 @@ constexpr std::size_t max_scene_vertices = 25'000'000;
 // As many as TessellationSettings::max_patches: more could never be used.
 constexpr std::size_t max_scene_triangles = 4'000'000;
 
-std::vector<float> read_morph_weights(const Json& node, const Json& mesh) {
-    const Json& weights =
-        node.contains("weights") ? node.at("weights") : array_or_empty(mesh, "weights");
-    return weights.get<std::vector<float>>();
+std::vector<float> read_morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    return {weights.begin(), weights.end()};
 }
 
 /// An attribute of EXT_mesh_gpu_instancing; empty if absent.
-std::vector<float> read_instance_attribute(const GltfDocument& document, const Json& attributes,
-                                           const char* name, std::size_t components,
-                                           const std::string& path) {
-    const int accessor = index_or_none(attributes, name);
+std::vector<float> read_instance_attribute(const GltfDocument& document,
+                                           const tinygltf::Value& attributes, const char* name,
+                                           std::size_t components, const std::string& path) {
+    const int accessor = integer_or(attributes, name, -1);
     return accessor < 0
                ? std::vector<float>{}
                : read_floats(document, accessor, components, fmt::format("{}.{}", path, name));
@@ -35,16 +34,17 @@ std::vector<float> read_instance_attribute(const GltfDocument& document, const J
 
 std::vector<glm::dmat4> read_instances(const GltfDocument& document, int node,
                                        float metres_per_unit) {
-    const Json* extension = find_extension(document.item("nodes", node), "EXT_mesh_gpu_instancing");
-    const Json* attributes = extension == nullptr ? nullptr : find_member(*extension, "attributes");
-    if (attributes == nullptr) {
+    const auto* extension =
+        find_extension(item(document.model().nodes, node).extensions, "EXT_mesh_gpu_instancing");
+    if (extension == nullptr || !extension->Has("attributes")) {
         return {glm::dmat4(1.0)};
     }
-    const std::string path = item_path("nodes", static_cast<std::size_t>(node)) +
-                             ".extensions.EXT_mesh_gpu_instancing.attributes";
-    const auto t = read_instance_attribute(document, *attributes, "TRANSLATION", 3, path);
-    const auto r = read_instance_attribute(document, *attributes, "ROTATION", 4, path);
-    const auto s = read_instance_attribute(document, *attributes, "SCALE", 3, path);
+    const tinygltf::Value& attributes = extension->Get("attributes");
+    const std::string path =
+        item_path("nodes", node) + ".extensions.EXT_mesh_gpu_instancing.attributes";
+    const auto t = read_instance_attribute(document, attributes, "TRANSLATION", 3, path);
+    const auto r = read_instance_attribute(document, attributes, "ROTATION", 4, path);
+    const auto s = read_instance_attribute(document, attributes, "SCALE", 3, path);
     const std::size_t count = std::max({t.size() / 3, r.size() / 4, s.size() / 3});
     if ((!t.empty() && t.size() != count * 3) || (!r.empty() && r.size() != count * 4) ||
         (!s.empty() && s.size() != count * 3)) {
@@ -116,27 +116,26 @@ class GeometryReader {
         : document_(document), tree_(tree), metres_per_unit_(metres_per_unit) {}
 
     NodeGeometry read(int node) {
-        const Json& node_json = document_.item("nodes", node);
+        const tinygltf::Node& source = item(document_.model().nodes, node);
         NodeGeometry geometry;
         geometry.node = node;
-        geometry.mesh = index_or_none(node_json, "mesh");
+        geometry.mesh = source.mesh;
         geometry.node_from_mesh = read_instances(document_, node, metres_per_unit_);
-        read_primitives(node_json, geometry);
-        if (const int skin = index_or_none(node_json, "skin"); skin >= 0) {
+        read_primitives(source, geometry);
+        if (source.skin >= 0) {
             geometry.in_world =
-                apply_skin(document_, tree_, skin, node, metres_per_unit_, geometry);
+                apply_skin(document_, tree_, source.skin, node, metres_per_unit_, geometry);
         }
-        geometry.world_bounds =
-            find_world_bounds(geometry, tree_.nodes[static_cast<std::size_t>(node)]);
+        geometry.world_bounds = find_world_bounds(geometry, item(tree_.nodes, node));
         return geometry;
     }
 
   private:
-    void read_primitives(const Json& node_json, NodeGeometry& geometry) {
-        const Json& mesh = document_.item("meshes", geometry.mesh);
-        const std::string mesh_path = item_path("meshes", static_cast<std::size_t>(geometry.mesh));
-        const std::vector<float> morph_weights = read_morph_weights(node_json, mesh);
-        for (const Json& primitive : array_or_empty(mesh, "primitives")) {
+    void read_primitives(const tinygltf::Node& node, NodeGeometry& geometry) {
+        const tinygltf::Mesh& mesh = item(document_.model().meshes, geometry.mesh);
+        const std::string mesh_path = item_path("meshes", geometry.mesh);
+        const std::vector<float> morph_weights = read_morph_weights(node, mesh);
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
             const std::string path =
                 mesh_path + "." + item_path("primitives", geometry.primitives.size());
             PrimitiveData& data = geometry.primitives.emplace_back(
@@ -179,10 +178,10 @@ std::vector<NodeGeometry> read_geometry(GltfDocument& document, const GltfNodeTr
     std::vector<NodeGeometry> geometries;
     GeometryReader reader(document, tree, metres_per_unit);
     for (const int node : tree.order) {
-        if (index_or_none(document.item("nodes", node), "mesh") < 0) {
+        if (item(document.model().nodes, node).mesh < 0) {
             continue;
         }
-        if (!tree.nodes[static_cast<std::size_t>(node)].visible) {
+        if (!item(tree.nodes, node).visible) {
             document.note("hidden nodes (KHR_node_visibility) are left out");
             continue;
         }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "scene/gltf_loader.h"
 #include "scene/gltf_uri.h"
 
 namespace raybundle {
@@ -62,13 +63,12 @@ std::vector<std::uint8_t> expand_to_rgba(const std::vector<std::uint8_t>& pixels
 
 std::vector<std::uint8_t> image_bytes(const GltfDocument& document, int image,
                                       const std::string& path) {
-    const Json& json = document.item("images", image);
-    if (const int view = index_or_none(json, "bufferView"); view >= 0) {
-        const std::span<const std::uint8_t> bytes = document.view_bytes(view);
+    const tinygltf::Image& source = item(document.model().images, image);
+    if (source.bufferView >= 0) {
+        const std::span<const std::uint8_t> bytes = document.view_bytes(source.bufferView);
         return {bytes.begin(), bytes.end()};
     }
-    return read_uri(document.path(), path + ".uri", json.at("uri").get<std::string>(),
-                    max_image_file_bytes);
+    return read_uri(document.path(), path + ".uri", source.uri, max_image_file_bytes);
 }
 
 void check_spec(const GltfDocument& document, const std::string& path,
@@ -85,21 +85,25 @@ void check_spec(const GltfDocument& document, const std::string& path,
 
 }  // namespace
 
-void check_images(const GltfDocument& document) {
-    const Json& images = document.array("images");
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const std::string path = item_path("images", i);
-        const Json* uri = find_member(images[i], "uri");
-        if (uri != nullptr) {
-            check_uri(document.path(), path + ".uri", uri->get_ref<const std::string&>());
-        } else if (find_member(images[i], "bufferView") == nullptr) {
-            document.fail(path, "has neither uri nor bufferView");
+std::vector<tinygltf::Image> read_images(const std::string& file, const Json& json) {
+    std::vector<tinygltf::Image> images;
+    for (const Json& entry : json) {
+        const std::string path = item_path("images", images.size());
+        tinygltf::Image& image = images.emplace_back();
+        image.name = value_or(entry, "name", path);
+        image.bufferView = value_or(entry, "bufferView", -1);
+        if (const Json* uri = find_member(entry, "uri")) {
+            image.uri = uri->get<std::string>();
+            check_uri(file, path + ".uri", image.uri);
+        } else if (image.bufferView < 0) {
+            throw SceneError(file, path, "has neither uri nor bufferView");
         }
     }
+    return images;
 }
 
 DecodedImage decode_image(const GltfDocument& document, int image) {
-    const std::string path = item_path("images", static_cast<std::size_t>(image));
+    const std::string path = item_path("images", image);
     const std::vector<std::uint8_t> bytes = image_bytes(document, image, path);
     const char* format = format_of(bytes);
     if (format == nullptr) {

@@ -16,8 +16,9 @@ struct DecodedImage {
     std::vector<std::uint8_t> rgba;
 };
 
-/// Makes sure that every entry of "images" names bytes that exist: a buffer view or a file.
-void check_images(const GltfDocument& document);
+/// Name and place (buffer view or URI) of every entry of the JSON array "images"; those without a
+/// name get their JSON path. Throws SceneError if the bytes do not exist.
+std::vector<tinygltf::Image> read_images(const std::string& file, const Json& json);
 
 /// Decodes an entry of "images": PNG, JPEG or WebP, by content. Throws SceneError; KTX2 is refused
 /// by the name of its extension.

@@ -14,34 +14,42 @@ namespace raybundle {
 namespace {
 
 constexpr std::size_t max_texture_bytes = 2ULL << 30U;
-constexpr int wrap_clamp_to_edge = 33071;
-constexpr int wrap_mirrored_repeat = 33648;
 
-/// textureInfo of the base colour: metallic-roughness, or the diffuse part of
-/// KHR_materials_pbrSpecularGlossiness. nullptr if there is none.
-const Json* base_colour_info(const Json& material) {
-    if (const Json* extension = find_extension(material, "KHR_materials_pbrSpecularGlossiness")) {
-        return find_member(*extension, "diffuseTexture");
-    }
-    const Json* pbr = find_member(material, "pbrMetallicRoughness");
-    return pbr == nullptr ? nullptr : find_member(*pbr, "baseColorTexture");
+const tinygltf::Value* specular_glossiness(const tinygltf::Material& material) {
+    return find_extension(material.extensions, "KHR_materials_pbrSpecularGlossiness");
 }
 
-int uv_set_of(const Json& texture_info) {
-    const int set = value_or(texture_info, "texCoord", 0);
-    const Json* transform = find_extension(texture_info, "KHR_texture_transform");
-    return transform == nullptr ? set : value_or(*transform, "texCoord", set);
+/// Base colour of the metallic-roughness model, or the diffuse part of
+/// KHR_materials_pbrSpecularGlossiness. Its index is -1 if there is none.
+tinygltf::TextureInfo base_colour_info(const tinygltf::Material& material) {
+    const tinygltf::Value* extension = specular_glossiness(material);
+    if (extension == nullptr) {
+        return material.pbrMetallicRoughness.baseColorTexture;
+    }
+    tinygltf::TextureInfo info;
+    if (extension->Has("diffuseTexture")) {
+        const tinygltf::Value& diffuse = extension->Get("diffuseTexture");
+        info.index = integer_or(diffuse, "index", -1);
+        info.texCoord = integer_or(diffuse, "texCoord", 0);
+        info.extensions = diffuse.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    return info;
+}
+
+int uv_set_of(const tinygltf::TextureInfo& info) {
+    const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
+    return transform == nullptr ? info.texCoord : integer_or(*transform, "texCoord", info.texCoord);
 }
 
 /// KHR_texture_transform: scale, then rotate counter-clockwise (v points down), then offset.
-glm::mat3 uv_transform(const Json& texture_info) {
-    const Json* json = find_extension(texture_info, "KHR_texture_transform");
-    if (json == nullptr) {
+glm::mat3 uv_transform(const tinygltf::TextureInfo& info) {
+    const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
+    if (transform == nullptr) {
         return glm::mat3(1.0F);
     }
-    const glm::vec2 offset = vector_or(*json, "offset", glm::vec2(0.0F));
-    const glm::vec2 scale = vector_or(*json, "scale", glm::vec2(1.0F));
-    const auto angle = value_or(*json, "rotation", 0.0F);
+    const glm::vec2 offset = vector_or(*transform, "offset", glm::vec2(0.0F));
+    const glm::vec2 scale = vector_or(*transform, "scale", glm::vec2(1.0F));
+    const float angle = number_or(*transform, "rotation", 0.0F);
     const float c = std::cos(angle);
     const float s = std::sin(angle);
     // Columns.
@@ -51,17 +59,16 @@ glm::mat3 uv_transform(const Json& texture_info) {
 
 /// Index of the image to decode for a texture, -1 if it has none. Throws for KTX2 without fallback.
 int image_of(const GltfDocument& document, int texture) {
-    const Json& json = document.item("textures", texture);
-    const std::string path = item_path("textures", static_cast<std::size_t>(texture));
-    const Json* webp = find_extension(json, "EXT_texture_webp");
-    int source = webp == nullptr ? -1 : index_or_none(*webp, "source");
-    source = source >= 0 ? source : index_or_none(json, "source");
-    const std::size_t image_count = document.array("images").size();
+    const tinygltf::Texture& entry = item(document.model().textures, texture);
+    const std::string path = item_path("textures", texture);
+    const auto* webp = find_extension(entry.extensions, "EXT_texture_webp");
+    const int source = webp == nullptr ? entry.source : integer_or(*webp, "source", entry.source);
+    const std::size_t image_count = document.model().images.size();
     if (source >= 0 && static_cast<std::size_t>(source) >= image_count) {
         document.fail(path + ".source", fmt::format("{} is out of range: the file has {} images",
                                                     source, image_count));
     }
-    if (source < 0 && find_extension(json, "KHR_texture_basisu") != nullptr) {
+    if (source < 0 && find_extension(entry.extensions, "KHR_texture_basisu") != nullptr) {
         document.fail(path + ".extensions.KHR_texture_basisu",
                       "KTX2 images (KHR_texture_basisu) are not supported, and there is no "
                       "fallback image");
@@ -74,104 +81,103 @@ class MaterialReader {
     MaterialReader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
     void read(std::size_t index) {
-        const Json& json = document_.array("materials")[index];
+        const tinygltf::Material& source = document_.model().materials[index];
         Material material;
-        material.name = value_or<std::string>(json, "name", "");
-        read_base(json, material);
-        read_emission(json, item_path("materials", index), material);
-        read_alpha(json, material);
-        if (const Json* specular = find_extension(json, "KHR_materials_specular")) {
-            material.specular = value_or(*specular, "specularFactor", 1.0F);
+        material.name = source.name;
+        read_base(source, material);
+        read_emission(source, item_path("materials", index), material);
+        read_alpha(source, material);
+        if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
+            material.specular = number_or(*specular, "specularFactor", 1.0F);
             material.specular_colour = vector_or(*specular, "specularColorFactor", glm::vec3(1.0F));
         }
-        material.max_phong = read_max_phong(document_, json, item_path("materials", index));
-        material.double_sided = value_or(json, "doubleSided", false);
-        note_unused(json);
+        material.max_phong = read_max_phong(source.extras);
+        material.double_sided = source.doubleSided;
+        note_unused(source);
         scene_.materials.push_back(std::move(material));
     }
 
   private:
-    void read_base(const Json& json, Material& material) {
+    void read_base(const tinygltf::Material& source, Material& material) {
         glm::vec4 colour(1.0F);
-        if (const Json* diffuse = find_extension(json, "KHR_materials_pbrSpecularGlossiness")) {
+        if (const tinygltf::Value* diffuse = specular_glossiness(source)) {
             // The older model names its Lambert part outright.
             colour = vector_or(*diffuse, "diffuseFactor", colour);
             material.metallic = 0.0F;
-            material.roughness = 1.0F - value_or(*diffuse, "glossinessFactor", 1.0F);
-        } else if (const Json* pbr = find_member(json, "pbrMetallicRoughness")) {
-            colour = vector_or(*pbr, "baseColorFactor", colour);
-            material.metallic = value_or(*pbr, "metallicFactor", 1.0F);
-            material.roughness = value_or(*pbr, "roughnessFactor", 1.0F);
+            material.roughness = 1.0F - number_or(*diffuse, "glossinessFactor", 1.0F);
+        } else {
+            const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+            colour = vector_or(pbr.baseColorFactor, colour);
+            material.metallic = static_cast<float>(pbr.metallicFactor);
+            material.roughness = static_cast<float>(pbr.roughnessFactor);
         }
         material.base_colour = glm::vec3(colour);
         material.alpha = colour.a;
-        if (const Json* info = base_colour_info(json)) {
-            material.base_colour_texture = slot(*info);
+        if (const tinygltf::TextureInfo info = base_colour_info(source); info.index >= 0) {
+            material.base_colour_texture = slot(info);
         }
     }
 
-    void read_emission(const Json& json, const std::string& path, Material& material) {
+    void read_emission(const tinygltf::Material& source, const std::string& path,
+                       Material& material) {
         float strength = 1.0F;
-        if (const Json* extension = find_extension(json, "KHR_materials_emissive_strength")) {
-            strength = value_or(*extension, "emissiveStrength", 1.0F);
+        if (const auto* extension =
+                find_extension(source.extensions, "KHR_materials_emissive_strength")) {
+            strength = number_or(*extension, "emissiveStrength", 1.0F);
         }
-        material.emission = vector_or(json, "emissiveFactor", glm::vec3(0.0F)) * strength;
-        const Json* info = find_member(json, "emissiveTexture");
-        if (info == nullptr || material.emission == glm::vec3(0.0F)) {
+        material.emission = vector_or(source.emissiveFactor, glm::vec3(0.0F)) * strength;
+        const tinygltf::TextureInfo& info = source.emissiveTexture;
+        if (info.index < 0 || material.emission == glm::vec3(0.0F)) {
             return;
         }
-        material.emission_texture = slot(*info);
-        const Json* base = base_colour_info(json);
-        if (base != nullptr && uv_set_of(*base) != uv_set_of(*info)) {
+        material.emission_texture = slot(info);
+        const tinygltf::TextureInfo base = base_colour_info(source);
+        if (base.index >= 0 && uv_set_of(base) != uv_set_of(info)) {
             document_.note(fmt::format(
                 "{}: the emission texture is read with the uv of the base colour", path));
         }
     }
 
-    void read_alpha(const Json& json, Material& material) {
-        const auto mode = value_or<std::string>(json, "alphaMode", "OPAQUE");
-        material.alpha_cutoff = value_or(json, "alphaCutoff", 0.5F);
-        if (mode == "MASK") {
+    void read_alpha(const tinygltf::Material& source, Material& material) {
+        material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+        if (source.alphaMode == "MASK") {
             material.alpha_mode = AlphaMode::mask;
-        } else if (mode == "BLEND") {
+        } else if (source.alphaMode == "BLEND") {
             material.alpha_mode = AlphaMode::blend;
             document_.note("blended (alpha BLEND) materials are treated as opaque");
         }
     }
 
-    void note_unused(const Json& json) {
-        const Json* pbr = find_member(json, "pbrMetallicRoughness");
-        if (json.contains("normalTexture") || json.contains("occlusionTexture") ||
-            (pbr != nullptr && pbr->contains("metallicRoughnessTexture"))) {
+    void note_unused(const tinygltf::Material& source) {
+        if (source.normalTexture.index >= 0 || source.occlusionTexture.index >= 0 ||
+            source.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
             document_.note("normal, occlusion and metallic-roughness textures are ignored");
         }
     }
 
-    TextureSlot slot(const Json& info) {
-        const int texture = info.at("index").get<int>();
+    TextureSlot slot(const tinygltf::TextureInfo& info) {
         TextureSlot result;
         result.uv_from_mesh_uv = uv_transform(info);
-        const int image = image_of(document_, texture);
+        const int image = image_of(document_, info.index);
         if (image < 0) {
-            document_.note(fmt::format("textures[{}] has no image and is ignored", texture));
+            document_.note(fmt::format("textures[{}] has no image and is ignored", info.index));
         } else {
-            result.texture = scene_texture(texture, image);
+            result.texture = scene_texture(info.index, image);
         }
         return result;
     }
 
     /// The scene texture for an image and its wrapping, decoded on first use.
     int scene_texture(int texture, int image) {
-        const int sampler = index_or_none(document_.item("textures", texture), "sampler");
-        const Json none = Json::object();
-        const Json& wrap = sampler < 0 ? none : document_.item("samplers", sampler);
-        const int wrap_u = value_or(wrap, "wrapS", 0);
-        const int wrap_v = value_or(wrap, "wrapT", 0);
-        if (wrap_u == wrap_mirrored_repeat || wrap_v == wrap_mirrored_repeat) {
+        const int index = item(document_.model().textures, texture).sampler;
+        const tinygltf::Sampler sampler =
+            index < 0 ? tinygltf::Sampler() : item(document_.model().samplers, index);
+        if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
+            sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) {
             document_.note("mirrored texture wrapping is read as plain repetition");
         }
-        const bool repeat_u = wrap_u != wrap_clamp_to_edge;
-        const bool repeat_v = wrap_v != wrap_clamp_to_edge;
+        const bool repeat_u = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        const bool repeat_v = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
         const auto [it, inserted] = known_.try_emplace(std::tuple(image, repeat_u, repeat_v),
                                                        static_cast<int>(scene_.textures.size()));
         if (inserted) {
@@ -181,15 +187,14 @@ class MaterialReader {
     }
 
     void add_texture(int image, bool repeat_u, bool repeat_v) {
-        const std::string path = item_path("images", static_cast<std::size_t>(image));
         DecodedImage decoded = decode_image(document_, image);
         texture_bytes_ += decoded.rgba.size();
         if (texture_bytes_ > max_texture_bytes) {
-            document_.fail(path, fmt::format("decoded images exceed {} bytes", max_texture_bytes));
+            document_.fail(item_path("images", image),
+                           fmt::format("decoded images exceed {} bytes", max_texture_bytes));
         }
-        const Json& json = document_.item("images", image);
-        scene_.textures.push_back({value_or(json, "name", path), decoded.width, decoded.height,
-                                   repeat_u, repeat_v, std::move(decoded.rgba)});
+        scene_.textures.push_back({item(document_.model().images, image).name, decoded.width,
+                                   decoded.height, repeat_u, repeat_v, std::move(decoded.rgba)});
     }
 
     GltfDocument& document_;
@@ -201,9 +206,8 @@ class MaterialReader {
 }  // namespace
 
 std::uint32_t read_materials(GltfDocument& document, Scene& scene) {
-    check_images(document);
     MaterialReader reader(document, scene);
-    for (std::size_t i = 0; i < document.array("materials").size(); ++i) {
+    for (std::size_t i = 0; i < document.model().materials.size(); ++i) {
         reader.read(i);
     }
     Material fallback;
@@ -216,20 +220,17 @@ bool material_has_texture(const GltfDocument& document, int material) {
     if (material < 0) {
         return false;
     }
-    const Json& json = document.item("materials", material);
-    return base_colour_info(json) != nullptr || json.contains("emissiveTexture");
+    const tinygltf::Material& source = item(document.model().materials, material);
+    return base_colour_info(source).index >= 0 || source.emissiveTexture.index >= 0;
 }
 
 int uv_set_of_material(const GltfDocument& document, int material) {
     if (material < 0) {
         return 0;
     }
-    const Json& json = document.item("materials", material);
-    if (const Json* base = base_colour_info(json)) {
-        return uv_set_of(*base);
-    }
-    const Json* emission = find_member(json, "emissiveTexture");
-    return emission == nullptr ? 0 : uv_set_of(*emission);
+    const tinygltf::Material& source = item(document.model().materials, material);
+    const tinygltf::TextureInfo base = base_colour_info(source);
+    return uv_set_of(base.index >= 0 ? base : source.emissiveTexture);
 }
 
 }  // namespace raybundle

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+// `extras.raybundle.maxPhong` of a material: {"specular": [r, g, b], "exponent": n}, specular 0..1,
+// exponent 1..1000, both required.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "scene/gltf_document.h"
+#include "scene/gltf_model.h"
 #include "scene/scene.h"
 
 namespace raybundle {
 
-/// `extras.raybundle.maxPhong` of a material: {"specular": [r, g, b], "exponent": n}, specular
-/// 0..1, exponent 1..1000, both required. Nothing where the material has none; extras of other
-/// programs, of whatever type, are left alone. Throws SceneError naming the member under `path`.
-std::optional<MaxPhong> read_max_phong(const GltfDocument& document, const Json& material,
-                                       const std::string& path);
+/// Checks it in all materials of JSON that has passed check_schema(), which looks at no extras:
+/// those of other programs may be of any type and are left alone. Throws SceneError.
+void check_max_phong(const std::string& file, const Json& json);
+
+/// Nothing where a material's extras, which have been checked, have none.
+std::optional<MaxPhong> read_max_phong(const tinygltf::Value& extras);
 
 }  // namespace raybundle

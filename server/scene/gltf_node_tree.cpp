@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/gtx/matrix_decompose.hpp>
 #include <utility>
 
@@ -49,11 +51,9 @@ void decompose(GltfNode& node) {
     }
 }
 
-void read_matrix(const GltfDocument& document, const Json& matrix, const std::string& path,
-                 float metres_per_unit, GltfNode& node) {
-    for (int i = 0; i < 16; ++i) {
-        node.parent_from_node[i / 4][i % 4] = matrix[static_cast<std::size_t>(i)].get<double>();
-    }
+void read_matrix(const GltfDocument& document, const std::vector<double>& matrix,
+                 const std::string& path, float metres_per_unit, GltfNode& node) {
+    node.parent_from_node = glm::make_mat4(matrix.data());
     const glm::dmat4& m = node.parent_from_node;
     const glm::dvec4 last_row(m[0][3], m[1][3], m[2][3], m[3][3]);
     if (glm::length(last_row - glm::dvec4(0, 0, 0, 1)) > 1e-6) {
@@ -63,15 +63,15 @@ void read_matrix(const GltfDocument& document, const Json& matrix, const std::st
     decompose(node);
 }
 
-void read_transform(GltfDocument& document, const Json& json, const std::string& path,
+void read_transform(GltfDocument& document, const tinygltf::Node& source, const std::string& path,
                     float metres_per_unit, GltfNode& node) {
-    if (const Json* matrix = find_member(json, "matrix")) {
-        read_matrix(document, *matrix, path, metres_per_unit, node);
+    if (!source.matrix.empty()) {
+        read_matrix(document, source.matrix, path, metres_per_unit, node);
         return;
     }
-    node.transform.translation = vector_or(json, "translation", glm::vec3(0.0F)) * metres_per_unit;
-    node.transform.scale = vector_or(json, "scale", glm::vec3(1.0F));
-    const glm::vec4 xyzw = vector_or(json, "rotation", glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+    node.transform.translation = vector_or(source.translation, glm::vec3(0.0F)) * metres_per_unit;
+    node.transform.scale = vector_or(source.scale, glm::vec3(1.0F));
+    const glm::vec4 xyzw = vector_or(source.rotation, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
     if (glm::length(xyzw) < 1e-6F) {
         document.fail(path + ".rotation", "is zero, not a unit quaternion");
     }
@@ -81,25 +81,22 @@ void read_transform(GltfDocument& document, const Json& json, const std::string&
 
 void read_node(GltfDocument& document, std::size_t index, float metres_per_unit,
                GltfNodeTree& tree) {
-    const Json& json = document.array("nodes")[index];
+    const tinygltf::Node& source = document.model().nodes[index];
     GltfNode& node = tree.nodes[index];
-    node.name = value_or<std::string>(json, "name", "");
-    read_transform(document, json, node_path(index), metres_per_unit, node);
-    if (const Json* visibility = find_extension(json, "KHR_node_visibility")) {
-        node.visible = value_or(*visibility, "visible", true);
-    }
-    std::size_t entry = 0;
-    for (const Json& child_json : array_or_empty(json, "children")) {
-        const int child = child_json.get<int>();
+    node.name = source.name;
+    read_transform(document, source, node_path(index), metres_per_unit, node);
+    const auto* visibility = find_extension(source.extensions, "KHR_node_visibility");
+    node.visible = visibility == nullptr || !visibility->Has("visible") ||
+                   visibility->Get("visible").Get<bool>();
+    for (const int child : source.children) {
         GltfNode& child_node = tree.nodes[static_cast<std::size_t>(child)];
         if (child_node.parent >= 0) {
             document.fail(
-                fmt::format("{}.children[{}]", node_path(index), entry),
+                fmt::format("{}.children[{}]", node_path(index), node.children.size()),
                 fmt::format("node {} already has the parent {}", child, child_node.parent));
         }
         child_node.parent = static_cast<int>(index);
         node.children.push_back(child);
-        ++entry;
     }
 }
 
@@ -127,12 +124,12 @@ void check_cycles(const GltfDocument& document, const GltfNodeTree& tree) {
 }
 
 void check_roots(const GltfDocument& document, const GltfNodeTree& tree) {
-    const Json& scenes = document.array("scenes");
+    const std::vector<tinygltf::Scene>& scenes = document.model().scenes;
     for (std::size_t s = 0; s < scenes.size(); ++s) {
         std::vector<bool> seen(tree.nodes.size(), false);
         std::size_t entry = 0;
-        for (const Json& root : array_or_empty(scenes[s], "nodes")) {
-            const auto node = root.get<std::size_t>();
+        for (const int root : scenes[s].nodes) {
+            const auto node = static_cast<std::size_t>(root);
             const std::string path = fmt::format("scenes[{}].nodes[{}]", s, entry++);
             if (tree.nodes[node].parent >= 0) {
                 document.fail(path, fmt::format("node {} is not a root: its parent is {}", node,
@@ -147,7 +144,7 @@ void check_roots(const GltfDocument& document, const GltfNodeTree& tree) {
 }
 
 void choose_scene(GltfDocument& document, GltfNodeTree& tree) {
-    const Json& scenes = document.array("scenes");
+    const std::vector<tinygltf::Scene>& scenes = document.model().scenes;
     if (scenes.empty()) {
         document.note("the file has no scene: all root nodes are shown");
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -157,15 +154,12 @@ void choose_scene(GltfDocument& document, GltfNodeTree& tree) {
         }
         return;
     }
-    const auto shown = size_or(document.json(), "scene", 0);
+    const int shown = std::max(document.model().defaultScene, 0);
     if (scenes.size() > 1) {
         document.note(fmt::format("scene {} of {} is shown", shown, scenes.size()));
     }
-    const Json& scene = scenes[shown];
-    tree.scene_name = value_or<std::string>(scene, "name", "");
-    for (const Json& root : array_or_empty(scene, "nodes")) {
-        tree.roots.push_back(root.get<int>());
-    }
+    tree.scene_name = item(scenes, shown).name;
+    tree.roots = item(scenes, shown).nodes;
 }
 
 /// All nodes below `roots`, parents first; without recursion, as hierarchies can be deeper than the
@@ -202,7 +196,7 @@ void compose_world_matrices(GltfNodeTree& tree) {
 
 GltfNodeTree read_node_tree(GltfDocument& document, float metres_per_unit) {
     GltfNodeTree tree;
-    tree.nodes.resize(document.array("nodes").size());
+    tree.nodes.resize(document.model().nodes.size());
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         read_node(document, i, metres_per_unit, tree);
     }

@@ -116,12 +116,9 @@ class Planner {
         // Children come after their parents in `order`: backwards, subtrees are complete.
         for (auto it = tree_.order.rbegin(); it != tree_.order.rend(); ++it) {
             NodeInfo& info = at(*it);
-            const Json* extras = find_member(document_.item("nodes", *it), "extras");
-            if (extras != nullptr && extras->is_object()) {
-                const Json* movable = find_member(*extras, "movable");
-                if (movable != nullptr && movable->is_boolean()) {
-                    info.movable = movable->get<bool>();
-                }
+            const tinygltf::Value& extras = item(document_.model().nodes, *it).extras;
+            if (extras.Has("movable") && extras.Get("movable").IsBool()) {
+                info.movable = extras.Get("movable").Get<bool>();
             }
             const int parent = tree_.nodes[index(*it)].parent;
             if (parent >= 0 && info.bearing) {
@@ -174,8 +171,8 @@ class Planner {
         if (!name.empty()) {
             return name;
         }
-        const Json& mesh = document_.item("meshes", geometries_[first_geometry].mesh);
-        const auto mesh_name = value_or<std::string>(mesh, "name", "");
+        const int mesh = geometries_[first_geometry].mesh;
+        const std::string& mesh_name = item(document_.model().meshes, mesh).name;
         return mesh_name.empty() ? fmt::format("object {}", plans_.size() + 1) : mesh_name;
     }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -15,17 +16,28 @@
 namespace raybundle {
 namespace {
 
-enum Mode { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
-
 // Faces and bodies have some hundred; bounds the work that a small file can ask for.
 constexpr std::size_t max_morph_targets = 1024;
+
+/// Accessors by semantic, as those of a primitive or of a morph target.
+using AccessorMap = std::map<std::string, int>;
+
+int accessor_or_none(const AccessorMap& accessors, const char* semantic) {
+    const auto it = accessors.find(semantic);
+    return it == accessors.end() ? -1 : it->second;
+}
+
+const tinygltf::Value* draco_extension(const tinygltf::Primitive& primitive) {
+    return find_extension(primitive.extensions, "KHR_draco_mesh_compression");
+}
 
 /// Attribute arrays of a primitive, from accessors or from Draco data.
 class Attributes {
   public:
-    Attributes(const GltfDocument& document, const Json& primitive, const std::string& path)
-        : document_(document), accessors_(primitive.at("attributes")), path_(path) {
-        if (const Json* extension = find_extension(primitive, "KHR_draco_mesh_compression")) {
+    Attributes(const GltfDocument& document, const tinygltf::Primitive& primitive,
+               const std::string& path)
+        : document_(document), accessors_(primitive.attributes), path_(path) {
+        if (const tinygltf::Value* extension = draco_extension(primitive)) {
             draco_ =
                 decode_draco(document, *extension, path + ".extensions.KHR_draco_mesh_compression");
         }
@@ -49,14 +61,14 @@ class Attributes {
                 return it->second.values;
             }
         }
-        const int accessor = index_or_none(accessors_, semantic);
+        const int accessor = accessor_or_none(accessors_, semantic);
         return accessor < 0 ? std::vector<float>{}
                             : read_floats(document_, accessor, components, path);
     }
 
   private:
     const GltfDocument& document_;
-    const Json& accessors_;
+    const AccessorMap& accessors_;
     std::string path_;
     std::optional<DracoMesh> draco_;
 };
@@ -76,14 +88,14 @@ std::vector<Vector> as_vectors(const std::vector<float>& values) {
 
 std::vector<glm::uvec3> assemble_triangles(const std::vector<std::uint32_t>& indices, int mode) {
     std::vector<glm::uvec3> triangles;
-    if (mode == triangle_list) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
         }
         return triangles;
     }
     for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
-        if (mode == triangle_fan) {
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
             triangles.emplace_back(indices[i + 1], indices[i + 2], indices[0]);
         } else {
             // Every other triangle of a strip runs the other way round (glTF 2.0, 3.7.2.1).
@@ -105,15 +117,15 @@ void check_order(const GltfDocument& document, const std::vector<std::uint32_t>&
     }
 }
 
-std::vector<std::uint32_t> read_vertex_order(const GltfDocument& document, const Json& primitive,
+std::vector<std::uint32_t> read_vertex_order(const GltfDocument& document,
+                                             const tinygltf::Primitive& primitive,
                                              const Attributes& attributes, std::size_t vertex_count,
                                              const std::string& path) {
     std::vector<std::uint32_t> order;
-    const int accessor = index_or_none(primitive, "indices");
     if (attributes.draco()) {
         order = attributes.draco()->indices;
-    } else if (accessor >= 0) {
-        order = read_indices(document, accessor, path + ".indices");
+    } else if (primitive.indices >= 0) {
+        order = read_indices(document, primitive.indices, path + ".indices");
     } else {
         order.resize(vertex_count);
         for (std::size_t i = 0; i < vertex_count; ++i) {
@@ -140,9 +152,10 @@ void check_lengths(const GltfDocument& document, const PrimitiveData& data,
 }
 
 template <typename Vector>
-void add_weighted(const GltfDocument& document, std::vector<Vector>& base, const Json& target,
-                  const char* semantic, float weight, const std::string& path) {
-    const int accessor = index_or_none(target, semantic);
+void add_weighted(const GltfDocument& document, std::vector<Vector>& base,
+                  const AccessorMap& target, const char* semantic, float weight,
+                  const std::string& path) {
+    const int accessor = accessor_or_none(target, semantic);
     if (accessor < 0 || base.empty()) {
         return;
     }
@@ -157,10 +170,9 @@ void add_weighted(const GltfDocument& document, std::vector<Vector>& base, const
     }
 }
 
-void apply_morph_targets(GltfDocument& document, const Json& primitive,
+void apply_morph_targets(GltfDocument& document, const std::vector<AccessorMap>& targets,
                          const std::vector<float>& weights, const std::string& path,
                          PrimitiveData& data) {
-    const Json& targets = array_or_empty(primitive, "targets");
     if (!targets.empty()) {
         document.note("morph targets are read in their rest pose");
     }
@@ -201,32 +213,29 @@ void read_attributes(GltfDocument& document, const Attributes& attributes, Primi
 void check_meshes(const GltfDocument& document) {
     // Primitives may share their indices: read them once for each number of vertices.
     std::set<std::pair<int, std::size_t>> checked;
-    const Json& meshes = document.array("meshes");
+    const std::vector<tinygltf::Mesh>& meshes = document.model().meshes;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         std::size_t p = 0;
-        for (const Json& primitive : array_or_empty(meshes[m], "primitives")) {
+        for (const tinygltf::Primitive& primitive : meshes[m].primitives) {
             const std::string path = fmt::format("meshes[{}].primitives[{}]", m, p++);
-            const int positions = index_or_none(primitive.at("attributes"), "POSITION");
-            const int indices = index_or_none(primitive, "indices");
-            if (positions < 0 || indices < 0 ||
-                find_extension(primitive, "KHR_draco_mesh_compression") != nullptr) {
+            const int positions = accessor_or_none(primitive.attributes, "POSITION");
+            if (positions < 0 || primitive.indices < 0 || draco_extension(primitive) != nullptr) {
                 continue;
             }
-            const std::size_t vertex_count = accessor_layout(document, positions).count;
-            if (checked.emplace(indices, vertex_count).second) {
-                check_order(document, read_indices(document, indices, path + ".indices"),
+            const std::size_t vertex_count = item(document.model().accessors, positions).count;
+            if (checked.emplace(primitive.indices, vertex_count).second) {
+                check_order(document, read_indices(document, primitive.indices, path + ".indices"),
                             vertex_count, path);
             }
         }
     }
 }
 
-PrimitiveData read_primitive(GltfDocument& document, const Json& primitive,
+PrimitiveData read_primitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                              const std::vector<float>& morph_weights,
                              const std::string& json_path) {
     PrimitiveData data;
-    const int mode = value_or(primitive, "mode", static_cast<int>(triangle_list));
-    if (mode < triangle_list) {
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         document.note("points and lines are skipped");
         return data;
     }
@@ -235,17 +244,18 @@ PrimitiveData read_primitive(GltfDocument& document, const Json& primitive,
         document.note("mesh primitives without POSITION are skipped");
         return data;
     }
-    data.material = index_or_none(primitive, "material");
+    data.material = primitive.material;
     read_attributes(document, attributes, data);
     check_lengths(document, data, json_path);
-    apply_morph_targets(document, primitive, morph_weights, json_path, data);
+    apply_morph_targets(document, primitive.targets, morph_weights, json_path, data);
     const std::vector<std::uint32_t> order =
         read_vertex_order(document, primitive, attributes, data.positions.size(), json_path);
-    if (mode == triangle_list && order.size() % 3 != 0) {
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order.size() % 3 != 0) {
         document.note("incomplete last triangles of a mesh are skipped");
     }
     // Draco stores strips as lists.
-    data.triangles = assemble_triangles(order, attributes.draco() ? triangle_list : mode);
+    data.triangles =
+        assemble_triangles(order, attributes.draco() ? TINYGLTF_MODE_TRIANGLES : primitive.mode);
     return data;
 }
 

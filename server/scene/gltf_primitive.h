@@ -26,7 +26,7 @@ void check_meshes(const GltfDocument& document);
 
 /// Reads a primitive at `json_path`, morph targets applied with `morph_weights`. Points and lines
 /// give no triangles and a notice. Throws SceneError.
-PrimitiveData read_primitive(GltfDocument& document, const Json& primitive,
+PrimitiveData read_primitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                              const std::vector<float>& morph_weights, const std::string& json_path);
 
 }  // namespace raybundle

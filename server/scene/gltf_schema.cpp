@@ -23,11 +23,14 @@ struct Rule {
     double min = 0.0;
     double max = 0.0;
     std::size_t length = 0;      // of Kind::numbers
+    std::uint64_t multiple = 1;  // Kind::integer: what it has to be a multiple of
     std::string_view options{};  // Kind::index: the array it refers to; Kind::choice: "A|B|C"
 };
 
 constexpr double huge = 3.0e38;      // the largest float, roughly
 constexpr double max_bytes = 4.3e9;  // far above what is ever allocated
+// tinygltf keeps the integers of sparse accessors and extensions in 32 bits.
+constexpr double max_int = 2147483647.0;
 constexpr bool required = true;
 
 constexpr Rule object(std::string_view path, bool is_required = false) {
@@ -39,8 +42,9 @@ constexpr Rule text(std::string_view path, bool is_required = false) {
 constexpr Rule flag(std::string_view path) {
     return {path, Kind::flag};
 }
-constexpr Rule integer(std::string_view path, double min, double max, bool is_required = false) {
-    return {path, Kind::integer, is_required, min, max};
+constexpr Rule integer(std::string_view path, double min, double max, bool is_required = false,
+                       std::uint64_t multiple = 1) {
+    return {path, Kind::integer, is_required, min, max, 0, multiple};
 }
 constexpr Rule number(std::string_view path, double min, double max, bool is_required = false) {
     return {path, Kind::number, is_required, min, max};
@@ -50,10 +54,10 @@ constexpr Rule numbers(std::string_view path, std::size_t length, double min = -
     return {path, Kind::numbers, false, min, max, length};
 }
 constexpr Rule index(std::string_view path, std::string_view array, bool is_required = false) {
-    return {path, Kind::index, is_required, 0.0, 0.0, 0, array};
+    return {path, Kind::index, is_required, 0.0, 0.0, 0, 1, array};
 }
 constexpr Rule choice(std::string_view path, std::string_view options, bool is_required = false) {
-    return {path, Kind::choice, is_required, 0.0, 0.0, 0, options};
+    return {path, Kind::choice, is_required, 0.0, 0.0, 0, 1, options};
 }
 
 constexpr std::string_view specular_glossiness =
@@ -73,12 +77,12 @@ constexpr Rule rules[] = {
     index("bufferViews[].buffer", "buffers", required),
     integer("bufferViews[].byteOffset", 0, max_bytes),
     integer("bufferViews[].byteLength", 1, max_bytes, required),
-    integer("bufferViews[].byteStride", 4, 252),
+    integer("bufferViews[].byteStride", 4, 252, !required, 4),
     index("bufferViews[].extensions.EXT_meshopt_compression.buffer", "buffers", required),
-    integer("bufferViews[].extensions.EXT_meshopt_compression.byteOffset", 0, max_bytes),
-    integer("bufferViews[].extensions.EXT_meshopt_compression.byteLength", 1, max_bytes, required),
+    integer("bufferViews[].extensions.EXT_meshopt_compression.byteOffset", 0, max_int),
+    integer("bufferViews[].extensions.EXT_meshopt_compression.byteLength", 1, max_int, required),
     integer("bufferViews[].extensions.EXT_meshopt_compression.byteStride", 1, 256, required),
-    integer("bufferViews[].extensions.EXT_meshopt_compression.count", 1, max_bytes, required),
+    integer("bufferViews[].extensions.EXT_meshopt_compression.count", 1, max_int, required),
     choice("bufferViews[].extensions.EXT_meshopt_compression.mode", "ATTRIBUTES|TRIANGLES|INDICES",
            required),
     choice("bufferViews[].extensions.EXT_meshopt_compression.filter",
@@ -90,14 +94,14 @@ constexpr Rule rules[] = {
     integer("accessors[].count", 1, max_bytes, required),
     choice("accessors[].type", accessor_types, required),
     flag("accessors[].normalized"),
-    integer("accessors[].sparse.count", 1, max_bytes, required),
+    integer("accessors[].sparse.count", 1, max_int, required),
     object("accessors[].sparse.indices", required),
     index("accessors[].sparse.indices.bufferView", "bufferViews", required),
-    integer("accessors[].sparse.indices.byteOffset", 0, max_bytes),
+    integer("accessors[].sparse.indices.byteOffset", 0, max_int),
     integer("accessors[].sparse.indices.componentType", 5121, 5125, required),
     object("accessors[].sparse.values", required),
     index("accessors[].sparse.values.bufferView", "bufferViews", required),
-    integer("accessors[].sparse.values.byteOffset", 0, max_bytes),
+    integer("accessors[].sparse.values.byteOffset", 0, max_int),
 
     text("images[].uri"),
     text("images[].name"),
@@ -190,7 +194,7 @@ std::vector<std::string_view> steps_of(std::string_view path) {
 
 class Checker {
   public:
-    Checker(const std::string& file, const Json& json) : file_(file), json_(json) {}
+    Checker(const std::string& file, Json& json) : file_(file), json_(json) {}
 
     void check(const Rule& rule) {
         rule_ = &rule;
@@ -203,7 +207,7 @@ class Checker {
         throw SceneError(file_, path, reason);
     }
 
-    void visit(const Json& value, std::size_t step, const std::string& path) const {
+    void visit(Json& value, std::size_t step, const std::string& path) const {
         if (step == steps_.size()) {
             check_value(value, path);
         } else if (steps_[step] == "[]") {
@@ -213,7 +217,7 @@ class Checker {
         }
     }
 
-    void visit_elements(const Json& value, std::size_t step, const std::string& path) const {
+    void visit_elements(Json& value, std::size_t step, const std::string& path) const {
         if (!value.is_array()) {
             fail(path, "must be an array");
         }
@@ -222,14 +226,14 @@ class Checker {
         }
     }
 
-    void visit_members(const Json& value, std::size_t step, const std::string& path) const {
+    void visit_members(Json& value, std::size_t step, const std::string& path) const {
         if (!value.is_object()) {
             fail(path, "must be an object");
         }
         const std::string prefix = path.empty() ? path : path + ".";
         if (steps_[step] == "*") {
-            for (const auto& [key, member] : value.items()) {
-                visit(member, step + 1, prefix + key);
+            for (auto it = value.begin(); it != value.end(); ++it) {
+                visit(*it, step + 1, prefix + it.key());
             }
             return;
         }
@@ -242,7 +246,7 @@ class Checker {
         }
     }
 
-    void check_value(const Json& value, const std::string& path) const {
+    void check_value(Json& value, const std::string& path) const {
         switch (rule_->kind) {
             case Kind::object:
                 require(value.is_object(), path, "must be an object");
@@ -254,11 +258,10 @@ class Checker {
                 require(value.is_boolean(), path, "must be true or false");
                 break;
             case Kind::integer:
-                require(is_integer(value), path, "must be an integer");
-                check_range(value, path);
+                check_integer(value, path);
                 break;
             case Kind::number:
-                check_range(value, path);
+                check_number(value, path);
                 break;
             case Kind::numbers:
                 check_numbers(value, path);
@@ -284,24 +287,35 @@ class Checker {
                (value.is_number() && std::floor(value.get<double>()) == value.get<double>());
     }
 
-    void check_range(const Json& value, const std::string& path) const {
+    void check_integer(Json& value, const std::string& path) const {
+        require(is_integer(value), path, "must be an integer");
+        check_number(value, path);
+        const auto integer = static_cast<std::uint64_t>(value.get<double>());
+        if (integer % rule_->multiple != 0) {
+            fail(path, fmt::format("must be a multiple of {}", rule_->multiple));
+        }
+        value = integer;
+    }
+
+    void check_number(Json& value, const std::string& path) const {
         require(value.is_number(), path, "must be a number");
         const auto x = value.get<double>();
         if (!(x >= rule_->min && x <= rule_->max)) {
             fail(path, fmt::format("{} is not in [{}, {}]", x, rule_->min, rule_->max));
         }
+        value = x;
     }
 
-    void check_numbers(const Json& value, const std::string& path) const {
+    void check_numbers(Json& value, const std::string& path) const {
         if (!value.is_array() || value.size() != rule_->length) {
             fail(path, fmt::format("must be an array of {} numbers", rule_->length));
         }
         for (std::size_t i = 0; i < value.size(); ++i) {
-            check_range(value[i], fmt::format("{}[{}]", path, i));
+            check_number(value[i], fmt::format("{}[{}]", path, i));
         }
     }
 
-    void check_index(const Json& value, const std::string& path) const {
+    void check_index(Json& value, const std::string& path) const {
         const Json& array = array_or_empty(json_, std::string(rule_->options).c_str());
         require(is_integer(value), path, "must be an index");
         const auto x = value.get<double>();
@@ -309,6 +323,7 @@ class Checker {
             fail(path, fmt::format("{} is out of range: the file has {} {}", x,
                                    array.is_array() ? array.size() : 0, rule_->options));
         }
+        value = static_cast<std::uint64_t>(x);
     }
 
     void check_choice(const Json& value, const std::string& path) const {
@@ -321,7 +336,7 @@ class Checker {
     }
 
     const std::string& file_;
-    const Json& json_;
+    Json& json_;
     const Rule* rule_ = nullptr;
     std::vector<std::string_view> steps_;
 };
@@ -339,7 +354,7 @@ void check_version(const std::string& file, const Json& asset) {
 
 }  // namespace
 
-void check_schema(const std::string& file, const Json& json) {
+void check_schema(const std::string& file, Json& json) {
     Checker checker(file, json);
     for (const Rule& rule : rules) {
         checker.check(rule);

@@ -13,13 +13,13 @@ namespace {
 /// World from bind pose, for each joint.
 std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, const GltfNodeTree& tree,
                                        int skin, float metres_per_unit) {
-    const Json& json = document.item("skins", skin);
-    const Json& joints = array_or_empty(json, "joints");
-    const std::string path =
-        item_path("skins", static_cast<std::size_t>(skin)) + ".inverseBindMatrices";
+    const tinygltf::Skin& source = item(document.model().skins, skin);
+    const std::vector<int>& joints = source.joints;
+    const std::string path = item_path("skins", skin) + ".inverseBindMatrices";
     std::vector<float> inverse_bind;
-    if (const int accessor = index_or_none(json, "inverseBindMatrices"); accessor >= 0) {
-        if (accessor_layout(document, accessor).component_type != 5126) {
+    if (const int accessor = source.inverseBindMatrices; accessor >= 0) {
+        if (item(document.model().accessors, accessor).componentType !=
+            TINYGLTF_COMPONENT_TYPE_FLOAT) {
             document.fail(path, "must hold 4x4 matrices of floats");
         }
         inverse_bind = read_floats(document, accessor, 16, path);
@@ -36,8 +36,7 @@ std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, const GltfN
         }
         joint_from_bind[3] =
             glm::dvec4(glm::dvec3(joint_from_bind[3]) * double{metres_per_unit}, 1.0);
-        matrices.push_back(tree.nodes[joints[j].get<std::size_t>()].world_from_node *
-                           joint_from_bind);
+        matrices.push_back(item(tree.nodes, joints[j]).world_from_node * joint_from_bind);
     }
     return matrices;
 }
@@ -84,8 +83,8 @@ bool apply_skin(GltfDocument& document, const GltfNodeTree& tree, int skin, int 
     }
     document.note("skins are read in their rest pose");
     const std::vector<glm::dmat4> joints = joint_matrices(document, tree, skin, metres_per_unit);
-    const glm::dmat4& world_from_node = tree.nodes[static_cast<std::size_t>(node)].world_from_node;
-    const std::string mesh_path = item_path("meshes", static_cast<std::size_t>(geometry.mesh));
+    const glm::dmat4& world_from_node = item(tree.nodes, node).world_from_node;
+    const std::string mesh_path = item_path("meshes", geometry.mesh);
     for (std::size_t i = 0; i < geometry.primitives.size(); ++i) {
         if (!geometry.primitives[i].triangles.empty()) {
             skin_primitive(document, joints, world_from_node,

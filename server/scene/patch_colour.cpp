@@ -13,21 +13,20 @@ const Texture* texture_of(const Scene& scene, const TextureSlot& slot) {
     return slot.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(slot.texture)];
 }
 
-/// The cutoff for the texture's alpha alone: glTF compares factor * texture with alphaCutoff.
-std::optional<float> texture_cutoff(const Material& material) {
+}  // namespace
+
+std::optional<float> texture_alpha_cutoff(const Material& material) {
     if (material.alpha_mode != AlphaMode::mask) {
         return std::nullopt;
     }
     return material.alpha > 0.0F ? material.alpha_cutoff / material.alpha : 2.0F;
 }
 
-}  // namespace
-
 PatchColour patch_colour(const Scene& scene, const Material& material,
                          const std::array<glm::vec2, 3>& mesh_uv) {
     PatchColour result;
     glm::vec3 colour = material.base_colour;
-    const std::optional<float> cutoff = texture_cutoff(material);
+    const std::optional<float> cutoff = texture_alpha_cutoff(material);
     if (const Texture* texture = texture_of(scene, material.base_colour_texture)) {
         const TextureMean mean =
             texture_mean(*texture, material.base_colour_texture.uv_from_mesh_uv, mesh_uv, cutoff);
@@ -49,7 +48,7 @@ glm::vec3 mean_base_colour(const Scene& scene, const Material& material) {
     }
     // The image is two triangles.
     const glm::mat3 whole(1.0F);
-    const std::optional<float> cutoff = texture_cutoff(material);
+    const std::optional<float> cutoff = texture_alpha_cutoff(material);
     const TextureMean lower =
         texture_mean(*texture, whole, {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}, cutoff);
     const TextureMean upper =

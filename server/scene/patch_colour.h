@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "scene/scene.h"
 
@@ -17,6 +18,10 @@ struct PatchColour {
 };
 
 /// Colours of a patch with this material and these mesh uv at its corners.
+/// Alpha of the base colour texture below which nothing is there: glTF compares factor * texture
+/// with alphaCutoff. None without alpha MASK.
+std::optional<float> texture_alpha_cutoff(const Material& material);
+
 PatchColour patch_colour(const Scene& scene, const Material& material,
                          const std::array<glm::vec2, 3>& mesh_uv);
 

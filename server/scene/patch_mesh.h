@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/facet_tree.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -26,10 +27,20 @@ struct PatchMesh {
     std::vector<std::uint32_t> triangle_material;
     std::vector<std::uint32_t> back_patch;  ///< patch of the back side, or no_patch
 
+    // Facets: the flat triangles that bundles and pictures rasterise, tiled by `triangles`. Which
+    // triangle a point of a facet belongs to, facet_tree tells. A mesh without any rasterises its
+    // triangles.
+    std::vector<glm::uvec3> facets;  ///< vertex indices, counter-clockwise from the front
+    std::vector<std::uint32_t> facet_material;
+    std::vector<FacetNode> facet_roots;
+    std::vector<FacetNode> facet_tree;
+
     // Patches.
     std::vector<std::uint32_t> patch_triangle;
     std::vector<glm::vec3> albedo;    ///< diffuse, linear, area mean over the patch, <= 0.999
     std::vector<glm::vec3> emission;  ///< radiance, cd/m², area mean over the patch
+    /// Share of the patch that alpha MASK leaves; empty where nothing is cut.
+    std::vector<float> coverage;
 
     [[nodiscard]] std::size_t patch_count() const { return patch_triangle.size(); }
     [[nodiscard]] std::size_t triangle_count() const { return triangles.size(); }

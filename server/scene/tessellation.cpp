@@ -163,7 +163,10 @@ class PatchPainter {
 class MeshBuilder {
   public:
     MeshBuilder(Scene& scene, const EdgeRefinement& refinement)
-        : scene_(scene), refinement_(refinement), painter_(scene) {
+        : scene_(scene),
+          refinement_(refinement),
+          painter_(scene),
+          triangle_of_node_(refinement.nodes().size(), PatchMesh::no_patch) {
         vertices_.reserve(refinement.points().size() * 2);
     }
 
@@ -171,13 +174,19 @@ class MeshBuilder {
         for (const EdgeRefinement::RefinedTriangle& triangle : refinement_.triangles()) {
             const PatchColour colour = painter_.colour_of(triangle);
             if (colour.coverage > 0.0F) {
+                triangle_of_node_[triangle.node] =
+                    static_cast<std::uint32_t>(mesh_.triangles.size());
                 add_triangle(triangle, colour);
             } else {
                 ++invisible_;
             }
         }
+        add_facets();
         add_back_patches();
         add_notices();
+        if (!cut_) {
+            mesh_.coverage.clear();
+        }
         if (mesh_.triangles.empty()) {
             throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
         }
@@ -195,6 +204,8 @@ class MeshBuilder {
         mesh_.triangle_material.push_back(triangle.material);
         mesh_.albedo.push_back(colour.albedo);
         mesh_.emission.push_back(colour.emission);
+        mesh_.coverage.push_back(colour.coverage);
+        cut_ = cut_ || colour.coverage < 1.0F;
     }
 
     std::uint32_t vertex_of(const EdgeRefinement::Corner& corner, std::uint32_t object) {
@@ -209,6 +220,52 @@ class MeshBuilder {
         return it->second;
     }
 
+    /// The scene's triangles; in the place of one that alpha MASK has cut holes into, what is left.
+    void add_facets() {
+        for (const EdgeRefinement::RefinedTriangle& whole : refinement_.unrefined()) {
+            const std::vector<std::uint32_t> pieces = triangles_below(whole.node);
+            const bool complete =
+                std::find(pieces.begin(), pieces.end(), PatchMesh::no_patch) == pieces.end();
+            if (complete) {
+                glm::uvec3 corners;
+                for (int k = 0; k < 3; ++k) {
+                    corners[k] =
+                        vertex_of(whole.corners[static_cast<std::size_t>(k)], whole.object);
+                }
+                mesh_.facets.push_back(corners);
+                mesh_.facet_material.push_back(whole.material);
+                mesh_.facet_roots.push_back(pack_facet(refinement_.nodes(), whole.node,
+                                                       triangle_of_node_, mesh_.facet_tree));
+                continue;
+            }
+            for (const std::uint32_t triangle : pieces) {
+                if (triangle != PatchMesh::no_patch) {
+                    mesh_.facets.push_back(mesh_.triangles[triangle]);
+                    mesh_.facet_material.push_back(whole.material);
+                    mesh_.facet_roots.push_back(FacetNode::leaf(triangle));
+                }
+            }
+        }
+    }
+
+    /// Triangles that the bisections of a node have ended in, no_patch for those left out.
+    [[nodiscard]] std::vector<std::uint32_t> triangles_below(std::uint32_t root) const {
+        std::vector<std::uint32_t> triangles;
+        std::vector<std::uint32_t> pending = {root};
+        while (!pending.empty()) {
+            const std::uint32_t at = pending.back();
+            pending.pop_back();
+            const EdgeRefinement::Node& node = refinement_.nodes()[at];
+            if (node.first_child == EdgeRefinement::Node::no_children) {
+                triangles.push_back(triangle_of_node_[at]);
+            } else {
+                pending.push_back(node.first_child + 1);
+                pending.push_back(node.first_child);
+            }
+        }
+        return triangles;
+    }
+
     void add_back_patches() {
         const std::size_t front_count = mesh_.triangles.size();
         mesh_.back_patch.assign(front_count, PatchMesh::no_patch);
@@ -220,6 +277,7 @@ class MeshBuilder {
             mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(t));
             mesh_.albedo.push_back(glm::vec3(mesh_.albedo[t]));
             mesh_.emission.push_back(glm::vec3(mesh_.emission[t]));
+            mesh_.coverage.push_back(float{mesh_.coverage[t]});
         }
     }
 
@@ -236,7 +294,9 @@ class MeshBuilder {
     Scene& scene_;
     const EdgeRefinement& refinement_;
     PatchPainter painter_;
+    std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
+    bool cut_ = false;  // alpha MASK has left less than the whole of some patch
     std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
     std::size_t invisible_ = 0;
 };

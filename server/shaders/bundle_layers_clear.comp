@@ -2,7 +2,7 @@
 // Empties the lists of a rectangle of the layered window.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_LAYER_HEADS) writeonly buffer HeadBuffer { uint heads[]; };
+layout(std430, binding = BINDING_LAYER_COUNTS) writeonly buffer CountBuffer { uint layer_counts[]; };
 uniform uint window_width;
 uniform uint first_column;
 uniform uint first_row;
@@ -12,6 +12,6 @@ uniform uint rows;
 void main() {
     uint row = gl_GlobalInvocationID.x / columns;
     if (row < rows) {
-        heads[(first_row + row) * window_width + first_column + gl_GlobalInvocationID.x - row * columns] = NO_NODE;
+        layer_counts[(first_row + row) * window_width + first_column + gl_GlobalInvocationID.x - row * columns] = 0u;
     }
 }

@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest surface: 2 * triangle + side (0 front, 1 back).
+// Nearest surface: 2 * facet + side (0 front, 1 back).
+#include "layouts.glsl"
+#ifdef ALPHA_MASK
+#include "alpha_mask.glsl"
+#else
 layout(early_fragment_tests) in;
+#endif
 layout(location = 0) out uint surface;
 
-uniform uint first_triangle;
+uniform uint first_facet;
 
-void main() { surface = (first_triangle + uint(gl_PrimitiveID)) * 2u + (gl_FrontFacing ? 0u : 1u); }
+void main() {
+    uint facet = first_facet + uint(gl_PrimitiveID);
+#ifdef ALPHA_MASK
+    if (!covered(facet)) {
+        discard;
+    }
+#endif
+    surface = facet * 2u + (gl_FrontFacing ? 0u : 1u);
+}

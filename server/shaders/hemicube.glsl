@@ -16,6 +16,13 @@ mat3 hemicube_face(int face) {
     return mat3(cross(forward, z), z, forward);
 }
 
+/// Point of the stacked picture that a pixel samples. All pixels share one random shift: a rectangle rule
+/// with a random origin, unbiased even for what is always seen through the same pixel.
+vec2 sample_point(ivec2 texel) { return vec2(texel) + 0.5 + vec2(bundle.axis_x.w, bundle.axis_y.w); }
+
+/// Pixel that samples nearest to a point.
+ivec2 nearest_sample(vec2 point) { return ivec2(floor(point - vec2(bundle.axis_x.w, bundle.axis_y.w))); }
+
 /// Direction through a point of the stacked picture; its component along the face's axis is 1.
 /// Bundle coordinates; z is along the shooter's normal.
 vec3 hemicube_direction(vec2 pixel, float n, out int face) {

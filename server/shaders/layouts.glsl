@@ -4,7 +4,6 @@
 
 #define NO_PATCH 0xffffffffu
 #define NO_HIT 0xffffffffu
-#define NO_NODE 0xffffffffu
 
 // Storage bindings.
 #define BINDING_VERTICES 0         // vec4[]: object-space position, w = object index (bits)
@@ -20,8 +19,8 @@
 #define BINDING_POWER 10           // vec4[]: see solution_power.comp
 #define BINDING_SHOOTERS 11        // Shooter[]
 #define BINDING_COUNTERS 12        // Counters
-#define BINDING_LAYER_HEADS 13     // uint[window pixels]: first node of the pixel's list
-#define BINDING_LAYER_NODES 14     // LayerNode[]
+#define BINDING_LAYER_COUNTS 13    // uint[window pixels]: surfaces that the pixel's line meets
+#define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: the k-th of a pixel at k * pixels + pixel
 #define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
 #define BINDING_MATERIALS 16       // MaterialData[]
 #define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures
@@ -38,7 +37,8 @@
 #define BINDING_CHECKPOINT 28      // vec2[]: luminance of the mean before the change, weight after it
 #define BINDING_PICK 29            // PickResult
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
-
+#define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
+#define BINDING_FACET_INDICES 32  // uint[3 * facets]: vertices
 #define BINDING_FLUX 33           // FluxSums[]: per block of patches, then the totals
 #define BINDING_BALANCE 34        // Balance
 
@@ -60,7 +60,9 @@
 #define UNIT_WORLD_POSITIONS 10   // rgba32f
 #define UNIT_VERTEX_DATA 11       // rgba32ui: VertexData, two texels each
 #define UNIT_MATERIALS 12         // rgba32f: MaterialData, five texels each
-#define UNIT_REFLECTANCE 13       // rgba32f: Reflectance, three texels each, then tables, see brdf.glsl
+#define UNIT_FACETS 13            // rgba32f: FacetGeometry, four texels each
+#define UNIT_FACET_NODES 14       // rg32ui: FacetNode of scene/facet_tree.h
+#define UNIT_REFLECTANCE 15       // rgba32f: Reflectance, three texels each, then tables, see brdf.glsl
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -69,6 +71,7 @@
 #define CREASE_SHIFT 29  // bit CREASE_SHIFT + k of a triangle's w: the edge opposite to vertex k is a crease
 #define TRIANGLE_SMOOTH 0x10000000u  // vertex normals differ from the plane's
 #define MATERIAL_MASK 0x0fffffffu
+#define FACET_LEAF 0x80000000u  // FacetNode::leaf_bit
 
 struct PatchGeometry {
     vec3 normal;   // world space, unit, out of the patch's front
@@ -79,8 +82,20 @@ struct PatchGeometry {
     uint triangle;
 };
 
+// A flat triangle that is rasterised, and the root of its bisections.
+struct FacetGeometry {
+    vec3 normal;   // world space, unit
+    float offset;  // dot(normal, x) of points on the facet
+    vec4 weight1;  // dot(weight1, vec4(x, 1)): barycentric weight of corner 1
+    vec4 weight2;
+    uint root_code;
+    uint root_first;
+    uint object;
+    uint material;
+};
+
 struct PatchSurface {
-    vec4 albedo;    // rgb
+    vec4 albedo;    // rgb; w: share of the patch that alpha MASK leaves
     vec4 emission;  // rgb, radiance units
 };
 
@@ -96,10 +111,10 @@ struct Shooter {
 
 struct Counters {
     vec4 shooter_radiance;  // radiance of the shooter in the running perspective iteration
-    uint nodes;             // nodes that the layered window wanted
+    uint layers;            // most surfaces on a line of the running window, where there is no room for them
     uint non_finite;        // contributions dropped because they were not finite
-    uint overflowed;        // 1: the node buffer was too small and the running window is not transferred
-    uint wanted;            // most nodes that any overflowing window wanted
+    uint overflowed;        // 1: there was too little room, and the running window is not transferred
+    uint wanted;            // most layers that any overflowing window wanted
     uint overflow_mask;     // bit s: the layered iteration in slot s of its group overflowed
     uint escaped;           // share of the shooter's flux that no patch receives, unit 2^-30
     uint pad0, pad1;
@@ -119,13 +134,6 @@ struct Balance {
     vec4 outgoing;   // weighted sum of the flux that was sent, w = weight
 };
 
-struct LayerNode {
-    uint surface;  // 2 * triangle + (0 front, 1 back) as seen along the window's axis
-    float depth;   // along the axis from the window's origin, m
-    uint next;
-    uint pad;
-};
-
 struct VertexData {
     vec2 normal;  // octahedral, object space
     vec2 uv;
@@ -136,7 +144,7 @@ struct VertexData {
 };
 
 struct MaterialData {
-    vec4 base_colour;   // rgb factor of the Lambert albedo; w unused
+    vec4 base_colour;   // rgb factor of the Lambert albedo; w: alpha of the texture below which nothing is there, 0: none
     vec4 emission;      // rgb, radiance units
     vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
     vec4 uv_row1;       // xyz: second row
@@ -162,12 +170,13 @@ struct PixelSurface {
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // unorm 4x8, square-root encoded
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
-    uint object;       // and flags: PIXEL_EMITTER, PIXEL_SKY
+    uint facet;        // and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
 
 #define PIXEL_EMITTER 0x80000000u
 #define PIXEL_SKY 0x40000000u
-#define PIXEL_OBJECT_MASK 0x3fffffffu
+#define PIXEL_BACK 0x20000000u  // the facet's back is seen
+#define PIXEL_FACET_MASK 0x1fffffffu
 
 struct PickResult {
     vec4 position;     // w = 1: hit
@@ -179,13 +188,13 @@ struct PickResult {
 // One random bundle: which strategy found it, from where, with which densities.
 struct BundleParameters {
     vec4 origin;         // perspective: shooting point; parallel: window's origin; w = near distance
-    vec4 axis_x;         // unit; parallel: w = window width, m
-    vec4 axis_y;         // unit; parallel: w = window height, m
+    vec4 axis_x;         // unit; w: perspective: how far from their centres pixels sample, pixels
+    vec4 axis_y;         // the same along y
     vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
     vec4 weights;        // sign/weight of the transfer, iteration weight w, pixel size (m or tangent), batch
-    uvec4 resolution;    // hemicube or window: width, height; shooter patch; place (0 now, 1 before)
+    uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
 };
 

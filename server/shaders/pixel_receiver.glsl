@@ -12,33 +12,39 @@ layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float 
 #ifdef SPECIAL
 #include "mesh.glsl"
 #endif
-uniform uint patch_base;    // patches and vertices of the place that was drawn
+uniform uint facet_base;    // facets and vertices of the place that was drawn
 uniform uint vertex_base;
 uniform uint moved_object;  // object that is elsewhere at place 1, or NO_PATCH
 
 struct Receiver {
     vec3 position;
     vec3 normal;     // shading
-    vec3 geometric;  // of the patch
-    uint patch_id;
-    uint object;
+    vec3 geometric;  // of the facet, on the receiving side
+    uint surface;    // the facet and its receiving side
+    uint object;     // SPECIAL only
 };
 
 /// The pixel's surface point at the place that was drawn. False for the background.
 bool load_receiver(uint index, out Receiver x) {
     uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
     uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, object
-    x.patch_id = p.w;
+    uint facet = p.w == NO_PATCH ? 0u : q.w & PIXEL_FACET_MASK;
     x.position = uintBitsToFloat(p.xyz);
-    x.object = q.w & PIXEL_OBJECT_MASK;
     x.normal = vector_from_octahedral(unpackSnorm2x16(q.x));
-    uint known = p.w == NO_PATCH ? 0u : p.w;
-    x.geometric = patch_plane(patch_base + known).xyz;
+    x.geometric = facet_plane(facet_base + facet).xyz;
+    bool back = false;
+#ifdef DOUBLE_SIDED
+    back = (q.w & PIXEL_BACK) != 0u;
+    x.geometric = back ? -x.geometric : x.geometric;
+#endif
+    x.surface = 2u * facet + (back ? 1u : 0u);
+    x.object = 0u;
 #ifdef SPECIAL
     // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
+    x.object = facet_object(facet_base + facet);
     if (vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH) {
         vec2 v = unpackUnorm2x16(q.z);
-        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(known).w)).xyz + vertex_base;
+        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz + vertex_base;
         x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
         x.normal = x.geometric;
     }
@@ -52,12 +58,12 @@ bool load_receiver(uint index, out Receiver x) {
 /// the footprint and its plane is not in front of the receiver: then it is the receiver's own surface or
 /// one beside it, not in the way.
 bool beside_receiver(Receiver x, uint surface, vec3 hit_offset, vec3 ahead, float footprint, float tiny) {
-    vec4 plane = patch_plane(patch_base + (surface >> 1));
-    uint object = floatBitsToUint(patch_attributes(patch_base + (surface >> 1)).z);
+    uint facet = facet_base + (surface >> 1);
+    vec4 plane = facet_plane(facet);
     float height = dot(plane.xyz, x.position) - plane.w;  // of the receiver over the plane
     float approach = dot(plane.xyz, ahead);
     // Neighbouring facets of a curved object are no obstacle to each other.
-    bool curved = object == x.object && dot(plane.xyz, x.geometric) > 0.5;
+    bool curved = dot(plane.xyz, x.geometric) > 0.5 && facet_object(facet) == facet_object(facet_base + (x.surface >> 1));
     float allowed = curved ? 0.5 * footprint : tiny;
     bool in_front = abs(height) > allowed && height * approach < 0.0;
     return !in_front && dot(hit_offset, hit_offset) <= footprint * footprint;

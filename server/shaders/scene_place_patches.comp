@@ -7,6 +7,7 @@ layout(std430, binding = BINDING_TRIANGLES) readonly buffer TriangleBuffer { uve
 layout(std430, binding = BINDING_PATCH_TRIANGLE) readonly buffer PatchTriangleBuffer {
     uint patch_triangle[];
 };
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_PATCHES) writeonly buffer PatchBuffer { PatchGeometry patches[]; };
 uniform uint place;
 uniform uint vertex_count;
@@ -30,8 +31,8 @@ void main() {
     PatchGeometry g;
     g.normal = n;
     g.offset = dot(n, (a.xyz + world[v.y].xyz + world[v.z].xyz) / 3.0);
-    g.area = 0.5 * twice_area;
-    g.inverse_area = twice_area > 0.0 ? 2.0 / twice_area : 0.0;
+    g.area = 0.5 * twice_area * surfaces[i].albedo.w;
+    g.inverse_area = g.area > 0.0 ? 1.0 / g.area : 0.0;
     g.object = floatBitsToUint(a.w);
     g.triangle = triangle;
     patches[place * patch_count + i] = g;

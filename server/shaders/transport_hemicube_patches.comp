@@ -9,12 +9,12 @@ layout(local_size_x = 64) in;
 #include "accumulator.glsl"
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#include "facets.glsl"
 #include "hemicube.glsl"
 #ifdef THIN_WALLS
 #include "crease.glsl"
 #endif
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
-layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 uniform uint first_column;  // the rectangle of the stacked picture that is transferred
 uniform uint first_row;
@@ -23,34 +23,59 @@ uniform uint rows;
 uniform uint last_column;   // one past the end
 uniform uint row_stride;    // rows are sampled: every row_stride-th from row_phase on
 uniform uint row_phase;
-uniform uint patch_base;    // patches and vertices of the place that was drawn
+uniform uint patch_base;    // patches, facets and vertices of the place that was drawn
+uniform uint facet_base;
 uniform uint vertex_base;
 
 const uint run_length = 8u;
 
-/// What the pixels of a run share.
+/// Consecutive pixels of a row that see one triangle. D is the direction through a pixel, in world
+/// space, with 1 along the face's axis; it is linear along the row, and so are the reciprocal of the
+/// distance in units of D and the triangle's barycentric weights divided by that distance.
 struct Run {
     uint surface;
+    uint triangle;
     uint patch_id;  // NO_PATCH: nothing receives
-    float factor;   // 1/A_i, sign and weight
+    float reciprocal, reciprocal_step;
+    vec3 weights, weights_step;
     uint creases;
 };
 
-Run load_run(uint surface) {
+Run start_run(uint surface, vec3 d, vec3 d_step) {
     Run run;
     run.surface = surface;
-    run.patch_id = surface == NO_HIT ? NO_PATCH : patch_of_surface(surface);
-    uint index = patch_base + (run.patch_id == NO_PATCH ? 0u : run.patch_id);
-    vec4 plane = patch_plane(index);
+    run.triangle = 0u;
+    run.patch_id = NO_PATCH;
+    run.reciprocal = 1.0;
+    run.reciprocal_step = 0.0;
+    run.weights = vec3(1.0);
+    run.weights_step = vec3(0.0);
+    run.creases = 0u;
+#ifdef DOUBLE_SIDED
+    bool blocked = surface == NO_HIT;
+#else
+    bool blocked = surface == NO_HIT || (surface & 1u) != 0u;
+#endif
+    Facet facet = load_facet(facet_base + (blocked ? 0u : surface >> 1));
+    vec3 o = bundle.origin.xyz;
+    float height = facet.plane.w - dot(facet.plane.xyz, o);
     // A shooter in the receiver's own plane sends it nothing; only rounding could say otherwise, and it
     // would leak through a wall without thickness.
-    bool in_plane = dot(plane.xyz, bundle.origin.xyz) - plane.w <= bundle.sky.w;
-    run.patch_id = in_plane ? NO_PATCH : run.patch_id;
-    run.factor = patch_attributes(index).y * bundle.weights.x;
+    if (blocked || ((surface & 1u) != 0u ? height : -height) <= bundle.sky.w) {
+        return run;
+    }
+    vec3 row = facet.plane.xyz / height;
+    vec3 row1 = facet.weight1.xyz + row * dot(facet.weight1, vec4(o, 1.0));
+    vec3 row2 = facet.weight2.xyz + row * dot(facet.weight2, vec4(o, 1.0));
+    vec3 row0 = row - row1 - row2;
+    run.reciprocal = dot(row, d);
+    run.reciprocal_step = dot(row, d_step);
+    run.weights = vec3(dot(row0, d), dot(row1, d), dot(row2, d));
+    run.weights_step = vec3(dot(row0, d_step), dot(row1, d_step), dot(row2, d_step));
+    run.triangle = triangle_at(facet.root, run.weights, run.weights_step);
+    run.patch_id = patch_of_surface(2u * run.triangle + (surface & 1u));
 #ifdef THIN_WALLS
-    run.creases = surface == NO_HIT ? 0u : crease_flags(surface >> 1);
-#else
-    run.creases = 0u;
+    run.creases = crease_flags(run.triangle);
 #endif
     return run;
 }
@@ -61,13 +86,10 @@ float crease_factor(Run run, vec3 d, float inverse_length, float r) {
     if (run.creases == 0u) {
         return 1.0;
     }
-    vec3 direction = d.x * bundle.axis_x.xyz + d.y * bundle.axis_y.xyz + d.z * bundle.axis_z.xyz;
     float pixel_width = 2.0 * inverse_length * r / float(bundle.resolution.x);
-    return near_crease(run.surface >> 1, run.creases, vertex_base, bundle.origin.xyz, direction,
-                       snap_distance * pixel_width)
+    return near_crease(run.triangle, run.creases, vertex_base, bundle.origin.xyz, d, snap_distance * pixel_width)
                ? 0.0
-               : crease_compensation(run.surface >> 1, run.creases, vertex_base, direction * inverse_length,
-                                     pixel_width);
+               : crease_compensation(run.triangle, run.creases, vertex_base, d * inverse_length, pixel_width);
 #else
     return 1.0;
 #endif
@@ -77,13 +99,14 @@ void deposit(Run run, float sum) {
     if (run.patch_id == NO_PATCH) {
         return;
     }
+    sum *= patch_attributes(patch_base + run.patch_id).y * bundle.weights.x;  // 1/A_i, sign and weight
 #ifdef COLOURED
-    vec3 irradiance = sum * run.factor * texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+    vec3 irradiance = sum * texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
     accumulate(run.patch_id, 0u, irradiance.r);
     accumulate(run.patch_id, 1u, irradiance.g);
     accumulate(run.patch_id, 2u, irradiance.b);
 #else
-    accumulate(run.patch_id, 0u, sum * run.factor);
+    accumulate(run.patch_id, 0u, sum);
 #endif
 }
 
@@ -105,27 +128,36 @@ void main() {
     float n = float(bundle.resolution.x);
     float pixel_area = 4.0 * float(row_stride) / (n * n);  // at unit focal distance
     int face;
-    vec3 d = hemicube_direction(vec2(texel) + 0.5, n, face);
-    vec3 d_step = hemicube_face(face)[0] * (2.0 / n);
+    mat3 world_from_bundle = mat3(bundle.axis_x.xyz, bundle.axis_y.xyz, bundle.axis_z.xyz);
+    vec3 in_bundle = hemicube_direction(sample_point(texel), n, face);
+    vec3 d = world_from_bundle * in_bundle;
+    vec3 d_step = world_from_bundle * hemicube_face(face)[0] * (2.0 / n);
+    float d_z = in_bundle.z;
+    float d_z_step = hemicube_face(face)[0].z * (2.0 / n);
+    float farthest = 1e6 * bundle.origin.w;  // the scene's diameter
     float escaped = 0.0;
     uint surface = texelFetch(surface_ids, texel, 0).r;
     while (texel.x < end) {
-        Run run = load_run(surface);
+        Run run = start_run(surface, d, d_step);
         float sum = 0.0;
         float missed = 0.0;
+        bool same;
         // All pixels of this run.
         do {
             float inverse_length = inversesqrt(dot(d, d));
             float inverse_square = inverse_length * inverse_length;
-            missed += d.z * inverse_square * inverse_square;  // cos_y domega / pixel area
-            // Reversed infinite depth: depth = near / (distance along the face's axis).
-            float r = bundle.origin.w / (texelFetch(depths, texel, 0).r * inverse_length);
+            missed += d_z * inverse_square * inverse_square;  // cos_y domega / pixel area
+            float r = min(1.0 / (max(run.reciprocal, 1e-20) * inverse_length), farthest);
             sum += r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
-                   cosine_over_density(r, d.z * inverse_length, bundle.densities.w);
+                   cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
             ++texel.x;
             d += d_step;
+            d_z += d_z_step;
+            run.reciprocal += run.reciprocal_step;
+            run.weights += run.weights_step;
             surface = texel.x < end ? texelFetch(surface_ids, texel, 0).r : NO_HIT;
-        } while (texel.x < end && surface == run.surface);
+            same = surface == run.surface && all(greaterThanEqual(run.weights, vec3(0.0)));
+        } while (texel.x < end && same);
         deposit(run, sum * pixel_area);
         escaped += run.patch_id == NO_PATCH ? missed : 0.0;
     }

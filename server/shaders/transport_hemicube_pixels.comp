@@ -5,6 +5,7 @@
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#include "facets.glsl"
 #include "hemicube.glsl"
 #include "pixel_receiver.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
@@ -14,7 +15,7 @@ layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 /// True where the shooter sees x. d: x in bundle coordinates.
 bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
     uint surface = texelFetch(surface_ids, texel, 0).r;
-    if (surface == NO_HIT || patch_of_surface(surface) == x.patch_id) {
+    if (surface == NO_HIT || surface == x.surface) {
         return true;
     }
     float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;
@@ -22,7 +23,7 @@ bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d)
         return true;
     }
     int face;
-    vec3 hit = hemicube_direction(vec2(texel) + 0.5, float(bundle.resolution.x), face) * hit_depth;
+    vec3 hit = hemicube_direction(sample_point(texel), float(bundle.resolution.x), face) * hit_depth;
     float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
     vec3 towards_shooter = (bundle.origin.xyz - x.position) / r;
     return beside_receiver(x, surface, hit - d, towards_shooter, footprint, 2e-5 * r);
@@ -44,7 +45,7 @@ void main() {
         vec2 pixel = hemicube_pixel(d, float(bundle.resolution.x), face, depth);
         ivec4 rectangle = bundle.scissor[face];
         ivec2 origin = ivec2(0, face == 0 ? 0 : int(bundle.resolution.x) + (face - 1) * int(bundle.resolution.x) / 2);
-        ivec2 texel = ivec2(pixel) - origin;
+        ivec2 texel = nearest_sample(pixel) - origin;
         bool inside = all(greaterThanEqual(texel, rectangle.xy)) && all(lessThan(texel, rectangle.zw));
 #ifndef SPECIAL
         texel = clamp(texel, rectangle.xy, rectangle.zw - 1);

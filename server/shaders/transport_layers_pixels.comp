@@ -5,33 +5,39 @@
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 layout(std430, binding = BINDING_COUNTERS) readonly buffer CounterBuffer { Counters counters; };
 
-/// First node that x sees, looking far (+z) or near (-z); NO_NODE: the sky. x_depth along the axis.
-uint next_seen(uint node, Receiver x, bool far, float x_depth, vec2 lateral, float footprint) {
-    uint seen = NO_NODE;
+/// What x sees along the axis.
+struct Seen {
+    uint surface;  // NO_HIT: the sky
+    float ahead;   // m
+};
+
+/// Nearest surface that x sees, looking far (+z) or near (-z), among those on the window pixel's line.
+/// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
+Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
+    Seen seen = Seen(NO_HIT, beyond_all);
     float tiny = bundle.sky.w;
     vec3 looking = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
-    for (; node != NO_NODE; node = nodes[node].next) {
-        float ahead = nodes[node].depth - x_depth;
-        if (!far && ahead > footprint) {
-            break;
-        }
-        uint surface = nodes[node].surface;
-        if (patch_of_surface(surface) == x.patch_id ||
-            beside_receiver(x, surface, vec3(lateral, ahead), looking, footprint, tiny)) {
+    uint count = min(layer_counts[pixel], layer_capacity());
+    for (uint k = 0u; k < count; ++k) {
+        uint surface = layer_surfaces[layer_slot(k, pixel)];
+        float along = plane_depth(facet_plane(facet_base + (surface >> 1)), line) - x_depth;
+        float ahead = far ? along : -along;
+        // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
+        bool close = abs(ahead) <= footprint;
+        if (surface == x.surface || ahead < (close ? -footprint : 0.0) ||
+            (close && beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny))) {
             continue;
         }
-        // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
-        float slack = abs(ahead) <= footprint ? footprint : 0.0;
-        if (far && ahead > -slack) {
-            return node;
-        }
-        if (!far && ahead < slack) {
-            seen = node;  // the nearest before x is the last one
+        // Of coinciding surfaces the one that faces x is seen.
+        ahead -= faces_far(surface) != far ? tiny : 0.0;
+        if (ahead < seen.ahead || (ahead == seen.ahead && surface < seen.surface)) {
+            seen = Seen(surface, ahead);
         }
     }
     return seen;
@@ -40,7 +46,7 @@ uint next_seen(uint node, Receiver x, bool far, float x_depth, vec2 lateral, flo
 void main() {
     uint index = gl_GlobalInvocationID.x;
     Receiver x;
-    if (index >= view.size.x * view.size.y || counters.nodes > uint(nodes.length()) || !load_receiver(index, x)) {
+    if (index >= view.size.x * view.size.y || counters.layers > layer_capacity() || !load_receiver(index, x)) {
         return;
     }
     vec3 value = vec3(0.0);
@@ -48,23 +54,30 @@ void main() {
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     ivec2 texel = ivec2(d.xy / bundle.weights.z);
     ivec4 rectangle = bundle.scissor[0];
+#ifndef SPECIAL
+    texel = clamp(texel, rectangle.xy, rectangle.zw - 1);
+#endif
     bool inside = all(greaterThanEqual(texel, rectangle.xy)) && all(lessThan(texel, rectangle.zw));
     float along = dot(x.normal, bundle.axis_z.xyz);
     bool far = dot(x.geometric, bundle.axis_z.xyz) > 0.0;
     float cos_x = far ? along : -along;
     if (inside && cos_x > 0.0) {
-        vec2 lateral = (vec2(texel) + 0.5) * bundle.weights.z - d.xy;
+        vec2 window_point = (vec2(texel) + 0.5) * bundle.weights.z;
+        vec3 line = bundle.origin.xyz + window_point.x * bundle.axis_x.xyz + window_point.y * bundle.axis_y.xyz;
         float footprint = 1.5 * bundle.weights.z / max(cos_x, 0.02);
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
-        uint node = next_seen(heads[pixel], x, far, d.z, lateral, footprint);
-        if (node == NO_NODE) {
+        Seen seen = look(pixel, x, far, d.z, line, window_point - d.xy, footprint);
+        if (seen.surface == NO_HIT) {
             value = bundle.densities.x > 0.0 ? bundle.sky.rgb * (cos_x / bundle.densities.x) : vec3(0.0);
         } else {
-            uint y = patch_on_side(nodes[node].surface, !far);
+            Facet facet = load_facet(facet_base + (seen.surface >> 1));
+            float depth = plane_depth(facet.plane, line);
+            uint triangle = triangle_at(facet, line + depth * bundle.axis_z.xyz);
+            uint y = patch_of_surface(2u * triangle + side_of_surface(seen.surface, !far));
             if (y != NO_PATCH) {
                 vec4 l = texelFetch(radiance_texels, int(y));
-                float cos_y = abs(dot(patch_plane(patch_base + y).xyz, bundle.axis_z.xyz));
-                value = l.rgb * (cos_x * cosine_over_density(abs(nodes[node].depth - d.z), cos_y, l.w));
+                float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
+                value = l.rgb * (cos_x * cosine_over_density(abs(depth - d.z), cos_y, l.w));
             }
         }
     }

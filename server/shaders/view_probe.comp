@@ -37,7 +37,7 @@ void main() {
     vec2 v = unpackUnorm2x16(p.barycentric);
     vec3 position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
     pick.position = vec4(position, 1.0);
-    pick.normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), uintBitsToFloat(p.object & PIXEL_OBJECT_MASK));
+    pick.normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), patch_attributes(p.patch_id).z);
     pick.irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.patch_id));
     pick.radiance = vec4(pixel_radiance(pixel_index, p), relative_error());
 }

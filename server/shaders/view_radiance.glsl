@@ -51,8 +51,8 @@ vec3 pixel_albedo(PixelSurface p) {
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
     if (p.patch_id == NO_PATCH) {
-        return (p.object & PIXEL_SKY) != 0u ? view.sky.rgb : vec3(0.0);
+        return (p.facet & PIXEL_SKY) != 0u ? view.sky.rgb : vec3(0.0);
     }
-    vec3 emitted = (p.object & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
+    vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
     return emitted + pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
 }

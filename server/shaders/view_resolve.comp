@@ -6,6 +6,7 @@
 #include "layouts.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
+#include "facets.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
 #include "pixel_sum.glsl"
@@ -95,7 +96,7 @@ vec4 reproject(vec3 old_position, vec3 position, vec3 normal, uint id, uint obje
     uvec4 old = texelFetch(old_pixel_texels, int(2u * index));
     bool same = old.w == id;
     if (!same && old.w != NO_PATCH &&
-        (texelFetch(old_pixel_texels, int(2u * index + 1u)).w & PIXEL_OBJECT_MASK) == object) {
+        facet_object(texelFetch(old_pixel_texels, int(2u * index + 1u)).w & PIXEL_FACET_MASK) == object) {
         vec3 offset = uintBitsToFloat(old.xyz) - old_position;
         same = length(offset) < same_distance * clip.w && abs(dot(offset, normal)) < 0.1 * same_distance * clip.w;
     }
@@ -119,6 +120,15 @@ vec3 receiving_point(uint creases, vec3 weights, vec3 a, vec3 e1, vec3 e2) {
     return a + weights.y * e1 + weights.z * e2;
 }
 
+/// Patch under the pixel with a ray from the eye.
+uint patch_seen(uint surface, vec3 direction) {
+    Facet facet = load_facet(surface >> 1);
+    float height = facet.plane.w - dot(facet.plane.xyz, view.eye.xyz);
+    float along = dot(facet.plane.xyz, direction);
+    float t = along != 0.0 ? height / along : 0.0;
+    return patch_of_surface(2u * triangle_at(facet, view.eye.xyz + t * direction) + (surface & 1u));
+}
+
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
     if (at.x >= view.size.x || at.y >= view.size.y) {
@@ -126,7 +136,9 @@ void main() {
     }
     uint index = at.y * view.size.x + at.x;
     uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
-    uint id = surface == NO_HIT ? NO_PATCH : patch_of_surface(surface);
+    vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
+    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+    uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, direction);
     if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
         pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
         pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : 0u);
@@ -137,8 +149,6 @@ void main() {
     vec4 attributes = patch_attributes(id);
     uint object = floatBitsToUint(attributes.z);
     uvec4 triangle = load_triangle(floatBitsToUint(attributes.w));
-    vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
-    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
     vec3 a = world_position(triangle.x);
     vec3 e1 = world_position(triangle.y) - a;
     vec3 e2 = world_position(triangle.z) - a;
@@ -171,7 +181,9 @@ void main() {
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
     pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
                                     packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0)),
-                                    packUnorm2x16(vec2(v1, v2)), object | (emitter ? PIXEL_EMITTER : 0u));
+                                    packUnorm2x16(vec2(v1, v2)),
+                                    surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) |
+                                        ((surface & 1u) != 0u ? PIXEL_BACK : 0u));
 #ifdef REPROJECT
     vec3 old_position = position;
 #ifdef MOVED

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/gpu_scene.h"
 
+#include "scene/patch_colour.h"
 #include "solution/creases.h"
 #include "solution/thin_walls.h"
 
@@ -78,6 +79,8 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
       origin_(scene.bounds.centre()),
       radiance_unit_(choose_radiance_unit(mesh, scene.sky_radiance)),
       sky_(scene.sky_radiance / radiance_unit_),
+      world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
+      facets_(mesh, world_positions_),
       place_vertices_({"scene_place_vertices.comp"}),
       place_patches_({"scene_place_patches.comp"}) {
     const glm::mat4 shift = glm::translate(glm::mat4(1.0F), -origin_);
@@ -92,7 +95,6 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
     upload_geometry(scene, mesh);
     upload_materials(scene, mesh);
     upload_vertex_data(mesh);
-    build_clusters(mesh);
     create_textures();
     choose_defines(scene, mesh);
     upload_matrices();
@@ -119,22 +121,8 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
     triangles_ = Buffer::from<glm::uvec4>("triangles", triangles);
     patch_triangle_ = Buffer::from<std::uint32_t>("patch triangles", mesh.patch_triangle);
     back_patch_ = Buffer::from<std::uint32_t>("back patches", mesh.back_patch);
-    indices_ = Buffer::from<glm::uvec3>("indices", mesh.triangles);
-    world_positions_ = Buffer("world positions", 2 * vertices.size() * sizeof(glm::vec4));
     patches_ = Buffer("patches", 2 * std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     objects_ = Buffer("object matrices", world_from_object_.size() * sizeof(glm::mat4));
-    for (unsigned place = 0; place < 2; ++place) {
-        GLuint name = 0;
-        glCreateVertexArrays(1, &name);
-        vertex_array_[place] = VertexArray(name);
-        glVertexArrayVertexBuffer(
-            name, 0, world_positions_.get(),
-            static_cast<GLintptr>(place * vertices.size() * sizeof(glm::vec4)), sizeof(glm::vec4));
-        glEnableVertexArrayAttrib(name, 0);
-        glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
-        glVertexArrayAttribBinding(name, 0, 0);
-        glVertexArrayElementBuffer(name, indices_.get());
-    }
 }
 
 void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
@@ -142,7 +130,8 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         surfaces.push_back(
-            {glm::vec4(mesh.albedo[i], 0.0F), glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+            {glm::vec4(mesh.albedo[i], mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
+             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> texture_offset;
@@ -158,7 +147,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     std::vector<layout::MaterialData> materials;
     for (const Material& material : scene.materials) {
         layout::MaterialData data{};
-        data.base_colour = glm::vec4(material.base_colour, 1.0F);
+        data.base_colour = glm::vec4(material.base_colour, 0.0F);
         data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
         const TextureSlot& slot = material.base_colour_texture;
         if (slot.texture >= 0) {
@@ -167,6 +156,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
             const glm::mat3& m = slot.uv_from_mesh_uv;
             data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
             data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
+            data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
             data.texture_info = {texture_offset[index], texture.width, texture.height,
                                  (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U)};
         }
@@ -224,14 +214,14 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(mesh.patch_count() > mesh.triangle_count(), "DOUBLE_SIDED");
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
+    define_if(!mesh.coverage.empty(), "ALPHA_MASK");
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");
 }
 
-void GpuScene::upload_matrices() const {
-    Buffer& objects = const_cast<Buffer&>(objects_);
-    objects.write<glm::mat4>(world_from_object_, 0);
+void GpuScene::upload_matrices() {
+    objects_.write<glm::mat4>(world_from_object_, 0);
 }
 
 void GpuScene::place_geometry(Place place) const {
@@ -245,6 +235,7 @@ void GpuScene::place_geometry(Place place) const {
     place_patches_.set("patch_count", patch_count_);
     place_patches_.set("triangle_count", triangle_count_);
     place_patches_.dispatch(patch_count_);
+    facets_.place(static_cast<unsigned>(place));
 }
 
 void GpuScene::settle() {
@@ -257,6 +248,7 @@ void GpuScene::settle() {
     };
     copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
     copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
+    facets_.settle();
 }
 
 void GpuScene::move_object(std::uint32_t object, const glm::mat4& world_from_object) {
@@ -267,89 +259,12 @@ void GpuScene::move_object(std::uint32_t object, const glm::mat4& world_from_obj
     diameter_ = std::max(diameter_, glm::length(bounds().extent()));
 }
 
-void GpuScene::build_clusters(const PatchMesh& mesh) {
-    constexpr std::uint32_t cluster_size = 256;
-    for (std::uint32_t first = 0; first < triangle_count_;) {
-        Cluster cluster{first, 0, mesh.vertex_object[mesh.triangles[first].x], glm::vec3(0.0F),
-                        0.0F};
-        Bounds box;
-        while (first < triangle_count_ && cluster.count < cluster_size &&
-               mesh.vertex_object[mesh.triangles[first].x] == cluster.object) {
-            for (int k = 0; k < 3; ++k) {
-                box.add(mesh.positions[mesh.triangles[first][k]]);
-            }
-            ++cluster.count;
-            ++first;
-        }
-        cluster.centre = box.centre();
-        cluster.radius = 0.5F * glm::length(box.extent());
-        clusters_.push_back(cluster);
-    }
-}
-
-namespace {
-
-/// Left, right, bottom, top and near planes of a clip matrix, normals inwards, unit.
-std::array<glm::vec4, 5> frustum_planes(const glm::mat4& clip_from_world) {
-    const glm::mat4 rows = glm::transpose(clip_from_world);
-    std::array<glm::vec4, 5> planes = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
-                                       rows[3] - rows[1], rows[3]};
-    for (glm::vec4& plane : planes) {
-        const float length = glm::length(glm::vec3(plane));
-        plane = length > 0.0F ? plane / length : glm::vec4(0.0F);
-    }
-    return planes;
-}
-
-float largest_scale(const glm::mat4& matrix) {
-    return std::sqrt(std::max({glm::dot(matrix[0], matrix[0]), glm::dot(matrix[1], matrix[1]),
-                               glm::dot(matrix[2], matrix[2])}));
-}
-
-}  // namespace
-
 void GpuScene::draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
                     const ShaderProgram& program) const {
-    const auto planes = frustum_planes(clip_from_world);
-    const auto visible = [&](const Cluster& cluster) {
-        const glm::mat4 matrix = this->world_from_object(cluster.object, place);
-        const glm::vec4 centre = matrix * glm::vec4(cluster.centre, 1.0F);
-        const float radius = cluster.radius * largest_scale(matrix) * 1.001F;
-        return std::all_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
-            return glm::dot(plane, centre) >= -radius;
-        });
-    };
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  // first triangle, count
-    for (const Cluster& cluster : clusters_) {
-        if (!visible(cluster)) {
-            continue;
-        }
-        if (!ranges.empty() && ranges.back().first + ranges.back().second == cluster.first) {
-            ranges.back().second += cluster.count;
-        } else {
-            ranges.emplace_back(cluster.first, cluster.count);
-        }
-    }
-    glBindVertexArray(vertex_array_[static_cast<unsigned>(place)].get());
-    const auto draw_ranges = [&] {
-        for (const auto& [first, count] : ranges) {
-            program.set("first_triangle", first);
-            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(std::size_t{first} * sizeof(glm::uvec3)));
-        }
-    };
-    if (!nearest_only || !thin_walls_) {
-        draw_ranges();
-        return;
-    }
-    // Where a front and a back have equal depths the front, drawn first, is seen. No polygon
-    // offset: a back pushed away would uncover what stands right behind it.
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    draw_ranges();
-    glCullFace(GL_FRONT);
-    draw_ranges();
-    glDisable(GL_CULL_FACE);
+    const auto first = static_cast<std::size_t>(place) * object_count_;
+    facets_.draw(static_cast<unsigned>(place),
+                 std::span(world_from_object_).subspan(first, object_count_), clip_from_world,
+                 nearest_only && thin_walls_, program);
 }
 
 void GpuScene::bind() const {
@@ -370,10 +285,14 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_WORLD_POSITIONS, world_texture_.get());
     glBindTextureUnit(UNIT_VERTEX_DATA, vertex_texture_.get());
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
+    facets_.bind();
 }
 
 std::uint32_t GpuScene::patch_base(Place place) const {
     return place == Place::now ? 0 : patch_count_;
+}
+std::uint32_t GpuScene::facet_base(Place place) const {
+    return place == Place::now ? 0 : facets_.count();
 }
 std::uint32_t GpuScene::vertex_base(Place place) const {
     return place == Place::now ? 0 : vertex_count_;
@@ -402,10 +321,10 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum = 0;
-    for (const Buffer* buffer : {&vertices_, &world_positions_, &triangles_, &patches_,
-                                 &patch_triangle_, &back_patch_, &surfaces_, &objects_, &materials_,
-                                 &texels_, &vertex_data_, &vertex_patches_, &indices_}) {
+    std::size_t sum = facets_.bytes();
+    for (const Buffer* buffer :
+         {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
+          &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -10,6 +10,7 @@
 #include "gpu/shader_program.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "solution/facet_raster.h"
 
 namespace raybundle {
 
@@ -27,17 +28,17 @@ class GpuScene {
     /// Forgets `before`: both places are the present one.
     void settle();
 
-    /// Draws the triangles that a view (clip_from_world, also given as planes) can see, with a
-    /// program that adds `first_triangle` to gl_PrimitiveID. Where nearest_only, front faces win
-    /// over back faces of equal depth.
+    /// Draws the facets that a view can see, see FacetRaster::draw(). Where nearest_only, front
+    /// faces win over back faces of equal depth.
     void draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
               const ShaderProgram& program) const;
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
-    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH, SKY,
-    /// THIN_WALLS. What is absent is not even compiled.
+    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
+    /// ALPHA_MASK, SKY, THIN_WALLS. What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
+    [[nodiscard]] std::uint32_t facet_base(Place place) const;
     [[nodiscard]] std::uint32_t vertex_base(Place place) const;
 
     [[nodiscard]] std::uint32_t patch_count() const { return patch_count_; }
@@ -57,16 +58,9 @@ class GpuScene {
     void upload_geometry(const Scene& scene, const PatchMesh& mesh);
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
     void upload_vertex_data(const PatchMesh& mesh);
-    /// Neighbouring triangles of one object, culled together.
-    struct Cluster {
-        std::uint32_t first = 0, count = 0, object = 0;
-        glm::vec3 centre{0.0F};  // object space
-        float radius = 0.0F;
-    };
-    void build_clusters(const PatchMesh& mesh);
     void create_textures();
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
-    void upload_matrices() const;
+    void upload_matrices();
     void place_geometry(Place place) const;
 
     std::uint32_t patch_count_, triangle_count_, vertex_count_, object_count_;
@@ -75,13 +69,13 @@ class GpuScene {
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
     glm::vec3 sky_{0.0F};
-    std::vector<Cluster> clusters_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
 
-    Buffer vertices_, world_positions_, triangles_, patches_, patch_triangle_, back_patch_;
-    Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_, indices_;
-    VertexArray vertex_array_[2];
+    Buffer world_positions_;
+    FacetRaster facets_;
+    Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;
+    Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
     Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
     std::vector<std::string> defines_;
     ShaderProgram place_vertices_, place_patches_;

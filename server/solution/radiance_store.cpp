@@ -84,7 +84,6 @@ void RadianceStore::correct(float phase_weight) const {
 }
 
 void RadianceStore::refresh_power() const {
-    const GlScope scope("selection probabilities");
     flux_sum_.set("patch_count", patch_count_);
     flux_sum_.dispatch(patch_count_);
     balance_flux_.set("block_count", block_count_);

@@ -17,9 +17,16 @@ std::pair<float, float> split(double u) {
             static_cast<float>(std::floor((u * bits - leading) * bits) / bits)};
 }
 
-constexpr unsigned rows = 5;  // of both kinds
 // Dimensions of the Halton sequences; perspective and layered iterations count separately.
-enum Dimension : unsigned { choose_patch = 0, point_u = 1, point_v = 2, turn = 3 };
+constexpr unsigned rows = 5;  // of both kinds
+enum Dimension : unsigned {
+    choose_patch = 0,
+    point_u = 1,
+    point_v = 2,
+    turn = 3,
+    point_x = 4,
+    point_y = 6
+};
 enum LayeredDimension : unsigned {
     polar = 0,
     azimuth = 1,
@@ -38,37 +45,46 @@ glm::vec3 uniform_direction(double u, double v) {
 }
 
 IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities)
-    : probabilities_(probabilities), batches_([seed]<std::size_t... I>(std::index_sequence<I...>) {
-          return std::array<Batch, BATCHES>{
-              Batch{RandomisedHalton(seed, static_cast<unsigned>(I))}...};
-      }(std::make_index_sequence<BATCHES>())) {}
+    : probabilities_(probabilities), seed_(seed), numbers_(seed) {}
+
+/// Every BATCHES iterations in a row fall to all batches, in an order drawn anew each time: with a
+/// fixed one a batch would see but a part of the range of a sequence whose base divides its stride.
+unsigned IterationSchedule::next_batch() {
+    const auto k = static_cast<unsigned>(iterations_ % BATCHES);
+    if (k == 0) {
+        std::uint64_t random = mix_bits(seed_ ^ mix_bits(iterations_));
+        for (unsigned i = BATCHES; i-- > 1; random /= i + 1) {
+            std::swap(batch_order_[i], batch_order_[random % (i + 1)]);
+        }
+    }
+    return batch_order_[k];
+}
 
 IterationSample IterationSchedule::next() {
     IterationSample sample;
-    sample.batch = static_cast<unsigned>(iterations_ % BATCHES);
-    ++iterations_;
-    Batch& batch = batches_[sample.batch];
-    const double which = batch.numbers.golden(batch.iterations++);
+    sample.batch = next_batch();
+    const double which = numbers_.golden(iterations_++);
     constexpr double turn_range = 2.0 * 3.14159265358979323846;
     if (which < static_cast<double>(probabilities_.layered)) {
-        const std::uint64_t k = ++batch.layered;
+        const std::uint64_t k = ++layered_;
         sample.strategy = Strategy::layered;
-        sample.row_phase = batch.numbers.sample(rows, k) < 0.5 ? 0 : 1;
+        sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
         sample.direction =
-            uniform_direction(batch.numbers.sample(polar, k), batch.numbers.sample(azimuth, k));
-        sample.angle = turn_range * batch.numbers.sample(window_turn, k);
-        sample.shift = {static_cast<float>(batch.numbers.sample(shift_x, k)),
-                        static_cast<float>(batch.numbers.sample(shift_y, k))};
+            uniform_direction(numbers_.sample(polar, k), numbers_.sample(azimuth, k));
+        sample.angle = turn_range * numbers_.sample(window_turn, k);
+        sample.shift = {static_cast<float>(numbers_.sample(shift_x, k)),
+                        static_cast<float>(numbers_.sample(shift_y, k))};
         return sample;
     }
-    const std::uint64_t k = ++batch.perspective;
+    const std::uint64_t k = ++perspective_;
     // A dimension of its own: the parity of k would go hand in hand with the choice of the patch.
-    sample.row_phase = batch.numbers.sample(rows, k) < 0.5 ? 0 : 1;
-    const auto [leading, trailing] = split(batch.numbers.sample(choose_patch, k));
-    sample.shooter_numbers = {leading, trailing,
-                              static_cast<float>(batch.numbers.sample(point_u, k)),
-                              static_cast<float>(batch.numbers.sample(point_v, k))};
-    sample.angle = turn_range * batch.numbers.sample(turn, k);
+    sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
+    const auto [leading, trailing] = split(numbers_.sample(choose_patch, k));
+    sample.shooter_numbers = {leading, trailing, static_cast<float>(numbers_.sample(point_u, k)),
+                              static_cast<float>(numbers_.sample(point_v, k))};
+    sample.angle = turn_range * numbers_.sample(turn, k);
+    sample.shift = {static_cast<float>(numbers_.sample(point_x, k)),
+                    static_cast<float>(numbers_.sample(point_y, k))};
     return sample;
 }
 

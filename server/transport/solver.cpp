@@ -143,8 +143,9 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.slot = slot;
     settings.row_phase = planned.sample.row_phase;
     if (planned.sample.strategy == Strategy::perspective) {
-        const BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
-                                             static_cast<float>(planned.sample.angle));
+        BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
+                                       static_cast<float>(planned.sample.angle));
+        frame.pixel_shift = planned.sample.shift - 0.5F;
         transfer().perspective(frame, planned.shooter, transfer().hemicube().full(), settings,
                                receivers);
         store_.update(true, settings.context.sample_weight, iterate_step(),

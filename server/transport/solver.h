@@ -21,7 +21,7 @@ struct SolverSettings {
     StrategyProbabilities probabilities;
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
-    std::uint64_t coarse_iterations = 96;
+    std::uint64_t coarse_iterations = 768;
     float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
     bool adapt_to_sky = true;    ///< more parallel bundles where a sky lights the scene
 };

@@ -14,7 +14,9 @@ enum Dimension : unsigned {
     point_v = 2,
     turn = 3,
     polar = 4,
-    azimuth = 5
+    azimuth = 5,
+    shift_x = 6,
+    shift_y = 7
 };
 
 }  // namespace
@@ -25,7 +27,7 @@ SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, Transfer
       store_(store),
       transfer_(transfer),
       object_(object),
-      numbers_(seed, 0),
+      numbers_(seed),
       boxes_{scene.object_bounds(object, Place::now), scene.object_bounds(object, Place::before)} {
     std::vector<glm::vec4> numbers;
     for (unsigned i = 0; i < perspective_iterations; ++i) {
@@ -74,8 +76,11 @@ void SpecialPhase::step(std::span<BundleReceiver* const> receivers) {
 void SpecialPhase::perspective(const layout::Shooter& shooter, float angle,
                                std::span<BundleReceiver* const> receivers) {
     const bool carried = shooter.object == object_;
+    const glm::vec2 pixel_shift(numbers_.sample(shift_x, next_ + 1) - 0.5,
+                                numbers_.sample(shift_y, next_ + 1) - 0.5);
     for (const Place place : {Place::before, Place::now}) {
         BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
+        frame.pixel_shift = pixel_shift;
         if (carried && place == Place::before) {
             const glm::mat4 before_from_now =
                 scene_.world_from_object(object_, Place::before) *
@@ -83,6 +88,7 @@ void SpecialPhase::perspective(const layout::Shooter& shooter, float angle,
             const auto rotate = glm::transpose(glm::inverse(glm::mat3(before_from_now)));
             frame = make_frame(glm::vec3(before_from_now * glm::vec4(shooter.position, 1.0F)),
                                glm::normalize(rotate * shooter.normal), angle);
+            frame.pixel_shift = pixel_shift;
         }
         // A shooter on the object moves with it: everything that it sees changes.
         const auto rectangles =

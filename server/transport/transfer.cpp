@@ -24,8 +24,8 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
                    const BundleResolution& resolution)
     : scene_(scene),
       store_(store),
-      hemicube_(resolution.hemicube),
-      window_(scene, resolution.window),
+      hemicube_(resolution.hemicube, scene.defines()),
+      window_(resolution.window, scene.defines()),
       parameters_("bundle parameters", sizeof(layout::BundleParameters)),
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
@@ -69,6 +69,8 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     store_.bind();
     layout::BundleParameters p = common_parameters(frame, settings);
     p.densities.w = shooter.density;
+    p.axis_x.w = frame.pixel_shift.x;
+    p.axis_y.w = frame.pixel_shift.y;
     p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());
     p.resolution.z = shooter.patch_id;
     for (std::size_t face = 0; face < rectangles.size(); ++face) {
@@ -81,6 +83,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     const ShaderProgram& patches =
         settings.coloured ? hemicube_patches_coloured_ : hemicube_patches_;
     patches.set("patch_base", scene_.patch_base(place));
+    patches.set("facet_base", scene_.facet_base(place));
     patches.set("vertex_base", scene_.vertex_base(place));
     const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
         const auto columns = static_cast<unsigned>(r.width() + run_length - 1) / run_length;
@@ -120,16 +123,19 @@ void Transfer::layered(const LayeredWindow::Geometry& geometry, const PixelRecta
     layout::BundleParameters p = common_parameters(geometry.frame, settings);
     p.weights.z = geometry.pixel_size;
     p.resolution.x = p.resolution.y = static_cast<unsigned>(window_.size());
+    p.resolution.z = window_.capacity();
     p.scissor[0] = to_vector(rectangle);
     upload(p);
-    window_.draw(scene_, geometry, place, rectangle, store_.counters(), settings.slot);
+    window_.draw(scene_, geometry, place, rectangle, store_.counters());
 
     layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
     layers_patches_.set("first_row", static_cast<unsigned>(rectangle.y0));
     layers_patches_.set("columns", static_cast<unsigned>(rectangle.width()));
     layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
     layers_patches_.set("patch_base", scene_.patch_base(place));
+    layers_patches_.set("facet_base", scene_.facet_base(place));
     layers_patches_.set("vertex_base", scene_.vertex_base(place));
+    layers_patches_.set("slot", settings.slot);
     layers_patches_.set("row_stride", row_stride);
     layers_patches_.set("row_phase", settings.row_phase % row_stride);
     const auto sampled = (static_cast<unsigned>(rectangle.height()) + row_stride - 1) / row_stride;

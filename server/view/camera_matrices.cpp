@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/camera_matrices.h"
 
-#include <cmath>
+#include "scene/camera_axes.h"
 
 namespace raybundle {
 
-namespace {
-
-struct Axes {
-    glm::vec3 right, up, forward;  // right and up scaled to the edge of the picture
-};
-
-Axes camera_axes(const Camera& camera, glm::uvec2 size) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    glm::vec3 right = glm::cross(forward, camera.up);
-    if (glm::dot(right, right) < 1e-12F) {  // looking along `up`: any other axis will do
-        right = glm::cross(forward,
-                           std::abs(forward.x) < 0.9F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1));
-    }
-    right = glm::normalize(right);
-    const float half_height = std::tan(0.5F * camera.vertical_fov);
-    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-    return {right * (half_height * aspect), glm::cross(right, forward) * half_height, forward};
-}
-
-}  // namespace
-
 layout::ViewParameters make_view_parameters(const Camera& camera, const glm::vec3& scene_origin,
                                             glm::uvec2 size, float near_distance) {
-    const Axes axes = camera_axes(camera, size);
+    const CameraAxes axes = camera_axes(camera, size);
     const glm::vec3 eye = camera.eye - scene_origin;
     const auto row = [&eye](const glm::vec3& v) { return glm::vec4(v, -glm::dot(v, eye)); };
     layout::ViewParameters p{};
@@ -45,7 +24,7 @@ layout::ViewParameters make_view_parameters(const Camera& camera, const glm::vec
 }
 
 glm::vec3 pixel_direction(const Camera& camera, glm::uvec2 size, glm::vec2 pixel) {
-    const Axes axes = camera_axes(camera, size);
+    const CameraAxes axes = camera_axes(camera, size);
     const glm::vec2 ndc = (pixel + 0.5F) / glm::vec2(size) * 2.0F - 1.0F;
     return glm::normalize(axes.forward + ndc.x * axes.right - ndc.y * axes.up);
 }

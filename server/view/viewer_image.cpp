@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gpu/gl_scope.h"
+
 namespace raybundle {
 
 namespace {
@@ -25,7 +27,7 @@ std::size_t pixel_count(glm::uvec2 size) {
 }  // namespace
 
 ViewPrograms::ViewPrograms(const GpuScene& scene)
-    : raster({"bundle_raster.vert", "bundle_nearest.frag"}),
+    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()),
       resolve_new({"view_resolve.comp"}, scene.defines()),
       resolve_reprojected({"view_resolve.comp"}, with(scene.defines(), "REPROJECT 1")),
       resolve_moved({"view_resolve.comp"}, with(with(scene.defines(), "REPROJECT 1"), "MOVED 1")),
@@ -184,7 +186,7 @@ void ViewerImage::bind_pixels() const {
 
 void ViewerImage::prepare_receiving(const ShaderProgram& program, const Context& context) {
     bind_pixels();
-    program.set("patch_base", scene_.patch_base(context.place));
+    program.set("facet_base", scene_.facet_base(context.place));
     program.set("vertex_base", scene_.vertex_base(context.place));
     program.set("moved_object", context.moved_object);
     program.dispatch(pixel_count(size_));

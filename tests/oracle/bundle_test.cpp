@@ -22,7 +22,7 @@ TEST(LowDiscrepancy, RadicalInverseMirrorsDigits) {
 }
 
 TEST(LowDiscrepancy, EveryIntervalGetsItsShare) {
-    const RandomisedHalton numbers(7, 3);
+    const RandomisedHalton numbers(7);
     std::array<int, 16> counts{};
     for (std::uint64_t i = 1; i <= 1600; ++i) {
         ++counts[static_cast<std::size_t>(numbers.sample(0, i) * 16.0)];
@@ -33,8 +33,8 @@ TEST(LowDiscrepancy, EveryIntervalGetsItsShare) {
 }
 
 TEST(LowDiscrepancy, BatchesAreShiftedIndependently) {
-    EXPECT_NE(RandomisedHalton(7, 0).sample(0, 1), RandomisedHalton(7, 1).sample(0, 1));
-    EXPECT_EQ(RandomisedHalton(7, 1).sample(0, 1), RandomisedHalton(7, 1).sample(0, 1));
+    EXPECT_NE(RandomisedHalton(7).sample(0, 1), RandomisedHalton(8).sample(0, 1));
+    EXPECT_EQ(RandomisedHalton(7).sample(0, 1), RandomisedHalton(7).sample(0, 1));
 }
 
 TEST(IterationSchedule, StrategiesComeInTheirProbabilities) {

@@ -92,7 +92,7 @@ TEST_F(ServerHttpTest, ConnectionsAreKeptForTheNextRequest) {
 
 TEST_F(ServerHttpTest, SurvivesNonsense) {
     http_exchange(server_.port(), "\r\n\r\n");
-    http_exchange(server_.port(), std::string("\x16\x03\x01\x00\x00 \r\n\r\n", 11));
+    http_exchange(server_.port(), std::string("\x16\x03\x01\x00\x00 \r\n\r\n", 10));
     RawClient endless(server_.port());
     endless.send("GET /" + std::string(100000, 'a'));
     EXPECT_TRUE(endless.closed());

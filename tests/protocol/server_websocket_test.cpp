@@ -304,6 +304,7 @@ TEST_F(ServerWebSocketTest, ManyThreadsMaySend) {
     v1::ServerMessage message;
     message.mutable_ok();
     std::vector<std::thread> threads;
+    threads.reserve(4);
     for (int t = 0; t < 4; ++t) {
         threads.emplace_back([&] {
             for (std::uint32_t i = 0; i < 100; ++i) {

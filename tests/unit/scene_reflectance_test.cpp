@@ -86,6 +86,8 @@ TEST_P(MaxPhongRejection, NamesThePlaceAndTheReason) {
 
 const Fault faults[] = {
     {"type", [](Json& j) { j = 3; }, "", "must be an object"},
+    {"null", [](Json& j) { j = nullptr; }, "", "must be an object"},
+    {"empty", [](Json& j) { j = Json::object(); }, ".specular", "is missing"},
     {"specular_missing", [](Json& j) { j.erase("specular"); }, ".specular", "is missing"},
     {"exponent_missing", [](Json& j) { j.erase("exponent"); }, ".exponent", "is missing"},
     {"specular_type", [](Json& j) { j["specular"] = 0.5; }, ".specular", "array of 3"},

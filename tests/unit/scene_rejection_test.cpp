@@ -183,6 +183,13 @@ const Fault faults[] = {
                                         {"values", {{"bufferView", 0}}}};
      },
      "accessors[0].sparse.count", "larger"},
+    {"sparse_beyond_32_bits",
+     [](Json& j) {
+         j["accessors"][0]["sparse"] = {{"count", 4294967297},
+                                        {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 0}}}};
+     },
+     "accessors[0].sparse.count", "not in"},
     {"sparse_order",
      [](Json& j) {
          // The index view holds 0 1 2; read as bytes that is 0 0 1.

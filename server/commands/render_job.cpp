@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/render_job.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+
+namespace raybundle {
+
+Camera choose_camera(const Scene& scene, const Options& options) {
+    if (!options.eye.empty() || !options.target.empty()) {
+        if (options.eye.empty() || options.target.empty()) {
+            throw UsageError("--eye and --target belong together");
+        }
+        Camera camera;
+        camera.eye = parse_vector("--eye", options.eye);
+        camera.target = parse_vector("--target", options.target);
+        camera.vertical_fov = glm::radians(options.fov);
+        if (camera.eye == camera.target) {
+            throw UsageError("--target: is the eye itself");
+        }
+        return camera;
+    }
+    if (options.camera.empty()) {
+        return scene.cameras.front();
+    }
+    std::string names;
+    for (const Camera& camera : scene.cameras) {
+        if (camera.name == options.camera) {
+            return camera;
+        }
+        names += (names.empty() ? "" : ", ") + camera.name;
+    }
+    std::size_t index = scene.cameras.size();
+    std::from_chars(options.camera.data(), options.camera.data() + options.camera.size(), index);
+    if (index >= scene.cameras.size()) {
+        throw UsageError("--camera: no camera '" + options.camera + "'; there are: " + names);
+    }
+    return scene.cameras[index];
+}
+
+bool is_exr(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".exr";
+}
+
+void require_picture_format(const std::string& path) {
+    if (!is_exr(path) && std::filesystem::path(path).extension() != ".png") {
+        throw UsageError("--output: '" + path + "' ends neither in .exr nor in .png");
+    }
+}
+
+StopRule::StopRule(const Options& options)
+    : seconds_(options.seconds), iterations_(options.iterations), error_(options.error) {
+    if (!seconds_ && !iterations_ && !error_) {
+        seconds_ = 10.0;
+    }
+}
+
+double StopRule::progress(double elapsed, std::uint64_t done, double estimate) const {
+    double result = 0.0;
+    if (seconds_) {
+        result = std::max(result, elapsed / *seconds_);
+    }
+    if (iterations_) {
+        result = std::max(result, static_cast<double>(done) / static_cast<double>(*iterations_));
+    }
+    if (error_) {
+        result = std::max(result, estimate > *error_ ? *error_ / estimate : 1.0);
+    }
+    return result;
+}
+
+ProgressBar::ProgressBar() : shown_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressBar::~ProgressBar() {
+    if (shown_) {
+        fmt::print(stderr, "\r\033[K");
+    }
+}
+
+bool ProgressBar::due() const {
+    return shown_ && (!last_ || last_->seconds() >= 0.2);
+}
+
+void ProgressBar::show(double progress, std::uint64_t iterations, double error) {
+    if (!due()) {
+        return;
+    }
+    last_.emplace();
+    fmt::print(stderr, "\r\033[K{:3.0f} %  {} iterations, estimated error {:.1f} %",
+               100.0 * std::min(progress, 1.0), iterations, 100.0 * error);
+    std::fflush(stderr);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all ways to render a picture to a file have in common.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli_options.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// The camera that --camera, or --eye and --target, ask for. Throws UsageError.
+Camera choose_camera(const Scene& scene, const Options& options);
+
+/// Throws UsageError unless the path ends in .exr or .png.
+void require_picture_format(const std::string& path);
+bool is_exr(const std::string& path);
+
+class Stopwatch {
+  public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// When to stop: whichever of the given limits comes first; 10 s where none is given.
+class StopRule {
+  public:
+    explicit StopRule(const Options& options);
+
+    /// How far the job is: done at 1. estimate: upper end of the estimated relative error.
+    [[nodiscard]] double progress(double elapsed, std::uint64_t done, double estimate) const;
+    [[nodiscard]] bool needs_error() const { return error_.has_value(); }
+
+  private:
+    std::optional<double> seconds_;
+    std::optional<std::uint64_t> iterations_;
+    std::optional<double> error_;
+};
+
+/// Progress on the terminal, if standard error is one.
+class ProgressBar {
+  public:
+    ProgressBar();
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    /// Whether show() would draw now: five times a second.
+    [[nodiscard]] bool due() const;
+    void show(double progress, std::uint64_t iterations, double error);
+
+  private:
+    bool shown_;
+    std::optional<Stopwatch> last_;
+};
+
+}  // namespace raybundle

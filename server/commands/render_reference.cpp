@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// `render` with a method on the CPU: no GL context.
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "commands/command.h"
+#include "commands/render_job.h"
+#include "reference/reference_method.h"
+#include "view/image_file.h"
+#include "view/tone_curve.h"
+
+namespace raybundle {
+namespace {
+
+struct Outcome {
+    double seconds = 0.0;
+    ImageError error;
+};
+
+/// Iterations between two estimates of the error, which costs about as much as one.
+constexpr std::uint64_t error_interval = 8;
+
+Outcome solve(ReferenceMethod& method, const Options& options) {
+    const StopRule rule(options);
+    ProgressBar bar;
+    Outcome outcome;
+    const Stopwatch stopwatch;
+    double progress = 0.0;
+    while (progress < 1.0) {
+        method.iterate();
+        outcome.seconds = stopwatch.seconds();
+        const bool wanted = rule.needs_error() || bar.due();
+        if (wanted && method.iterations() % error_interval == 0) {
+            outcome.error = method.error();
+        }
+        progress = rule.progress(outcome.seconds, method.iterations(), outcome.error.high);
+        bar.show(progress, method.iterations(), outcome.error.relative);
+    }
+    outcome.error = method.error();
+    return outcome;
+}
+
+void write_picture(const std::string& path, const std::vector<glm::dvec3>& radiance,
+                   glm::uvec2 size, const std::vector<bool>& reflecting) {
+    const auto width = static_cast<int>(size.x);
+    const auto height = static_cast<int>(size.y);
+    if (is_exr(path)) {
+        std::vector<glm::vec4> pixels;
+        pixels.reserve(radiance.size());
+        for (const glm::dvec3& value : radiance) {
+            pixels.emplace_back(value, 1.0);
+        }
+        write_exr(path, width, height, pixels);
+    } else {
+        write_png(path, width, height,
+                  tone_mapped(radiance, automatic_display_factor(radiance, reflecting)));
+    }
+}
+
+void write_statistics(const Options& options, glm::uvec2 size, const LoadedScene& loaded,
+                      const ReferenceMethod& method, const Outcome& outcome) {
+    const nlohmann::ordered_json json = {
+        {"scene", loaded.scene.name},
+        {"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
+        {"method", options.method},
+        {"seed", options.seed},
+        {"size", {size.x, size.y}},
+        {"seconds", outcome.seconds},
+        {"loadSeconds", loaded.seconds},
+        {"iterations", method.iterations()},
+        {"patches", loaded.mesh.patch_count()},
+        {"bytes", method.bytes()},
+        {"relativeError", outcome.error.relative},
+        {"errorLow", outcome.error.low},
+        {"errorHigh", outcome.error.high},
+        {"nonFinite", method.non_finite()},
+        {"notices", loaded.scene.notices}};
+    write_file(options.stats, json.dump(2) + "\n");
+}
+
+}  // namespace
+
+int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& options) {
+    const LoadedScene loaded = load_scene(options);
+    const Camera camera = choose_camera(loaded.scene, options);
+    const RayScene scene(loaded.scene, loaded.mesh);
+    const auto method = make_reference_method(kind, scene, camera, size, options.seed);
+    const Outcome outcome = solve(*method, options);
+    write_picture(options.output, method->picture(), size, reflecting_pixels(scene, camera, size));
+    if (!options.stats.empty()) {
+        write_statistics(options, size, loaded, *method, outcome);
+    }
+    spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} % ({:.2f} to {:.2f} %)",
+                 options.output, method->iterations(), outcome.seconds,
+                 100.0 * outcome.error.relative, 100.0 * outcome.error.low,
+                 100.0 * outcome.error.high);
+    return exit_done;
+}
+
+}  // namespace raybundle

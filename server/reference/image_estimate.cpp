@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/image_estimate.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace raybundle {
+namespace {
+
+constexpr std::size_t pixels_per_task = 64;
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+ImageEstimate::ImageEstimate(glm::uvec2 size, std::uint64_t seed, PixelFilter filter)
+    : size_(size),
+      seed_(seed),
+      filter_(filter),
+      sums_(std::size_t{size.x} * size.y * batches, glm::dvec3(0.0)) {}
+
+void ImageEstimate::add_pass(const CameraRays& camera, const RadianceEstimator& estimator) {
+    const std::size_t pixels = sums_.size() / batches;
+    std::atomic<std::uint64_t> dropped{0};
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, pixels_per_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+                              if (!add_sample(pixel, camera, estimator)) {
+                                  ++dropped;
+                              }
+                          }
+                      });
+    ++passes_;
+    non_finite_ += dropped;
+}
+
+bool ImageEstimate::add_sample(std::size_t pixel, const CameraRays& camera,
+                               const RadianceEstimator& estimator) {
+    const auto batch = static_cast<std::uint32_t>(passes_ % batches);
+    PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch,
+                         static_cast<std::uint32_t>(passes_ / batches));
+    const std::size_t column = pixel % size_.x;
+    const std::size_t row = pixel / size_.x;
+    const glm::dvec2 corner(static_cast<double>(column), static_cast<double>(row));
+    const glm::dvec2 within = filter_ == PixelFilter::box ? sampler.next_pair() : glm::dvec2(0.5);
+    const glm::dvec3 direction = camera.direction(corner + within);
+    const glm::dvec3 value = estimator(camera.origin(), direction, sampler);
+    const bool finite = is_finite(value);
+    if (finite) {
+        sums_[pixel * batches + batch] += value;
+    }
+    return finite;
+}
+
+glm::dvec3 ImageEstimate::mean(std::size_t pixel) const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t batch = 0; batch < batches; ++batch) {
+        sum += sums_[pixel * batches + batch];
+    }
+    return sum / static_cast<double>(std::max<std::uint64_t>(passes_, 1));
+}
+
+glm::dvec3 ImageEstimate::standard_error(std::size_t pixel) const {
+    if (passes_ < batches) {
+        return glm::dvec3(std::numeric_limits<double>::infinity());
+    }
+    // Batch means scatter about the mean with sigma^2 / n_b; n_b differ by at most one.
+    const glm::dvec3 centre = mean(pixel);
+    glm::dvec3 scatter(0.0);
+    for (std::uint64_t batch = 0; batch < batches; ++batch) {
+        const std::uint64_t samples = passes_ / batches + (batch < passes_ % batches ? 1 : 0);
+        const auto count = static_cast<double>(samples);
+        const glm::dvec3 deviation = sums_[pixel * batches + batch] / count - centre;
+        scatter += count * deviation * deviation;
+    }
+    return glm::sqrt(scatter / static_cast<double>((batches - 1) * passes_));
+}
+
+std::vector<glm::dvec3> ImageEstimate::means() const {
+    std::vector<glm::dvec3> result(sums_.size() / batches);
+    for (std::size_t pixel = 0; pixel < result.size(); ++pixel) {
+        result[pixel] = mean(pixel);
+    }
+    return result;
+}
+
+ImageError ImageEstimate::error(const std::vector<bool>& measured) const {
+    if (passes_ < batches) {
+        return {};
+    }
+    VarianceSum sum;
+    for (std::size_t pixel = 0; pixel < sums_.size() / batches; ++pixel) {
+        if (measured.empty() || measured[pixel]) {
+            const glm::dvec3 e = standard_error(pixel);
+            sum.add(mean(pixel), e * e);
+        }
+    }
+    return sum.independent_error(batches - 1);
+}
+
+double VarianceSum::relative() const {
+    return squares_ > 0.0 ? std::sqrt(variances_ / squares_) : 0.0;
+}
+
+ImageError VarianceSum::independent_error(double freedom) const {
+    if (!(variances_ > 0.0)) {
+        return {0.0, 0.0, 0.0};
+    }
+    // Satterthwaite 1946: a sum of independent estimates of variance is nearly chi-square with this
+    // many degrees of freedom.
+    const double all = freedom * variances_ * variances_ / squared_variances_;
+    const double half_width = 1.96 / std::sqrt(2.0 * all);
+    return {relative(), relative() * std::max(1.0 - half_width, 0.0),
+            relative() * (1.0 + half_width)};
+}
+
+}  // namespace raybundle

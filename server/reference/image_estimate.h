@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "reference/camera_rays.h"
+#include "reference/random.h"
+
+namespace raybundle {
+
+/// Error of a whole picture as estimated from its samples.
+struct ImageError {
+    double relative = 1.0;  ///< sqrt(sum of squared standard errors / sum of squares)
+    double low = 0.0;       ///< 95 % interval of it
+    double high = 1.0;
+};
+
+/// Sums over pixels for the error of a picture from the variances of their means.
+class VarianceSum {
+  public:
+    void add(const glm::dvec3& mean, const glm::dvec3& variance) {
+        squares_ += glm::dot(mean, mean);
+        const double sum = variance.r + variance.g + variance.b;
+        variances_ += sum;
+        squared_variances_ += sum * sum;
+    }
+    /// sqrt(sum of variances / sum of squares); 0 where nothing varies.
+    [[nodiscard]] double relative() const;
+    /// The same with its interval where the pixels are independent of each other and each variance
+    /// has this many degrees of freedom.
+    [[nodiscard]] ImageError independent_error(double freedom) const;
+
+  private:
+    double squares_ = 0.0, variances_ = 0.0, squared_variances_ = 0.0;
+};
+
+/// Radiance that arrives at `origin` against `direction` (own space of the ray scene), cd/m².
+using RadianceEstimator = std::function<glm::dvec3(
+    const glm::dvec3& origin, const glm::dvec3& direction, PixelSampler& sampler)>;
+
+/// What a pixel measures: the mean over its area, or its centre alone, as the viewers' geometry
+/// buffers do.
+enum class PixelFilter { box, centre };
+
+/// A picture as the mean of samples of its pixels. The samples
+/// form independently randomised batches, which give the standard errors. Row 0 at the top.
+class ImageEstimate {
+  public:
+    static constexpr std::uint32_t batches = 8;
+
+    ImageEstimate(glm::uvec2 size, std::uint64_t seed, PixelFilter filter = PixelFilter::box);
+
+    /// Adds one sample to every pixel. The result depends on the seed and the number of passes
+    /// alone, not on the number of threads.
+    void add_pass(const CameraRays& camera, const RadianceEstimator& estimator);
+
+    [[nodiscard]] const glm::uvec2& size() const { return size_; }
+    [[nodiscard]] std::uint64_t passes() const { return passes_; }
+    [[nodiscard]] std::uint64_t non_finite() const { return non_finite_; }  ///< samples dropped
+    [[nodiscard]] glm::dvec3 mean(std::size_t pixel) const;                 ///< cd/m²
+    /// Of the mean, cd/m²; infinite before every batch has a sample.
+    [[nodiscard]] glm::dvec3 standard_error(std::size_t pixel) const;
+    [[nodiscard]] std::vector<glm::dvec3> means() const;
+    [[nodiscard]] std::size_t bytes() const { return sums_.size() * sizeof(glm::dvec3); }
+    /// measured: pixels that count, row by row; empty: all.
+    [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
+
+  private:
+    /// False where the sample is not finite and was dropped.
+    bool add_sample(std::size_t pixel, const CameraRays& camera,
+                    const RadianceEstimator& estimator);
+
+    glm::uvec2 size_;
+    std::uint64_t seed_;
+    PixelFilter filter_;
+    std::uint64_t passes_ = 0;
+    std::uint64_t non_finite_ = 0;
+    std::vector<glm::dvec3> sums_;  // [pixel * batches + batch]
+};
+
+}  // namespace raybundle

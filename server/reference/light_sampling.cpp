@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/light_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raybundle {
+namespace {
+
+constexpr double pi = glm::pi<double>();
+/// Where both exist, the sky and the emitters each get at least this share of the samples: power
+/// alone says nothing about which of them a point can see.
+constexpr double least_share = 0.25;
+
+/// Share of the choice among emitters that goes by area.
+constexpr double defensive_share = 0.1;
+
+/// Share of the samples that goes to the sky. emitted: power of all emitters, own space.
+double sky_share(const RayScene& scene, double emitted) {
+    const double luminance = raybundle::luminance(scene.scene().sky_radiance);
+    if (!(luminance > 0.0)) {
+        return 0.0;
+    }
+    if (!(emitted > 0.0)) {
+        return 1.0;
+    }
+    // Flux through a sphere round the scene: pi L times its surface, pi diameter^2.
+    const double diameter = scene.diameter();
+    const double flux = pi * luminance * pi * diameter * diameter;
+    return std::clamp(flux / (flux + emitted), least_share, 1.0 - least_share);
+}
+
+}  // namespace
+
+LightSampling::LightSampling(const RayScene& scene)
+    : scene_(scene),
+      density_per_area_(scene.mesh().patch_count(), 0.0),
+      sky_(scene.scene().sky_radiance) {
+    std::vector<double> powers;
+    double total_power = 0.0;
+    double total_area = 0.0;
+    for (std::uint32_t patch = 0; patch < scene.mesh().patch_count(); ++patch) {
+        const double area = scene.patch_area(patch);
+        const double power = pi * area * luminance(scene.mesh().emission[patch]);
+        if (power > 0.0) {
+            patches_.push_back(patch);
+            powers.push_back(power);
+            total_power += power;
+            total_area += area;
+        }
+    }
+    std::vector<double> weights;
+    weights.reserve(patches_.size());
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        weights.push_back((1.0 - defensive_share) * powers[i] / total_power +
+                          defensive_share * scene.patch_area(patches_[i]) / total_area);
+    }
+    emitters_ = DiscreteDistribution(weights);
+    sky_probability_ = sky_share(scene, total_power);
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        density_per_area_[patches_[i]] =
+            (1.0 - sky_probability_) * emitters_.probability(i) / scene.patch_area(patches_[i]);
+    }
+}
+
+EmittedParticle LightSampling::emit(double choice, const glm::dvec2& at,
+                                    const glm::dvec2& direction) const {
+    if (emitters_.empty() || choice < sky_probability_) {
+        return emit_from_sky(at, direction);
+    }
+    const double rest = (choice - sky_probability_) / (1.0 - sky_probability_);
+    const std::uint32_t patch = patches_[emitters_.sample(rest)];
+    EmittedParticle particle;
+    particle.emitter = scene_.point_on_patch(patch, uniform_triangle(at));
+    particle.direction = Frame(particle.emitter->normal).to_world(cosine_hemisphere(direction));
+    particle.power = pi / density_per_area_[patch] * scene_.emission(*particle.emitter);
+    return particle;
+}
+
+/// Lines of uniform direction through a disc as large as the scene's bounding sphere, across them.
+EmittedParticle LightSampling::emit_from_sky(const glm::dvec2& at,
+                                             const glm::dvec2& direction) const {
+    const double radius = 0.5 * scene_.diameter();
+    const double z = 1.0 - 2.0 * direction.y;
+    const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
+    const double angle = 2.0 * pi * direction.x;
+    EmittedParticle particle;
+    particle.direction = {r * std::cos(angle), r * std::sin(angle), z};
+    const double from_axis = radius * std::sqrt(at.y);
+    particle.origin = Frame(particle.direction)
+                          .to_world({from_axis * std::cos(2.0 * pi * at.x),
+                                     from_axis * std::sin(2.0 * pi * at.x), -radius});
+    particle.power = 4.0 * pi * pi * radius * radius / sky_probability_ * sky_;
+    return particle;
+}
+
+std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const Frame& receiver,
+                                                 double choice, const glm::dvec2& at) const {
+    if (choice >= sky_probability_) {
+        return sample_emitter(from, (choice - sky_probability_) / (1.0 - sky_probability_), at);
+    }
+    const glm::dvec3 local = cosine_hemisphere(at);
+    LightSample light;
+    light.direction = receiver.to_world(local);
+    light.radiance = sky_;
+    light.density = sky_probability_ * local.z / pi;
+    return light;
+}
+
+std::optional<LightSample> LightSampling::sample_emitter(const SurfacePoint& from, double choice,
+                                                         const glm::dvec2& at) const {
+    if (emitters_.empty()) {
+        return std::nullopt;
+    }
+    const std::uint32_t patch = patches_[emitters_.sample(choice)];
+    LightSample light;
+    light.emitter = scene_.point_on_patch(patch, uniform_triangle(at));
+    const glm::dvec3 offset = light.emitter->position - from.position;
+    const double square = glm::dot(offset, offset);
+    if (!(square > 0.0)) {
+        return std::nullopt;
+    }
+    light.direction = offset / std::sqrt(square);
+    const double cosine = -glm::dot(light.direction, light.emitter->normal);
+    if (!(cosine > 0.0)) {
+        return std::nullopt;
+    }
+    light.radiance = scene_.emission(*light.emitter);
+    light.density = density_per_area_[patch] * square / cosine;
+    return light;
+}
+
+bool LightSampling::arrives(const SurfacePoint& from, const LightSample& light) const {
+    return light.emitter ? scene_.mutually_visible(from, *light.emitter)
+                         : scene_.sees_sky(from, light.direction);
+}
+
+double LightSampling::density(const SurfacePoint& from, const Frame& receiver,
+                              const glm::dvec3& direction,
+                              const std::optional<SurfacePoint>& hit) const {
+    if (!hit) {
+        return sky_probability_ * std::max(glm::dot(direction, receiver.z), 0.0) / pi;
+    }
+    if (hit->absorbs() || density_per_area_[hit->patch] <= 0.0) {
+        return 0.0;
+    }
+    const glm::dvec3 offset = hit->position - from.position;
+    const double cosine = -glm::dot(direction, hit->normal);
+    return cosine > 0.0 ? density_per_area_[hit->patch] * glm::dot(offset, offset) / cosine : 0.0;
+}
+
+}  // namespace raybundle

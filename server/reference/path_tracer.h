@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/light_sampling.h"
+#include "reference/random.h"
+#include "reference/ray_scene.h"
+#include "reference/scattering.h"
+
+namespace raybundle {
+
+struct PathSettings {
+    int max_bounces = 1 << 16;  ///< far beyond what Russian roulette lets live
+    int certain_bounces = 3;    ///< before Russian roulette begins
+    bool next_event = true;     ///< false: paths meet the light by themselves
+};
+
+/// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation. Light that a path meets by
+/// itself and light that is sampled are weighted by the balance heuristic (Veach, Guibas 1995,
+/// "Optimally Combining Sampling Techniques").
+class PathTracer {
+  public:
+    PathTracer(const RayScene& scene, const LightSampling& lights,
+               const PathSettings& settings = {})
+        : scene_(scene), lights_(lights), settings_(settings) {}
+
+    /// Unbiased estimate of the radiance that arrives at a point in space (own space of the ray
+    /// scene) against a unit direction, cd/m².
+    [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& origin, const glm::dvec3& direction,
+                                      PixelSampler& sampler) const;
+    /// The same for irradiance: light that arrives at a surface point, lx, cosine included.
+    [[nodiscard]] glm::dvec3 irradiance(const SurfacePoint& point, PixelSampler& sampler) const;
+
+  private:
+    [[nodiscard]] glm::dvec3 reflected(SurfacePoint point, Scattering scattering,
+                                       PixelSampler& sampler) const;
+    [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
+                                        PixelSampler& sampler) const;
+    [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit) const;
+
+    const RayScene& scene_;
+    const LightSampling& lights_;
+    PathSettings settings_;
+};
+
+}  // namespace raybundle

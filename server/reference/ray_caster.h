@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/light_sampling.h"
+#include "reference/random.h"
+#include "reference/ray_scene.h"
+
+namespace raybundle {
+
+/// Local rendering (appendix A, "DirectLight"): emitted light and its first reflection, light path
+/// classes LE and LDE, by sampling points of the emitters and directions of the sky.
+class RayCaster {
+  public:
+    RayCaster(const RayScene& scene, const LightSampling& lights)
+        : scene_(scene), lights_(lights) {}
+
+    /// Unbiased estimate of the emitted and once reflected radiance that arrives at a point in
+    /// space (own space of the ray scene) against a unit direction, cd/m².
+    [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& origin, const glm::dvec3& direction,
+                                      PixelSampler& sampler) const;
+
+  private:
+    const RayScene& scene_;
+    const LightSampling& lights_;
+};
+
+}  // namespace raybundle

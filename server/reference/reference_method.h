@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "reference/image_estimate.h"
+#include "reference/ray_scene.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// The comparison methods of `render --method`.
+enum class ReferenceKind { path, single_ray, ray_cast };
+
+/// A method on the CPU that improves a picture with every iteration. The result depends on the seed
+/// and the number of iterations alone.
+class ReferenceMethod {
+  public:
+    ReferenceMethod() = default;
+    virtual ~ReferenceMethod() = default;
+    ReferenceMethod(const ReferenceMethod&) = delete;
+    ReferenceMethod& operator=(const ReferenceMethod&) = delete;
+
+    /// path, ray_cast: one more sample of every pixel; single_ray: a fixed number of particles.
+    virtual void iterate() = 0;
+    [[nodiscard]] virtual std::uint64_t iterations() const = 0;
+    /// Radiance, cd/m², row 0 at the top.
+    [[nodiscard]] virtual std::vector<glm::dvec3> picture() const = 0;
+    /// Over the pixels that show a reflecting surface.
+    [[nodiscard]] virtual ImageError error() const = 0;
+    /// Samples dropped because they were not finite.
+    [[nodiscard]] virtual std::uint64_t non_finite() const = 0;
+    [[nodiscard]] virtual std::size_t bytes() const = 0;  ///< without the scene
+};
+
+/// The picture's own part of a method's input, and what it is made from; the ray scene must outlive
+/// the method.
+std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
+                                                       const Camera& camera, glm::uvec2 size,
+                                                       std::uint64_t seed);
+
+/// Pixels whose centre shows a surface that reflects and does not emit, row by row: those that
+/// count for the estimated error and the exposure.
+std::vector<bool> reflecting_pixels(const RayScene& scene, const Camera& camera, glm::uvec2 size);
+
+}  // namespace raybundle

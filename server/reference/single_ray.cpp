@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/single_ray.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "reference/scattering.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t particles_per_batch =
+    SingleRay::particles_per_iteration / SingleRay::batches;
+constexpr int max_rays = 1 << 16;  // of a particle; far beyond what Russian roulette lets live
+
+double largest(const glm::dvec3& rgb) {
+    return std::max({rgb.r, rgb.g, rgb.b});
+}
+
+/// Russian roulette that keeps the largest channel of the power: whether the particle goes on.
+bool survives(glm::dvec3& power, const glm::dvec3& weight, double u) {
+    const double before = largest(power);
+    power *= weight;
+    const double chance = largest(power) / before;
+    if (!(chance > 0.0)) {
+        return false;
+    }
+    power /= std::min(chance, 1.0);
+    return u < chance;
+}
+
+}  // namespace
+
+SingleRay::SingleRay(const RayScene& scene, const LightSampling& lights, std::uint64_t seed)
+    : scene_(scene),
+      lights_(lights),
+      seed_(seed),
+      power_(scene.mesh().patch_count() * batches, glm::dvec3(0.0)) {}
+
+void SingleRay::iterate() {
+    if (!lights_.empty()) {
+        std::atomic<std::uint64_t> rays{0};
+        tbb::parallel_for(std::uint32_t{0}, batches,
+                          [&](std::uint32_t batch) { rays += follow_batch(batch); });
+        rays_ += rays;
+    }
+    ++iterations_;
+}
+
+std::uint64_t SingleRay::follow_batch(std::uint32_t batch) {
+    std::uint64_t rays = 0;
+    for (std::uint32_t i = 0; i < particles_per_batch; ++i) {
+        const std::uint64_t index = iterations_ * particles_per_batch + i;
+        PixelSampler sampler(seed_, static_cast<std::uint32_t>(index >> 32U), batch,
+                             static_cast<std::uint32_t>(index));
+        rays += follow_particle(batch, sampler);
+    }
+    return rays;
+}
+
+std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& sampler) {
+    const double choice = sampler.next();
+    const glm::dvec2 at = sampler.next_pair();
+    const EmittedParticle particle = lights_.emit(choice, at, sampler.next_pair());
+    glm::dvec3 power = particle.power;
+    if (!(largest(power) > 0.0)) {
+        return 0;
+    }
+    glm::dvec3 direction = particle.direction;
+    std::optional<SurfacePoint> hit = particle.emitter
+                                          ? scene_.trace_from(*particle.emitter, direction)
+                                          : scene_.trace(particle.origin, direction);
+    std::uint64_t rays = 1;
+    const std::size_t first = std::size_t{batch} * scene_.mesh().patch_count();
+    for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
+        power_[first + hit->patch] += power;
+        const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
+        const std::optional<ScatterSample> next = scattering.sample(sampler.next_pair());
+        const double roulette = sampler.next();
+        if (!next || !survives(power, next->weight, roulette)) {
+            break;
+        }
+        direction = next->direction;
+        hit = scene_.trace_from(*hit, direction);
+    }
+    return rays;
+}
+
+glm::dvec3 SingleRay::batch_irradiance(std::uint32_t patch, std::uint32_t batch) const {
+    const double particles = static_cast<double>(iterations_) * particles_per_batch;
+    const double area = scene_.patch_area(patch);
+    return area > 0.0 && particles > 0.0
+               ? power_[std::size_t{batch} * scene_.mesh().patch_count() + patch] /
+                     (area * particles)
+               : glm::dvec3(0.0);
+}
+
+glm::dvec3 SingleRay::irradiance(std::uint32_t patch) const {
+    glm::dvec3 sum(0.0);
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        sum += batch_irradiance(patch, batch);
+    }
+    return sum / double{batches};
+}
+
+glm::dvec3 SingleRay::standard_error(std::uint32_t patch) const {
+    const glm::dvec3 mean = irradiance(patch);
+    glm::dvec3 scatter(0.0);
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        const glm::dvec3 deviation = batch_irradiance(patch, batch) - mean;
+        scatter += deviation * deviation;
+    }
+    return glm::sqrt(scatter / double{batches * (batches - 1)});
+}
+
+}  // namespace raybundle

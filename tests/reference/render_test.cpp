@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// `raybundle render` with the methods that need no GL context, on a machine made to have none.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Render : public testing::TestWithParam<const char*> {
+  protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) / ("raybundle_render_" + std::string(GetParam()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// Exit status of render with these arguments, without any EGL vendor.
+    static int render(const std::string& arguments) {
+        const std::string command =
+            "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent " RAYBUNDLE_EXECUTABLE
+            " render --log-level off " RAYBUNDLE_SCENES "/cornell_box.gltf " +
+            arguments + " 2>/dev/null";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    [[nodiscard]] std::string file(const char* name) const { return (folder_ / name).string(); }
+
+    fs::path folder_;
+};
+
+/// Pixels of a picture of 40 x 30, RGB; empty where it cannot be read.
+std::vector<float> pixels_of(const std::string& path) {
+    std::vector<float> pixels(40 * 30 * 3);
+    const auto input = OIIO::ImageInput::open(path);
+    const bool good = input && input->spec().width == 40 && input->spec().height == 30 &&
+                      input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data());
+    return good ? pixels : std::vector<float>();
+}
+
+std::string text_of(const std::string& path) {
+    std::ifstream stream(path);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST_P(Render, NeedsNoGlContextAndRepeatsItsBits) {
+    const std::string arguments =
+        std::string("--method ") + GetParam() + " --iterations 8 --seed 3 --size 40x30 -o ";
+    ASSERT_EQ(render(arguments + file("a.exr") + " --stats " + file("a.json")), 0);
+    ASSERT_EQ(render(arguments + file("b.exr")), 0);
+    ASSERT_EQ(render(arguments + file("a.png")), 0);
+    const std::vector<float> pixels = pixels_of(file("a.exr"));
+    ASSERT_FALSE(pixels.empty());
+    // The lamp is seen at the top of the picture: row 0 is at the top.
+    float largest_above = 0.0F;
+    float largest_below = 0.0F;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        float& largest = i < pixels.size() / 2 ? largest_above : largest_below;
+        largest = std::max(largest, pixels[i]);
+    }
+    EXPECT_GT(largest_above, 500.0F);
+    EXPECT_LT(largest_below, 100.0F);
+    EXPECT_GT(largest_below, 0.0F);
+    EXPECT_TRUE(pixels == pixels_of(file("b.exr")));
+    EXPECT_NE(text_of(file("a.json")).find("\"iterations\": 8"), std::string::npos);
+    EXPECT_GT(fs::file_size(file("a.png")), 100U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Render, testing::Values("path", "single-ray", "ray-cast"));
+
+class RenderFailure : public Render {};
+
+/// The environment of these tests really has no GL, and a failure leaves no file.
+TEST_P(RenderFailure, OtherMethodsNeedAContext) {
+    EXPECT_EQ(render(std::string("--method ") + GetParam() + " --iterations 1 --size 8x8 -o " +
+                     file("x.exr")),
+              4);
+    EXPECT_EQ(render("--method nonsense --iterations 1 -o " + file("x.exr")), 2);
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Gpu, RenderFailure, testing::Values("combined"));
+
+}  // namespace

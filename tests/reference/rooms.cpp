@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rooms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "reference/discrete_distribution.h"
+
+namespace raybundle {
+namespace {
+
+/// Makes the lamp: one square metre of the ceiling of the cube [0, 4]^3.
+void light_ceiling(SceneBuilder& builder, float albedo) {
+    const auto radiance = static_cast<float>(enclosure_flux / glm::pi<double>());
+    const auto lamp = builder.add_material(glm::vec3(albedo), glm::vec3(radiance));
+    for (std::size_t i = 0; i < builder.mesh.triangles.size(); ++i) {
+        const glm::vec3 c = builder.cell_centre(i);
+        if (c.y > 3.99F && c.x > 1.0F && c.x < 2.0F && c.z > 1.0F && c.z < 2.0F) {
+            builder.set_triangle_material(i, lamp);
+        }
+    }
+}
+
+Estimate estimate(std::uint32_t count, const std::function<double(std::uint32_t)>& sample) {
+    double sum = 0.0;
+    double squares = 0.0;
+    Estimate result;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double value = sample(i);
+        sum += value;
+        squares += value * value;
+        result.largest = std::max(result.largest, value);
+    }
+    const double n = count;
+    result.mean = sum / n;
+    const double variance = std::max(squares / n - result.mean * result.mean, 0.0);
+    result.standard_error = std::sqrt(variance / (n - 1.0));
+    return result;
+}
+
+}  // namespace
+
+SceneBuilder furnace_room(float albedo, float emission) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    const auto m = b.add_material(glm::vec3(albedo), glm::vec3(emission));
+    constexpr std::uint32_t n = 2;
+    for (const auto& [corner, size] : {std::pair{glm::vec2(0, 0), glm::vec2(5, 2)},
+                                       std::pair{glm::vec2(0, 2), glm::vec2(2, 2)}}) {
+        b.add_quad({corner.x, 0, corner.y}, {0, 0, size.y}, {size.x, 0, 0}, n, n, m);
+        b.add_quad({corner.x, 3, corner.y}, {size.x, 0, 0}, {0, 0, size.y}, n, n, m);
+    }
+    const glm::vec2 outline[] = {{0, 0}, {5, 0}, {5, 2}, {2, 2}, {2, 4}, {0, 4}};
+    for (int i = 0; i < 6; ++i) {
+        const glm::vec2 from = outline[i];
+        const glm::vec2 to = outline[(i + 1) % 6];
+        b.add_quad({from.x, 0, from.y}, {to.x - from.x, 0, to.y - from.y}, {0, 3, 0}, n, n, m);
+    }
+    return b;
+}
+
+SceneBuilder enclosure(float albedo, const glm::mat4& where) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation() * where);
+    b.add_box({0, 0, 0}, {4, 4, 4}, true, 4, b.add_material(glm::vec3(albedo)));
+    light_ceiling(b, albedo);
+    return b;
+}
+
+TwoRooms two_rooms(float albedo, float thickness) {
+    TwoRooms rooms{enclosure(albedo), 0};
+    rooms.first_dark = static_cast<std::uint32_t>(rooms.builder.mesh.patch_count());
+    rooms.builder.add_box({4.0F + thickness, 0, 0}, {8.0F + thickness, 4, 4}, true, 5, 0);
+    return rooms;
+}
+
+Estimate mean_irradiance(const RayScene& scene, const PathTracer& tracer, std::uint32_t first,
+                         std::uint32_t last, std::uint32_t paths, std::uint64_t seed) {
+    std::vector<double> areas;
+    for (std::uint32_t patch = first; patch < last; ++patch) {
+        areas.push_back(scene.patch_area(patch));
+    }
+    const DiscreteDistribution patches(areas);
+    return estimate(paths, [&](std::uint32_t i) {
+        PixelSampler sampler(seed, i, 0, 0);  // a pixel of its own: independent paths
+        const auto patch = first + static_cast<std::uint32_t>(patches.sample(sampler.next()));
+        const SurfacePoint point =
+            scene.point_on_patch(patch, uniform_triangle(sampler.next_pair()));
+        return tracer.irradiance(point, sampler).g;
+    });
+}
+
+Estimate irradiance_at(const PathTracer& tracer, const SurfacePoint& point, std::uint32_t paths,
+                       std::uint64_t seed) {
+    return estimate(paths, [&](std::uint32_t i) {
+        PixelSampler sampler(seed, i, 0, 0);
+        return tracer.irradiance(point, sampler).g;
+    });
+}
+
+}  // namespace raybundle
