@@ -10,7 +10,7 @@ usage() {
 usage: deploy/test.sh [--quick | --heavy]
 Installs and builds what is missing, then runs all checks and tests except those labelled heavy.
   --quick   leave out clang-tidy
-  --heavy   run only the tests labelled heavy
+  --heavy   run only the tests labelled heavy, and clang-tidy with its slow, deep analysis
 Ends with one line: raybundle tests: N passed, N failed
 TEXT
 }
@@ -91,6 +91,7 @@ junit_attribute() {
 run_checks() {
     check "browser test packages" install_browser_tools
     if [[ $1 == heavy ]]; then
+        check "clang-tidy, deep" "$root/deploy/tidy.sh" --deep
         run_ctest --label-regex '^heavy$'
         return
     fi

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # clang-tidy over the tracked sources of a configured and built build/. A file is checked again only
 # when it, a header of the project that it includes, or .clang-tidy has changed.
+# usage: deploy/tidy.sh [--deep]   --deep: the static analyser follows calls further; twice as slow
 set -euo pipefail
 # shellcheck source=deploy/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-stamps="$build_dir/tidy"
-export root stamps
+analyser_mode=shallow
+[[ ${1:-} != --deep ]] || analyser_mode=deep
+stamps="$build_dir/tidy/$analyser_mode"
+export root stamps analyser_mode
 
 # Lines "source<TAB>dependency..." of the project's own files, from ninja's dependency log.
 project_dependencies() {
@@ -30,7 +33,8 @@ tidy_one() {
     local log checks=""
     [[ $2 != "$root"/tests/* ]] || checks="-clang-analyzer-*" # 20 s a file, all in gtest's macros
     if log=$(clang-tidy -p "$build_dir" --quiet --checks="$checks" \
-        --extra-arg=-Wno-unknown-warning-option "$2" 2>&1); then
+        --extra-arg=-Wno-unknown-warning-option \
+        --extra-arg={-Xclang,-analyzer-config,-Xclang,mode="$analyser_mode"} "$2" 2>&1); then
         touch "$stamps/$1"
         printf 'tidy: %s\n' "${2#"$PWD"/}"
     else
