@@ -17,7 +17,8 @@ packages=(
     g++ cmake ninja-build pkg-config ccache
     libcli11-dev libdraco-dev libegl-dev libembree-dev libepoxy-dev libglm-dev
     libmeshoptimizer-dev libopenimageio-dev libpng-dev libprotobuf-dev libspdlog-dev
-    libtbb-dev libtinygltf-dev libturbojpeg0-dev libwebsockets-dev nlohmann-json3-dev
+    libsqlite3-dev libssl-dev libtbb-dev libtinygltf-dev libturbojpeg0-dev libwebsockets-dev
+    nlohmann-json3-dev
     protobuf-compiler
     libegl1 libegl-mesa0 libgl1-mesa-dri
 )

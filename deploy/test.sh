@@ -15,7 +15,7 @@ Ends with one line: raybundle tests: N passed, N failed
 TEXT
 }
 
-packages=(clang-format clang-tidy chromium git libgtest-dev python3 shellcheck)
+packages=(clang-format clang-tidy chromium git libgtest-dev openssl python3 shellcheck)
 min_node_version=18
 passed=0
 failed=0

@@ -5,6 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <type_traits>
+
+#include "config_file.h"
+#include "option_table.h"
 
 namespace raybundle {
 
@@ -18,12 +22,13 @@ struct CommandRow {
 };
 
 constexpr CommandRow command_table[] = {
-    {"serve", "Serve a scene to browsers", Options::Command::serve, true},
+    {"serve", "Serve a scene to browsers", Options::Command::serve, false},
     {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
     {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
      true},
     {"bench", "Measure speed on this machine", Options::Command::bench, false},
     {"selftest", "Compare with closed forms on this machine", Options::Command::selftest, false},
+    {"token", "Make an access token for serve", Options::Command::token, false},
 };
 
 struct MethodRow {
@@ -49,16 +54,35 @@ std::string method_names() {
     return names;
 }
 
+/// Adds a row of the table of `serve`.
+void add_row(CLI::App& app, Options& o, const ServeOption& row) {
+    const auto add = [&](const auto member) {
+        if constexpr (std::is_same_v<decltype(member), bool Options::*const>) {
+            app.add_flag(flag_of(row.key), o.*member, row.help);
+        } else {
+            app.add_option(flag_of(row.key), o.*member, row.help)->capture_default_str();
+        }
+    };
+    std::visit(add, row.member);
+}
+
 void add_common(CLI::App& app, Options& o) {
-    app.add_option("--gpu", o.gpu, "EGL device number, see --list-gpus")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--unit", o.unit, "Length unit of the scene file: m, cm, mm, in, ft")
-        ->capture_default_str();
-    app.add_option("--sky", o.sky, "Luminance of a uniform sky, cd/m²")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--log-level", o.log_level, "trace, debug, info, warn, error, off")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+    for (const ServeOption& row : serve_options()) {
+        if (row.common) {
+            add_row(app, o, row);
+        }
+    }
+}
+
+/// Throws UsageError where a value of the command line is out of range.
+void check_rows(const CLI::App& app, const Options& o) {
+    for (const ServeOption& row : serve_options()) {
+        const CLI::Option* const option = app.get_option_no_throw(flag_of(row.key));
+        const bool given = option != nullptr && option->count() > 0;
+        if (const std::string problem = given ? problem_of(row, o) : ""; !problem.empty()) {
+            throw UsageError(flag_of(row.key) + ": " + problem);
+        }
+    }
 }
 
 void add_scene(CLI::App& app, Options& o, bool required) {
@@ -73,11 +97,37 @@ void add_scene(CLI::App& app, Options& o, bool required) {
 }
 
 void add_serve(CLI::App& app, Options& o) {
-    app.add_option("--listen", o.listen, "Address and port; port 0: any free one")
-        ->capture_default_str();
-    app.add_flag("--allow-remote", o.allow_remote, "Listen beyond this machine without tokens");
-    app.add_option("--tls-cert", o.tls_cert, "PEM certificate chain");
-    app.add_option("--tls-key", o.tls_key, "PEM private key");
+    app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
+    app.add_option("--config", o.config, "JSON file with these options; those given here win");
+    app.add_flag("--print-config", o.print_config, "Print the configuration in effect and exit");
+    for (const ServeOption& row : serve_options()) {
+        if (!row.common) {
+            add_row(app, o, row);
+        }
+    }
+}
+
+/// Completes the options of `serve` from the configuration file.
+void finish_serve(const CLI::App& app, Options& o) {
+    for (const ServeOption& row : serve_options()) {
+        if (app.get_option(flag_of(row.key))->count() > 0) {
+            o.on_command_line.insert(row.key);
+        }
+    }
+    if (!o.scene.empty()) {
+        o.on_command_line.insert("scene");
+    }
+    if (!o.config.empty()) {
+        apply_config_file(o.config, o);
+    }
+    if (o.scene.empty() && !o.print_config) {
+        throw UsageError("serve: needs a SCENE, on the command line or in the --config file");
+    }
+}
+
+void add_token(CLI::App& app, Options& o) {
+    app.add_option("--name", o.token_name, "Whom it is for; appears in the log");
+    app.add_option("--role", o.token_role, "VIEWER, REVIEWER or EDITOR")->capture_default_str();
 }
 
 void add_render(CLI::App& app, Options& o) {
@@ -119,14 +169,26 @@ void define_options(CLI::App& app, Options& options) {
     app.add_flag("--list-gpus", options.list_gpus, "List the EGL devices and exit");
     for (const CommandRow& row : command_table) {
         CLI::App* command = app.add_subcommand(row.name, row.help);
-        command->callback([&options, row] { options.command = row.command; });
+        command->callback([&options, row, command] {
+            options.command = row.command;
+            check_rows(*command, options);
+            if (row.command == Options::Command::serve) {
+                finish_serve(*command, options);
+            }
+        });
+        if (row.command == Options::Command::token) {
+            add_token(*command, options);
+            continue;
+        }
         add_common(*command, options);
+        if (row.command == Options::Command::serve) {
+            add_serve(*command, options);
+            continue;
+        }
         if (row.command != Options::Command::selftest) {
             add_scene(*command, options, row.scene_required);
         }
-        if (row.command == Options::Command::serve) {
-            add_serve(*command, options);
-        } else if (row.command == Options::Command::render) {
+        if (row.command == Options::Command::render) {
             add_render(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");

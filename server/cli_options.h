@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "net/access_tokens.h"
 #include "reference/reference_method.h"
 #include "transport/iteration_schedule.h"
 
@@ -34,7 +37,7 @@ class UsageError : public std::runtime_error {
 
 /// Everything the command line can say.
 struct Options {
-    enum class Command { none, serve, render, accuracy, inspect, bench, selftest };
+    enum class Command { none, serve, render, accuracy, inspect, bench, selftest, token };
     Command command = Command::none;
 
     // All commands.
@@ -48,10 +51,24 @@ struct Options {
     float patch_size = 0.0F;  // m, 0: about 25 000 patches
     std::uint64_t seed = 1;
 
-    // serve
+    // serve; option_table.cpp says what each means
+    std::string config;  // file
+    bool print_config = false;
+    std::set<std::string> on_command_line;  // keys that the configuration file does not override
     std::string listen = "127.0.0.1:8080";
     bool allow_remote = false;
     std::string tls_cert, tls_key;
+    std::vector<std::string> allowed_origins;
+    int max_viewers = 64;
+    int max_connections = 256;
+    int max_connections_per_address = 32;
+    double max_messages_per_second = 1000.0;
+    std::string log_format = "text";
+    std::vector<AccessToken> tokens;  // from the file only
+
+    // token
+    std::string token_name;
+    std::string token_role = "VIEWER";
 
     // render
     std::string output;
@@ -70,8 +87,10 @@ struct Options {
     std::string json_file;
 };
 
-/// Parses the command line into options; the one table of all options is in the .cpp file. Throws
-/// CLI::ParseError (help and version included), which app.exit() turns into text.
+/// Parses the command line into options, and for `serve` the configuration file under it. Tables:
+/// option_table.cpp for `serve` and what all commands know, the .cpp file for the rest. Parsing
+/// throws CLI::ParseError (help and version included), which app.exit() turns into text, and
+/// UsageError.
 void define_options(CLI::App& app, Options& options);
 
 /// "800x600" -> (800, 600). Throws UsageError.

@@ -10,6 +10,7 @@
 #include "cli_options.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
+#include "log_settings.h"
 #include "scene/gltf_loader.h"
 
 namespace {
@@ -42,6 +43,8 @@ int run(const Options& options, const CLI::App& app) {
             return raybundle::run_bench(options);
         case Options::Command::selftest:
             return raybundle::run_selftest(options);
+        case Options::Command::token:
+            return raybundle::run_token(options);
         default:
             fmt::print(stderr, "{}", app.help());
             return raybundle::exit_usage;
@@ -62,10 +65,11 @@ int parse_and_run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? raybundle::exit_done : raybundle::exit_usage;
+    } catch (const raybundle::UsageError& error) {
+        return report(raybundle::exit_usage, error);
     }
-    spdlog::set_level(
-        spdlog::level::from_str(options.log_level == "warn" ? "warning" : options.log_level));
     try {
+        raybundle::set_log(options);
         return run(options, app);
     } catch (const raybundle::UsageError& error) {
         return report(raybundle::exit_usage, error);

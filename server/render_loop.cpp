@@ -17,6 +17,7 @@ constexpr double solution_interval_s = 0.25;
 constexpr double rate_interval_s = 1.0;
 constexpr std::size_t max_pending_requests = 64;  // of one object; older ones are answered at once
 constexpr std::chrono::milliseconds idle_wait(50);
+constexpr const char* no_memory = "the server has no memory for a picture of this size";
 constexpr std::uint32_t max_width = 3840;
 constexpr std::uint32_t max_height = 2160;
 
@@ -88,7 +89,8 @@ void RenderLoop::join(const ClientEvent& event) {
                                             programs_, scene_.cameras.front());
     } catch (const GpuError& error) {
         sessions_.erase(event.viewer);
-        server_.disconnect(event.viewer, v1::Error::RESOURCE_EXHAUSTED, error.what());
+        spdlog::error("no picture for viewer {}: {}", event.viewer, error.what());
+        server_.disconnect(event.viewer, v1::Error::RESOURCE_EXHAUSTED, no_memory);
         return;
     }
     refresh_receivers();
@@ -97,7 +99,7 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->set_protocol("1.0");
     welcome->set_server("raybundle " RAYBUNDLE_VERSION);
     welcome->set_viewer(event.viewer);
-    welcome->set_role(v1::EDITOR);
+    welcome->set_role(event.role);
     welcome->set_epoch(epoch_);
     describe_scene(scene_, welcome->mutable_scene());
     welcome->mutable_limits()->set_max_width(max_width);
@@ -147,7 +149,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 return;
         }
     } catch (const GpuError& error) {
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, error.what());
+        spdlog::error("viewer {}: {}", event.viewer, error.what());
+        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
         return;
     }
     server_.reply(event, ok());

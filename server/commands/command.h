@@ -24,6 +24,7 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
 int run_inspect(const Options& options);
 int run_bench(const Options& options);
 int run_selftest(const Options& options);
+int run_token(const Options& options);
 
 /// Writes text to a temporary name beside the path, then renames. Throws std::runtime_error.
 void write_file(const std::string& path, const std::string& text);

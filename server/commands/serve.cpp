@@ -8,35 +8,15 @@
 #include <thread>
 
 #include "commands/command.h"
+#include "config_file.h"
 #include "gpu/egl_context.h"
 #include "net/server.h"
 #include "render_loop.h"
+#include "serve_settings.h"
 
 namespace raybundle {
 
 namespace {
-
-bool is_loopback(const std::string& host) {
-    return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
-}
-
-ServerSettings server_settings(const Options& options) {
-    const auto [host, port] = parse_address(options.listen);
-    if (!is_loopback(host) && !options.allow_remote) {
-        throw UsageError(
-            "--listen " + options.listen +
-            " lets anyone on the network change the scene; add --allow-remote if that is meant");
-    }
-    if (options.tls_cert.empty() != options.tls_key.empty()) {
-        throw UsageError("--tls-cert and --tls-key belong together");
-    }
-    ServerSettings settings;
-    settings.host = host;
-    settings.port = port;
-    settings.tls_certificate = options.tls_cert;
-    settings.tls_key = options.tls_key;
-    return settings;
-}
 
 /// Waits for SIGINT or SIGTERM on a thread of its own and then stops the loop.
 class SignalWatch {
@@ -85,6 +65,10 @@ class Serving {
 }  // namespace
 
 int run_serve(const Options& options) {
+    if (options.print_config) {
+        fmt::print("{}", print_config(options));
+        return exit_done;
+    }
     Server server(server_settings(options));
     std::atomic<bool> stop{false};
     const SignalWatch watch(stop, server.inbox());

@@ -67,6 +67,9 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
     if (path == "/healthz") {
         return content.ready ? plain(200, "ok\n") : plain(503, "starting\n");
     }
+    if (path == "/metrics" && !content.metrics_allowed) {
+        return plain(401, "Needs the header Authorization: Bearer TOKEN\n");
+    }
     if (path == "/metrics") {
         HttpResponse response = plain(200, content.metrics);
         response.content_type = "text/plain; version=0.0.4; charset=utf-8";

@@ -25,6 +25,7 @@ struct HttpContent {
     std::span<const EmbeddedFile> files;  ///< served by exact name, "/" as index.html
     bool ready = false;                   ///< of /healthz
     std::string metrics;                  ///< of /metrics
+    bool metrics_allowed = true;          ///< the request has shown a token, or needs none
 };
 
 /// Decides about a request. `path` is the decoded path without query. Only names in the table are

@@ -37,6 +37,14 @@ bool HttpTransfer::begin(lws* connection) {
             return false;
         }
     }
+    if (response_.status == HTTP_STATUS_UNAUTHORIZED) {
+        constexpr std::string_view kScheme = "Bearer";
+        if (lws_add_http_header_by_token(connection, WSI_TOKEN_HTTP_WWW_AUTHENTICATE,
+                                         bytes_of(kScheme.data()), static_cast<int>(kScheme.size()),
+                                         &next, end) != 0) {
+            return false;
+        }
+    }
     if (lws_finalize_write_http_header(connection, start, &next, end) != 0) {
         return false;
     }

@@ -28,10 +28,10 @@ bool same_subject(const v1::ClientMessage& a, const v1::ClientMessage& b) {
 
 }  // namespace
 
-void Inbox::joined(ViewerId viewer, v1::ClientMessage hello) {
+void Inbox::joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role) {
     {
         const std::lock_guard lock(mutex_);
-        events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}});
+        events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}, role});
     }
     changed_.notify_one();
 }
@@ -60,7 +60,7 @@ Inbox::Events::iterator Inbox::find_mergeable(ViewerId viewer, const v1::ClientM
 bool Inbox::push(ViewerId viewer, v1::ClientMessage message) {
     {
         const std::lock_guard lock(mutex_);
-        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}};
+        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, v1::EDITOR};
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {
@@ -99,7 +99,7 @@ void Inbox::left(ViewerId viewer) {
         if (unheard) {
             return;
         }
-        events_.push_back({viewer, ClientEvent::Kind::left, {}, {}});
+        events_.push_back({viewer, ClientEvent::Kind::left, {}, {}, v1::EDITOR});
     }
     changed_.notify_one();
 }

@@ -24,7 +24,7 @@ class Inbox {
     explicit Inbox(std::size_t max_waiting_per_viewer = 64)
         : max_waiting_(max_waiting_per_viewer) {}
 
-    void joined(ViewerId viewer, v1::ClientMessage hello);
+    void joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role = v1::EDITOR);
 
     /// False where the viewer has too many requests waiting; the message is not taken then.
     [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/network_context.h"
 
+#include <openssl/ssl.h>
 #include <spdlog/spdlog.h>
 
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "net/listen_address.h"
+#include "net/tls_certificate.h"
 
 namespace raybundle {
 namespace {
@@ -76,10 +78,17 @@ lws_context_creation_info context_info(const ServerSettings& settings, const Lis
 
 }  // namespace
 
+void require_modern_tls(ssl_ctx_st* context) {
+    SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
+}
+
 NetworkContext create_network_context(const ServerSettings& settings,
                                       lws_callback_function* callback, void* user) {
     lws_set_log_level(LLL_ERR | LLL_WARN | LLL_NOTICE, &log_line);
     const ListenAddress address = resolve_listen_address(settings.host);
+    if (!settings.tls_certificate.empty()) {
+        const TlsCertificate checked(settings.tls_certificate, settings.tls_key);
+    }
     const lws_protocols protocols[] = {
         {kSubprotocol, callback, 0, kReceiveBytes, 0, nullptr, kSendBytes},
         {nullptr, nullptr, 0, 0, 0, nullptr, 0}};

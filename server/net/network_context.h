@@ -7,6 +7,8 @@
 
 #include "net/server_settings.h"
 
+struct ssl_ctx_st;
+
 namespace raybundle {
 
 /// A libwebsockets context that listens; `port` is the one it has got.
@@ -17,6 +19,9 @@ struct NetworkContext {
 
 /// Name of the WebSocket subprotocol. A client may also name none.
 inline constexpr const char* kSubprotocol = "raybundle.v1";
+
+/// Nothing below TLS 1.2 from now on.
+void require_modern_tls(ssl_ctx_st* context);
 
 /// Creates a context with one protocol that handles HTTP and WebSocket in `callback`; `user` comes
 /// back from lws_context_user(). Throws std::runtime_error that names the address.

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "net/gate.h"
 #include "net/inbox.h"
 #include "net/server_settings.h"
 #include "net/viewer_table.h"
@@ -23,9 +24,11 @@ struct NetworkCounters {
 
 /// What the network thread and the callers of Server share. Everything in it is thread-safe.
 struct NetworkState {
-    explicit NetworkState(ServerSettings server_settings) : settings(std::move(server_settings)) {}
+    explicit NetworkState(ServerSettings server_settings)
+        : settings(std::move(server_settings)), gate(settings.max_viewers, settings.access) {}
 
     const ServerSettings settings;
+    Gate gate;
     Inbox inbox;
     ViewerTable viewers;
     NetworkCounters counters;

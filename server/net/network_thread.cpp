@@ -4,8 +4,8 @@
 #include <libwebsockets.h>
 #include <spdlog/spdlog.h>
 
-#include <array>
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <string_view>
 
@@ -34,8 +34,13 @@ std::string header(lws* connection, lws_token_indexes token) {
     return text;
 }
 
+bool is_viewer_event(int reason) {
+    return reason == LWS_CALLBACK_RECEIVE || reason == LWS_CALLBACK_RECEIVE_PONG ||
+           reason == LWS_CALLBACK_SERVER_WRITEABLE || reason == LWS_CALLBACK_TIMER;
+}
+
 /// Entry from C: no exception may pass.
-int lws_event(lws* connection, lws_callback_reasons reason, void* /*user*/, void* in,
+int lws_event(lws* connection, lws_callback_reasons reason, void* user, void* in,
               std::size_t size) {
     auto* const network =
         static_cast<NetworkThread*>(lws_context_user(lws_get_context(connection)));
@@ -43,7 +48,8 @@ int lws_event(lws* connection, lws_callback_reasons reason, void* /*user*/, void
         return 0;  // while the context is being made or destroyed
     }
     try {
-        return network->on_event(connection, reason, in, size);
+        const bool about_tls = reason == LWS_CALLBACK_OPENSSL_LOAD_EXTRA_SERVER_VERIFY_CERTS;
+        return network->on_event(connection, reason, about_tls ? user : in, size);
     } catch (const std::exception& error) {
         spdlog::error("a connection was closed after an internal error: {}", error.what());
         return -1;
@@ -104,31 +110,95 @@ void NetworkThread::run() {
     context_ = nullptr;
 }
 
-void NetworkThread::poll_all() {
+void NetworkThread::recheck_passes() {
+    recheck_passes_ = true;
+    wake();
+}
+
+void NetworkThread::use_certificate(std::shared_ptr<const TlsCertificate> certificate) {
+    {
+        const std::lock_guard lock(certificate_mutex_);
+        certificate_ = std::move(certificate);
+    }
+    wake();
+}
+
+void NetworkThread::install_certificate() {
+    std::shared_ptr<const TlsCertificate> certificate;
+    {
+        const std::lock_guard lock(certificate_mutex_);
+        certificate = std::move(certificate_);
+        certificate_.reset();
+    }
+    if (certificate && tls_ != nullptr && !certificate->install(tls_)) {
+        spdlog::error("the new certificate was refused; the old one stays in use");
+    }
+}
+
+void NetworkThread::on_woken() {
+    install_certificate();
+    const bool recheck = recheck_passes_.exchange(false);
     for (const auto& [connection, viewer] : viewers_) {
-        viewer->poll_output();
+        if (recheck) {
+            viewer->check_pass();
+        } else {
+            viewer->poll_output();
+        }
+    }
+}
+
+/// Whether a connection may come in at all: a limit on all, and one on those of an address.
+bool NetworkThread::accepts(int socket) {
+    const ServerSettings& settings = state_.settings;
+    const PeerAddress peer = peer_address(socket);
+    const bool limited = settings.limit_loopback || !peer.loopback;
+    const bool fits = connections_.size() < settings.max_connections &&
+                      !(limited && addresses_.of(peer.key) >= settings.max_connections_per_address);
+    state_.counters.connections_refused += fits ? 0 : 1;
+    return fits;
+}
+
+void NetworkThread::add_connection(lws* connection) {
+    std::string key = peer_address(lws_get_socket_fd(connection)).key;
+    addresses_.add(key);
+    connections_.emplace(connection, std::move(key));
+}
+
+void NetworkThread::remove_connection(lws* connection) {
+    transfers_.erase(connection);
+    viewers_.erase(connection);
+    const auto found = connections_.find(connection);
+    if (found != connections_.end()) {
+        addresses_.remove(found->second);
+        connections_.erase(found);
+    }
+}
+
+/// Connections coming and going.
+int NetworkThread::on_network_event(lws* connection, int reason, void* in) {
+    switch (reason) {
+        case LWS_CALLBACK_OPENSSL_LOAD_EXTRA_SERVER_VERIFY_CERTS:
+            tls_ = static_cast<ssl_ctx_st*>(in);
+            require_modern_tls(tls_);
+            return 0;
+        case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+            on_woken();
+            return 0;
+        case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
+            return accepts(static_cast<int>(reinterpret_cast<std::intptr_t>(in))) ? 0 : 1;
+        case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+            add_connection(connection);
+            return 0;
+        case LWS_CALLBACK_WSI_DESTROY:
+            remove_connection(connection);
+            return 0;
+        default:
+            return 0;
     }
 }
 
 int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t size) {
     switch (reason) {
-        case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
-            poll_all();
-            return 0;
-        case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
-            if (connections_.size() >= state_.settings.max_connections) {
-                ++state_.counters.connections_refused;
-                return 1;
-            }
-            return 0;
-        case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
-            connections_.insert(connection);
-            return 0;
-        case LWS_CALLBACK_WSI_DESTROY:
-            connections_.erase(connection);
-            transfers_.erase(connection);
-            viewers_.erase(connection);
-            return 0;
         case LWS_CALLBACK_HTTP:
             return on_http_request(connection);
         case LWS_CALLBACK_HTTP_WRITEABLE:
@@ -139,7 +209,7 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
         case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
             return confirm_upgrade(connection) ? 0 : 1;
         case LWS_CALLBACK_ESTABLISHED:
-            accept_viewer(connection);
+            viewers_[connection] = std::make_unique<ViewerConnection>(connection, state_);
             return 0;
         case LWS_CALLBACK_CLOSED:
             viewers_.erase(connection);
@@ -148,7 +218,9 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
             break;
     }
     const auto viewer = viewers_.find(connection);
-    return viewer == viewers_.end() ? 0 : on_viewer_event(*viewer->second, reason, in, size);
+    return viewer != viewers_.end() && is_viewer_event(reason)
+               ? on_viewer_event(*viewer->second, reason, in, size)
+               : on_network_event(connection, reason, in);
 }
 
 int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* in,
@@ -174,7 +246,7 @@ bool NetworkThread::confirm_upgrade(lws* connection) {
     const UpgradeRequest request{header(connection, WSI_TOKEN_GET_URI),
                                  header(connection, WSI_TOKEN_ORIGIN),
                                  header(connection, WSI_TOKEN_HOST)};
-    const int status = refusal_status(request, state_.settings.allowed_origins);
+    const int status = refusal_status(request, state_.gate.access()->allowed_origins);
     if (status == 0) {
         return true;
     }
@@ -185,25 +257,17 @@ bool NetworkThread::confirm_upgrade(lws* connection) {
     return false;
 }
 
-void NetworkThread::accept_viewer(lws* connection) {
-    const std::size_t limit = state_.settings.max_viewers;
-    const bool full = viewers_.size() >= limit;
-    auto& viewer = viewers_[connection];
-    viewer = std::make_unique<ViewerConnection>(connection, state_);
-    if (full) {
-        ++state_.counters.connections_refused;
-        viewer->refuse(v1::Error::RESOURCE_EXHAUSTED,
-                       "the server is full, it takes " + std::to_string(limit) + " viewers");
-    }
-}
-
 int NetworkThread::on_http_request(lws* connection) {
     char* uri = nullptr;
     int length = 0;
     const HttpMethod method = method_of(lws_http_get_uri_and_method(connection, &uri, &length));
     const std::string_view path(uri, length > 0 ? static_cast<std::size_t>(length) : 0);
-    HttpContent content{client_files(), state_.ready, {}};
+    HttpContent content{client_files(), state_.ready, {}, true};
     if (path == "/metrics") {
+        content.metrics_allowed =
+            state_.gate.opens_metrics(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
+    }
+    if (path == "/metrics" && content.metrics_allowed) {
         content.metrics = state_.metrics();
     }
     auto& transfer = transfers_[connection];

@@ -6,16 +6,18 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 
+#include "net/address_count.h"
 #include "net/http_transfer.h"
 #include "net/network_state.h"
+#include "net/tls_certificate.h"
 #include "net/viewer_connection.h"
 
 struct lws;
 struct lws_context;
+struct ssl_ctx_st;
 
 namespace raybundle {
 
@@ -35,17 +37,27 @@ class NetworkThread {
     /// Any thread: there is something to write.
     void wake();
 
+    /// Any thread: viewers whose token is no longer accepted are to be closed.
+    void recheck_passes();
+
+    /// Any thread: new connections use this certificate.
+    void use_certificate(std::shared_ptr<const TlsCertificate> certificate);
+
     /// Called by libwebsockets with an lws_callback_reasons; the result is what it expects.
     int on_event(lws* connection, int reason, void* in, std::size_t size);
 
   private:
     void run();
-    void poll_all();
+    void on_woken();
+    void install_certificate();
+    int on_network_event(lws* connection, int reason, void* in);
+    [[nodiscard]] bool accepts(int socket);
+    void add_connection(lws* connection);
+    void remove_connection(lws* connection);
     bool confirm_upgrade(lws* connection);
     int on_http_request(lws* connection);
     int on_http_writable(lws* connection);
     int on_viewer_event(ViewerConnection& viewer, int reason, void* in, std::size_t size);
-    void accept_viewer(lws* connection);
     int end_transfer(lws* connection);
 
     NetworkState& state_;
@@ -55,8 +67,14 @@ class NetworkThread {
     std::atomic<std::uint16_t> port_{0};
     std::atomic<bool> stopping_{false};
 
-    // Network thread only.
-    std::set<lws*> connections_;
+    std::atomic<bool> recheck_passes_{false};
+    std::mutex certificate_mutex_;
+    std::shared_ptr<const TlsCertificate> certificate_;  ///< to be installed
+
+    // Network thread only, once it runs.
+    ssl_ctx_st* tls_ = nullptr;
+    std::map<lws*, std::string> connections_;  ///< and the address each one counts for
+    AddressCount addresses_;
     std::map<lws*, std::unique_ptr<ViewerConnection>> viewers_;
     std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
     bool said_goodbye_ = false;

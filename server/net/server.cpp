@@ -7,6 +7,7 @@
 #include "net/listen_address.h"
 #include "net/network_state.h"
 #include "net/network_thread.h"
+#include "net/tls_certificate.h"
 
 namespace raybundle {
 
@@ -105,6 +106,19 @@ void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,
         ++impl_->state.counters.frames_replaced;
     }
     impl_->network.wake();
+}
+
+void Server::set_access(Access access) {
+    impl_->state.gate.set_access(std::move(access));
+    impl_->network.recheck_passes();
+}
+
+void Server::reload_certificate() {
+    const ServerSettings& settings = impl_->state.settings;
+    if (!settings.tls_certificate.empty()) {
+        impl_->network.use_certificate(
+            std::make_shared<const TlsCertificate>(settings.tls_certificate, settings.tls_key));
+    }
 }
 
 void Server::set_ready(bool ready) {

@@ -57,6 +57,14 @@ class Server {
     void send_frame(ViewerId viewer, const v1::FrameHeader& header,
                     const std::vector<std::uint8_t>& image);
 
+    /// Replaces tokens and origins. Viewers whose token is gone or means something else now are
+    /// closed.
+    void set_access(Access access);
+
+    /// Reads the certificate files of the settings again. Throws std::runtime_error that names the
+    /// file where they cannot be used: the old certificate stays.
+    void reload_certificate();
+
     void set_ready(bool ready);  ///< what /healthz says: 200 or 503
 
     /// Called on the network thread for each GET /metrics; returns more Prometheus text.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "net/gate.h"
 #include "net/wire_codec.h"
 #include "stream/congestion_window.h"
 
@@ -17,12 +18,14 @@ struct ServerSettings {
     std::string tls_certificate;     ///< PEM file; empty: no TLS
     std::string tls_key;             ///< PEM file
     std::size_t max_viewers = 64;
-    std::size_t max_connections = 256;         ///< viewers and HTTP together
+    std::size_t max_connections = 256;  ///< viewers and HTTP together
+    /// Of one address; those of this machine are not limited, since a reverse proxy runs there.
+    std::size_t max_connections_per_address = 32;
+    bool limit_loopback = false;               ///< limits them too, for tests
     double hello_timeout_s = 5.0;              ///< to say hello
     std::size_t max_queued_bytes = 4U << 20U;  ///< messages waiting for one viewer, frames excepted
     double max_messages_per_second = 1000.0;   ///< of one viewer, on average
-    std::vector<std::string>
-        allowed_origins;  ///< besides the server's own, e.g. "https://a.example"
+    Access access;
     WireLimits limits;
     CongestionSettings congestion;
 };

@@ -10,6 +10,8 @@
 namespace raybundle {
 namespace {
 
+constexpr int kMaxWrongTokens = 3;  ///< of one connection
+
 /// Major number of "major.minor"; nothing where the text is not that.
 std::optional<int> major_version(std::string_view text) {
     int major = 0;
@@ -24,6 +26,13 @@ std::optional<int> major_version(std::string_view text) {
         return std::nullopt;
     }
     return major;
+}
+
+/// Name of the message in the words of the client, e.g. "moveObject".
+std::string body_name(const v1::ClientMessage& message) {
+    const auto* const field =
+        v1::ClientMessage::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
+    return field == nullptr ? "message" : field->json_name();
 }
 
 }  // namespace
@@ -69,8 +78,13 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     if (message.has_hello()) {
         on_hello(std::move(message));
-    } else if (!joined_) {
+    } else if (!pass_) {
         refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
+    } else if (const v1::Role needed = required_role(message.body_case()); pass_->role < needed) {
+        refuse({v1::Error::PERMISSION_DENIED,
+                body_name(message) + ": needs the role " + v1::Role_Name(needed) +
+                    ", this viewer has " + v1::Role_Name(pass_->role),
+                id});
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
     } else if (message.has_ping()) {
@@ -85,17 +99,14 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
     }
 }
 
-void Session::on_hello(v1::ClientMessage message) {
+/// Refuses a hello in a version that is not spoken here.
+bool Session::speaks_our_version(const v1::ClientMessage& message) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
-    if (joined_) {
-        refuse({v1::Error::INVALID_ARGUMENT, "hello: has been said already", id});
-        return;
-    }
     const std::string& version = message.hello().protocol();
     const auto major = major_version(version);
     if (!major) {
         refuse({v1::Error::INVALID_ARGUMENT, "hello.protocol: must be major.minor, as in 1.0", id});
-        return;
+        return false;
     }
     if (major != major_version(kProtocolVersion)) {
         refuse_and_close({v1::Error::UNIMPLEMENTED,
@@ -103,21 +114,55 @@ void Session::on_hello(v1::ClientMessage message) {
                               std::string(kProtocolVersion),
                           id},
                          CloseCode::protocol_error);
+        return false;
+    }
+    return true;
+}
+
+void Session::on_hello(v1::ClientMessage message) {
+    const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
+    if (pass_) {
+        refuse({v1::Error::INVALID_ARGUMENT, "hello: has been said already", id});
         return;
     }
-    joined_ = true;
-    inbox_.joined(link_.viewer(), std::move(message));
+    if (!speaks_our_version(message)) {
+        return;
+    }
+    auto answer = gate_.enter(message.hello());
+    if (auto* denial = std::get_if<Denial>(&answer)) {
+        denial->refusal.id = id;
+        const bool enough = ++wrong_tokens_ >= kMaxWrongTokens;
+        if (denial->close || enough) {
+            refuse_and_close(denial->refusal, denial->close.value_or(CloseCode::policy_violation));
+        } else {
+            refuse(denial->refusal);
+        }
+        return;
+    }
+    pass_ = std::get<Pass>(answer);
+    message.mutable_hello()->clear_token();  // nobody behind the gate needs it
+    inbox_.joined(link_.viewer(), std::move(message), pass_->role);
+}
+
+void Session::check_pass() {
+    if (pass_ && !gate_.still_valid(*pass_)) {
+        refuse_and_close(
+            {v1::Error::UNAUTHENTICATED,
+             "the token is no longer valid, or allows something else now", std::nullopt},
+            CloseCode::policy_violation);
+    }
 }
 
 void Session::on_hello_timeout() {
-    if (!joined_) {
+    if (!pass_) {
         refuse_and_close({v1::Error::UNAUTHENTICATED, "hello did not come in time", std::nullopt},
                          CloseCode::policy_violation);
     }
 }
 
 void Session::on_closed() {
-    if (joined_) {
+    if (pass_) {
+        gate_.leave();
         inbox_.left(link_.viewer());
     }
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "net/gate.h"
 #include "net/inbox.h"
 #include "net/token_bucket.h"
 #include "net/viewer_link.h"
@@ -16,13 +18,16 @@ namespace raybundle {
 inline constexpr std::string_view kProtocolVersion = "1.0";
 
 /// The receiving side of one viewer: puts fragments together, insists on a hello in a version
-/// spoken here, answers pings, hands acknowledgements to the pacing and everything else to the
-/// inbox. Runs on the network thread but knows no socket.
+/// spoken here that passes the gate, refuses what the viewer's role does not allow, answers pings,
+/// hands acknowledgements to the pacing and everything else to the inbox. Runs on the network
+/// thread but knows no socket.
 class Session {
   public:
-    Session(ViewerLink& link, Inbox& inbox, const WireLimits& limits, double messages_per_second)
+    Session(ViewerLink& link, Inbox& inbox, Gate& gate, const WireLimits& limits,
+            double messages_per_second)
         : link_(link),
           inbox_(inbox),
+          gate_(gate),
           limits_(limits),
           messages_(messages_per_second, 2.0 * messages_per_second),
           complaints_(1.0, 1.0) {}
@@ -36,22 +41,28 @@ class Session {
     /// The connection is gone.
     void on_closed();
 
-    [[nodiscard]] bool has_joined() const { return joined_; }
+    /// The gate has other tokens now: closes if this viewer's would not be accepted again.
+    void check_pass();
+
+    [[nodiscard]] bool has_joined() const { return pass_.has_value(); }
 
   private:
     void on_message(v1::ClientMessage message, double now_ms);
     void on_hello(v1::ClientMessage message);
+    [[nodiscard]] bool speaks_our_version(const v1::ClientMessage& message);
     void refuse(const Refusal& refusal);
     void refuse_and_close(const Refusal& refusal, CloseCode code);
 
     ViewerLink& link_;
     Inbox& inbox_;
+    Gate& gate_;
     const WireLimits limits_;
     TokenBucket messages_;
     TokenBucket complaints_;  ///< about too many messages, one a second
     std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
     bool binary_ = false;
-    bool joined_ = false;
+    std::optional<Pass> pass_;  ///< once hello has been accepted
+    int wrong_tokens_ = 0;
 };
 
 }  // namespace raybundle

@@ -36,7 +36,8 @@ ViewerConnection::ViewerConnection(lws* connection, NetworkState& state)
     : connection_(connection),
       state_(state),
       link_(state.viewers.add(state.settings.max_queued_bytes, state.settings.congestion)),
-      session_(*link_, state.inbox, state.settings.limits, state.settings.max_messages_per_second) {
+      session_(*link_, state.inbox, state.gate, state.settings.limits,
+               state.settings.max_messages_per_second) {
     lws_set_timer_usecs(connection, microseconds(state.settings.hello_timeout_s));
     spdlog::info("viewer {} connected", link_->viewer());
 }
@@ -59,9 +60,9 @@ void ViewerConnection::on_pong(std::string_view payload) {
     link_->on_pong(payload, server_time_ms());
 }
 
-void ViewerConnection::refuse(v1::Error::Code code, const std::string& text) {
-    link_->send(to_message({code, text, std::nullopt}));
-    close(CloseCode::try_again_later, text);
+void ViewerConnection::check_pass() {
+    session_.check_pass();
+    poll_output();
 }
 
 void ViewerConnection::close(CloseCode code, std::string_view reason) {

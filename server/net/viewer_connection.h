@@ -35,8 +35,8 @@ class ViewerConnection {
     /// Asks to be told when the connection can take output, if there is any.
     void poll_output();
 
-    /// Sends an error, then closes with "try again later".
-    void refuse(v1::Error::Code code, const std::string& text);
+    /// Closes if the viewer's token is no longer accepted.
+    void check_pass();
 
     /// Closes once what waits is written.
     void close(CloseCode code, std::string_view reason);

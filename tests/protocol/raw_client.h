@@ -51,6 +51,8 @@ class RawClient {
     /// Whether the server has closed the connection, waiting for it.
     bool closed();
 
+    [[nodiscard]] int socket() const { return socket_; }
+
     void reset();  ///< closes abruptly, with a TCP reset
 
   private:

@@ -28,7 +28,8 @@ class SessionTest : public testing::Test {
 
     ViewerLink link_{3, 100000, {}};
     Inbox inbox_{4};
-    Session session_{link_, inbox_, {}, 10.0};
+    Gate gate_{8};
+    Session session_{link_, inbox_, gate_, {}, 10.0};
 };
 
 TEST_F(SessionTest, HelloJoins) {
@@ -78,7 +79,7 @@ TEST_F(SessionTest, NonsenseVersionsAreInvalid) {
     for (const char* version :
          {"1", "1.", ".1", "one", "1.0.0", "-1.0", "1.-1", " 1.0", "99999999999.0"}) {
         ViewerLink link(1, 100000, {});
-        Session session(link, inbox_, {}, 10.0);
+        Session session(link, inbox_, gate_, {}, 10.0);
         const std::string hello = R"({"hello":{"protocol":")" + std::string(version) + "\"}}";
         session.on_fragment(hello, true, true, false, 0.0);
         EXPECT_FALSE(session.has_joined()) << version;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "log_settings.h"
+
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace raybundle {
+namespace {
+
+/// The message as a JSON text, quotes included.
+class JsonMessage : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& line, const std::tm& /*time*/,
+                spdlog::memory_buf_t& out) override {
+        const nlohmann::json text(std::string(line.payload.data(), line.payload.size()));
+        const std::string quoted =
+            text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        out.append(quoted.data(), quoted.data() + quoted.size());
+    }
+    [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<JsonMessage>();
+    }
+};
+
+}  // namespace
+
+void set_log(const Options& options) {
+    if (options.log_format == "json") {
+        auto formatter =
+            std::make_unique<spdlog::pattern_formatter>(spdlog::pattern_time_type::utc);
+        formatter->add_flag<JsonMessage>('*').set_pattern(
+            R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*})");
+        spdlog::set_formatter(std::move(formatter));
+    }
+    spdlog::set_level(
+        spdlog::level::from_str(options.log_level == "warn" ? "warning" : options.log_level));
+}
+
+}  // namespace raybundle

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli_options.h"
+
+namespace raybundle {
+
+/// Level and format of the log, on stderr. As JSON each line is an object with time (ISO 8601,
+/// UTC), level and message.
+void set_log(const Options& options);
+
+}  // namespace raybundle

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/gate.h"
+
+namespace raybundle {
+
+std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
+    const auto current = access();
+    const Pass pass{v1::EDITOR, token_digest(hello.token())};
+    const auto role = current->tokens.role_of(pass.token);
+    if (!role) {
+        const std::string reason = hello.token().empty() ? "is missing" : "is not valid";
+        return Denial{{v1::Error::UNAUTHENTICATED, "hello.token: " + reason, std::nullopt},
+                      std::nullopt};
+    }
+    const std::lock_guard lock(mutex_);
+    if (present_ >= max_viewers_) {
+        return Denial{{v1::Error::RESOURCE_EXHAUSTED,
+                       "the server is full, it takes " + std::to_string(max_viewers_) + " viewers",
+                       std::nullopt},
+                      CloseCode::try_again_later};
+    }
+    ++present_;
+    return Pass{*role, pass.token};
+}
+
+void Gate::leave() {
+    const std::lock_guard lock(mutex_);
+    present_ -= present_ > 0 ? 1 : 0;
+}
+
+bool Gate::still_valid(const Pass& pass) const {
+    return access()->tokens.role_of(pass.token) == pass.role;
+}
+
+bool Gate::opens_metrics(std::string_view authorization) const {
+    constexpr std::string_view kScheme = "Bearer ";
+    const auto current = access();
+    if (current->tokens.empty()) {
+        return true;
+    }
+    return authorization.starts_with(kScheme) &&
+           current->tokens.find(token_digest(authorization.substr(kScheme.size()))).has_value();
+}
+
+std::shared_ptr<const Access> Gate::access() const {
+    const std::lock_guard lock(mutex_);
+    return access_;
+}
+
+void Gate::set_access(Access access) {
+    auto next = std::make_shared<const Access>(std::move(access));
+    const std::lock_guard lock(mutex_);
+    access_ = std::move(next);
+}
+
+std::size_t Gate::present() const {
+    const std::lock_guard lock(mutex_);
+    return present_;
+}
+
+}  // namespace raybundle

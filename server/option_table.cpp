@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "option_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+namespace raybundle {
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::max();
+
+template <std::size_t N>
+std::string none_of(const std::string& text, const std::array<std::string_view, N>& choices) {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) {
+        return {};
+    }
+    std::string names;
+    for (const std::string_view choice : choices) {
+        names += (names.empty() ? "" : ", ") + std::string(choice);
+    }
+    return "'" + text + "' is none of " + names;
+}
+
+std::string log_level_problem(const std::string& text) {
+    return none_of<6>(text, {"trace", "debug", "info", "warn", "error", "off"});
+}
+
+std::string log_format_problem(const std::string& text) {
+    return none_of<2>(text, {"text", "json"});
+}
+
+std::string unit_problem(const std::string& text) {
+    return none_of<5>(text, {"m", "cm", "mm", "in", "ft"});
+}
+
+std::string address_problem(const std::string& text) {
+    try {
+        parse_address(text);
+        return {};
+    } catch (const UsageError&) {
+        return "'" + text + "' is not HOST:PORT, e.g. 127.0.0.1:8080";
+    }
+}
+
+std::string origin_problem(const std::string& text) {
+    const std::size_t scheme = text.starts_with("https://") ? 8 : 7;
+    const bool fits = (text.starts_with("http://") || text.starts_with("https://")) &&
+                      text.size() > scheme && text.find('/', scheme) == std::string::npos;
+    return fits ? "" : "'" + text + "' is not an origin, e.g. https://example.org";
+}
+
+constexpr std::array serve_table{
+    ServeOption{"listen", "Address and port; port 0: any free one", &Options::listen, 0, 0,
+                address_problem},
+    ServeOption{"allowRemote", "Listen beyond this machine without tokens", &Options::allow_remote},
+    ServeOption{"tlsCert", "PEM certificate chain; the server then speaks https",
+                &Options::tls_cert},
+    ServeOption{"tlsKey", "PEM private key, without passphrase", &Options::tls_key},
+    ServeOption{"allowedOrigins", "Origins of pages that may connect, besides the server's own",
+                &Options::allowed_origins, 0, 0, origin_problem},
+    ServeOption{"maxViewers", "Viewers at a time", &Options::max_viewers, 1, 1000},
+    ServeOption{"maxConnections", "Connections at a time, viewers and HTTP together",
+                &Options::max_connections, 1, 100000},
+    ServeOption{"maxConnectionsPerAddress",
+                "Connections of one address; this machine's own are not limited",
+                &Options::max_connections_per_address, 1, 100000},
+    ServeOption{"maxMessagesPerSecond", "Messages of one viewer a second, on average",
+                &Options::max_messages_per_second, 1, 1e6},
+    ServeOption{"logFormat", "Log lines as text or as one JSON object each", &Options::log_format,
+                0, 0, log_format_problem},
+    ServeOption{"patchSize", "Target edge of the patches, m (0: about 25 000 patches)",
+                &Options::patch_size, 0, no_limit},
+    ServeOption{"seed", "Of all random numbers", &Options::seed, 0, no_limit},
+    ServeOption{"gpu", "EGL device number, see --list-gpus (-1: the first usable one)",
+                &Options::gpu, -1, 1000, nullptr, true},
+    ServeOption{"unit", "Length unit of the scene file: m, cm, mm, in, ft", &Options::unit, 0, 0,
+                unit_problem, true},
+    ServeOption{"sky", "Luminance of a uniform sky, cd/m²", &Options::sky, 0, no_limit, nullptr,
+                true},
+    ServeOption{"logLevel", "trace, debug, info, warn, error, off", &Options::log_level, 0, 0,
+                log_level_problem, true},
+};
+
+std::string range_problem(const ServeOption& option, double value) {
+    if (std::isfinite(value) && value >= option.min && value <= option.max) {
+        return {};
+    }
+    return option.max == no_limit
+               ? fmt::format("must be a number of at least {}", option.min)
+               : fmt::format("must be a number from {} to {}", option.min, option.max);
+}
+
+std::string value_problem(const ServeOption& option, const std::string& value) {
+    return option.problem == nullptr ? "" : option.problem(value);
+}
+
+std::string value_problem(const ServeOption& option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) {
+        if (const std::string problem = value_problem(option, value); !problem.empty()) {
+            return problem;
+        }
+    }
+    return {};
+}
+
+std::string value_problem(const ServeOption& option, const std::optional<float>& value) {
+    return value ? range_problem(option, *value) : "";
+}
+
+std::string value_problem(const ServeOption& /*option*/, bool /*value*/) {
+    return {};
+}
+
+template <typename Number>
+std::string value_problem(const ServeOption& option, const Number& value) {
+    return range_problem(option, static_cast<double>(value));
+}
+
+}  // namespace
+
+std::span<const ServeOption> serve_options() {
+    return serve_table;
+}
+
+std::string flag_of(std::string_view key) {
+    std::string flag = "--";
+    for (const char c : key) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isupper(byte) != 0) {
+            flag += '-';
+        }
+        flag += static_cast<char>(std::tolower(byte));
+    }
+    return flag;
+}
+
+std::string problem_of(const ServeOption& option, const Options& options) {
+    return std::visit([&](const auto member) { return value_problem(option, options.*member); },
+                      option.member);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve_settings.h"
+
+#include <arpa/inet.h>
+#include <spdlog/spdlog.h>
+
+namespace raybundle {
+namespace {
+
+bool is_loopback(const std::string& host) {
+    in_addr ipv4{};
+    const bool numeric = inet_pton(AF_INET, host.c_str(), &ipv4) == 1;
+    return host == "localhost" || host == "::1" || (numeric && (ntohl(ipv4.s_addr) >> 24U) == 127U);
+}
+
+void check_exposure(const Options& options, const std::string& host) {
+    if (is_loopback(host)) {
+        return;
+    }
+    if (options.tokens.empty() && !options.allow_remote) {
+        throw UsageError("--listen " + options.listen +
+                         " lets anyone on the network change the scene; configure tokens, or add "
+                         "--allow-remote if that is meant");
+    }
+    if (!options.tokens.empty() && options.tls_cert.empty()) {
+        spdlog::warn("tokens travel unencrypted to {}: use --tls-cert and --tls-key",
+                     options.listen);
+    }
+}
+
+}  // namespace
+
+ServerSettings server_settings(const Options& options) {
+    const auto [host, port] = parse_address(options.listen);
+    check_exposure(options, host);
+    if (options.tls_cert.empty() != options.tls_key.empty()) {
+        throw UsageError("--tls-cert and --tls-key belong together");
+    }
+    ServerSettings settings;
+    settings.host = host;
+    settings.port = port;
+    settings.tls_certificate = options.tls_cert;
+    settings.tls_key = options.tls_key;
+    settings.max_viewers = static_cast<std::size_t>(options.max_viewers);
+    settings.max_connections = static_cast<std::size_t>(options.max_connections);
+    settings.max_connections_per_address =
+        static_cast<std::size_t>(options.max_connections_per_address);
+    settings.max_messages_per_second = options.max_messages_per_second;
+    settings.access = {AccessTokens(options.tokens), options.allowed_origins};
+    return settings;
+}
+
+}  // namespace raybundle
