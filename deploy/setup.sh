@@ -7,9 +7,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
     cat <<'TEXT'
-usage: deploy/setup.sh [--with-tests]
+usage: deploy/setup.sh [--with-tests | --install-only]
 Installs the packages that are missing (Debian 12) and builds build/raybundle in Release mode.
-  --with-tests   build the tests as well
+  --with-tests    build the tests as well
+  --install-only  build nothing
 TEXT
 }
 
@@ -47,6 +48,7 @@ main() {
     case "${1:-}" in
         "") ;;
         --with-tests) tests=ON target=all ;;
+        --install-only) install_packages "${packages[@]}" && exit 0 ;;
         -h | --help) usage && exit 0 ;;
         *) usage >&2 && exit 2 ;;
     esac

@@ -60,6 +60,9 @@ struct Options {
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
     int max_viewers = 64;
+    double min_frames_per_second = 1.0;
+    std::string journal;  // file
+    bool watch = false;
     int max_connections = 256;
     int max_connections_per_address = 32;
     double max_messages_per_second = 1000.0;

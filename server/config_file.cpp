@@ -269,6 +269,25 @@ void apply_config_file(const std::string& file, Options& options) {
     apply_config_text(file, text, options);
 }
 
+Options reread_config(const Options& options) {
+    Options fresh;
+    fresh.command = options.command;
+    fresh.config = options.config;
+    fresh.on_command_line = options.on_command_line;
+    for (const ServeOption& option : serve_options()) {
+        if (options.on_command_line.contains(option.key)) {
+            std::visit([&](const auto member) { fresh.*member = options.*member; }, option.member);
+        }
+    }
+    if (options.on_command_line.contains(scene_key)) {
+        fresh.scene = options.scene;
+    }
+    if (!fresh.config.empty()) {
+        apply_config_file(fresh.config, fresh);
+    }
+    return fresh;
+}
+
 std::string print_config(const Options& options) {
     Json json;
     json[scene_key] = options.scene;

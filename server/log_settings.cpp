@@ -35,6 +35,10 @@ void set_log(const Options& options) {
             R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*})");
         spdlog::set_formatter(std::move(formatter));
     }
+    set_log_level(options);
+}
+
+void set_log_level(const Options& options) {
     spdlog::set_level(
         spdlog::level::from_str(options.log_level == "warn" ? "warning" : options.log_level));
 }

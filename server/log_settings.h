@@ -9,4 +9,7 @@ namespace raybundle {
 /// UTC), level and message.
 void set_log(const Options& options);
 
+/// The level alone.
+void set_log_level(const Options& options);
+
 }  // namespace raybundle

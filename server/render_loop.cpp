@@ -25,6 +25,10 @@ double seconds(std::chrono::steady_clock::duration d) {
     return std::chrono::duration<double>(d).count();
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return 1000.0 * seconds(std::chrono::steady_clock::now() - start);
+}
+
 v1::ServerMessage ok() {
     v1::ServerMessage message;
     message.mutable_ok();
@@ -34,18 +38,20 @@ v1::ServerMessage ok() {
 }  // namespace
 
 RenderLoop::RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSettings& settings,
-                       Server& server)
+                       Server& server, ChangeLog& log)
     : scene_(std::move(scene)),
       settings_(settings),
       server_(server),
+      log_(log),
       solver_(scene_, mesh, settings.solver),
       programs_(solver_.scene()),
       encoder_(encoder_threads, [this](const EncodedFrame& frame) {
-          ++metric_frames_;
-          metric_bytes_ += frame.bytes.size();
+          metrics_.count_frame(frame.bytes.size());
           server_.send_frame(frame.viewer, frame.header, frame.bytes);
           server_.inbox().interrupt();
-      }) {}
+      }) {
+    epoch_ = log_.epoch();
+}
 
 void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
@@ -54,11 +60,25 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
             handle(event);
         }
         start_pending_move();
-        const bool sent = send_frames();
+        const bool collected = collect_frames();
+        const bool sent = send_frames() || collected;
         send_solutions();
         const bool solved = solve();
         if (!sent && !solved) {
             server_.inbox().wait_for(idle_wait);
+        }
+    }
+}
+
+void RenderLoop::refuse_waiting() {
+    std::vector<ClientEvent> waiting = server_.inbox().drain();
+    for (const PendingMove& pending : pending_moves_) {
+        waiting.insert(waiting.end(), pending.requests.begin(), pending.requests.end());
+    }
+    pending_moves_.clear();
+    for (const ClientEvent& event : waiting) {
+        if (event.kind == ClientEvent::Kind::message) {
+            server_.reply_error(event, v1::Error::INTERNAL, "the server is stopping");
         }
     }
 }
@@ -74,8 +94,9 @@ void RenderLoop::handle(const ClientEvent& event) {
     }
     if (event.kind == ClientEvent::Kind::left) {
         encoder_.forget(event.viewer);
+        scheduler_.forget(event.viewer);
+        std::erase(receivers_, &found->second->image());
         sessions_.erase(found);
-        refresh_receivers();
         return;
     }
     handle_message(*found->second, event);
@@ -83,6 +104,13 @@ void RenderLoop::handle(const ClientEvent& event) {
 
 void RenderLoop::join(const ClientEvent& event) {
     const v1::Hello& hello = event.message.hello();
+    const glm::uvec2 size = ViewerSession::size_of(hello);
+    if (const std::string reason = no_room_for(size, nullptr); !reason.empty()) {
+        metrics_.count_refused_viewer();
+        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
+        server_.close(event.viewer, CloseCode::try_again_later, reason);
+        return;
+    }
     try {
         sessions_[event.viewer] =
             std::make_unique<ViewerSession>(event.viewer, hello, solver_.scene(), solver_.store(),
@@ -90,10 +118,10 @@ void RenderLoop::join(const ClientEvent& event) {
     } catch (const GpuError& error) {
         sessions_.erase(event.viewer);
         spdlog::error("no picture for viewer {}: {}", event.viewer, error.what());
-        server_.disconnect(event.viewer, v1::Error::RESOURCE_EXHAUSTED, no_memory);
+        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
+        server_.close(event.viewer, CloseCode::try_again_later, no_memory);
         return;
     }
-    refresh_receivers();
     v1::ServerMessage message;
     v1::Welcome* welcome = message.mutable_welcome();
     welcome->set_protocol("1.0");
@@ -112,14 +140,6 @@ void RenderLoop::join(const ClientEvent& event) {
     spdlog::info("viewer {} '{}' joined", event.viewer, hello.name());
 }
 
-void RenderLoop::refresh_receivers() {
-    receivers_.clear();
-    for (const auto& [id, session] : sessions_) {
-        receivers_.push_back(&session->image());
-    }
-    metric_viewers_ = static_cast<std::uint32_t>(sessions_.size());
-}
-
 void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event) {
     const v1::ClientMessage& message = event.message;
     try {
@@ -128,8 +148,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 session.set_camera(message.set_camera(), message.id());
                 break;
             case v1::ClientMessage::kSetViewport:
-                session.set_viewport(
-                    {message.set_viewport().width(), message.set_viewport().height()});
+                if (!set_viewport(session, event)) {
+                    return;
+                }
                 break;
             case v1::ClientMessage::kSetDisplay:
                 session.set_display(message.set_display());
@@ -180,16 +201,26 @@ void RenderLoop::start_pending_move() {
     }
     const PendingMove pending = std::move(pending_moves_.front());
     pending_moves_.pop_front();
-    Object& object = scene_.objects[pending.object];
     const v1::MoveObject& move = pending.requests.back().message.move_object();
-    object.transform = from_message(move.transform());
-    solver_.move_object(pending.object, object.world_from_object(), receivers_);
-    iterations_at_change_ = solver_.iterations();
-    ++epoch_;
     v1::ServerMessage message;
-    message.mutable_scene_changed()->set_epoch(epoch_);
     message.mutable_scene_changed()->set_by(pending.requests.back().viewer);
     *message.mutable_scene_changed()->mutable_move_object() = move;
+    if (!log_.record(*message.mutable_scene_changed())) {
+        for (const ClientEvent& request : pending.requests) {
+            server_.reply_error(request, v1::Error::INTERNAL,
+                                "the change could not be saved, so it was not made");
+        }
+        return;
+    }
+    epoch_ = log_.epoch();
+    Object& object = scene_.objects[pending.object];
+    object.transform = from_message(move.transform());
+    receivers_.clear();
+    for (const auto& [id, session] : sessions_) {
+        receivers_.push_back(&session->image());  // a change concerns also those who look away
+    }
+    solver_.move_object(pending.object, object.world_from_object(), receivers_);
+    iterations_at_change_ = solver_.iterations();
     for (const ClientEvent& request : pending.requests) {
         server_.reply(request, message);
     }
@@ -206,6 +237,7 @@ void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) 
                             "probe.ray: only pixels can be probed");
         return;
     }
+    session.apply_camera();
     const glm::uvec2 size = session.image().size();
     const glm::vec2 pixel(probe.pixel().x(), probe.pixel().y());
     if (!(pixel.x >= 0.0F && pixel.y >= 0.0F && pixel.x < static_cast<float>(size.x) &&
@@ -240,29 +272,6 @@ v1::FrameHeader RenderLoop::figures() const {
     return header;
 }
 
-/// Sends finished frames to the encoder and renders due ones. True if anything was done.
-bool RenderLoop::send_frames() {
-    bool worked = false;
-    const auto now = Clock::now();
-    for (const auto& [id, session] : sessions_) {
-        if (session->frame_finished()) {
-            auto [header, pixels] = session->take_frame();
-            encoder_.submit({id, header, {pixels.begin(), pixels.end()}, false});
-            worked = true;
-        }
-        // While a change is being worked in, the picture is between two states: finish first.
-        if (solver_.correcting() || !session->due(now) || encoder_.busy(id)) {
-            continue;
-        }
-        const FrameAdvice advice = server_.advise(id, session->demand(now));
-        if (advice.send) {
-            session->render(advice, figures(), now);
-            worked = true;
-        }
-    }
-    return worked;
-}
-
 void RenderLoop::send_solutions() {
     const auto now = Clock::now();
     update_rate(now);
@@ -290,30 +299,36 @@ void RenderLoop::update_rate(Clock::time_point now) {
     iterations_per_second_ = static_cast<double>(solver_.iterations() - rate_iterations_) / elapsed;
     rate_iterations_ = solver_.iterations();
     rate_since_ = now;
-    metric_rate_ = iterations_per_second_;
-    metric_settled_ = solver_.statistics().settled;
-    metric_iterations_ = solver_.iterations();
-    metric_epoch_ = epoch_;
-    metric_non_finite_ = solver_.non_finite();
+    publish_figures(now);
 }
 
 bool RenderLoop::idle() const {
     if (solver_.correcting()) {
         return false;
     }
-    if (sessions_.empty()) {
+    const auto content = [](const auto& entry) {
+        const auto& session = entry.second;
+        return session->paused() || (session->has_target() && session->target_met());
+    };
+    const auto paused = [](const auto& entry) { return entry.second->paused(); };
+    if (std::all_of(sessions_.begin(), sessions_.end(), paused)) {
         return solver_.iterations() - iterations_at_change_ >= settings_.idle_iterations;
     }
-    return std::all_of(sessions_.begin(), sessions_.end(), [](const auto& entry) {
-        return entry.second->has_target() && entry.second->target_met();
-    });
+    return std::all_of(sessions_.begin(), sessions_.end(), content);
 }
 
 bool RenderLoop::solve() {
     if (idle()) {
         return false;
     }
+    choose_receivers();
+    const auto start = Clock::now();
     solver_.step(receivers_);
+    const double cost = milliseconds_since(start);
+    metrics_.note_step(solver_.last_strategy(), cost);
+    if (solver_.last_strategy()) {
+        cost_.note_iteration(cost, receiver_pixels_);
+    }
     server_.set_ready(true);
     const auto now = Clock::now();
     for (const auto& [id, session] : sessions_) {
@@ -323,24 +338,7 @@ bool RenderLoop::solve() {
 }
 
 std::string RenderLoop::metrics() const {
-    std::string text;
-    const auto add = [&text](const char* name, const char* type, const char* help, double value) {
-        text += std::string("# HELP ") + name + " " + help + "\n# TYPE " + name + " " + type +
-                "\n" + name + " " + std::to_string(value) + "\n";
-    };
-    add("raybundle_iterations_total", "counter", "Solver iterations since loading",
-        static_cast<double>(metric_iterations_));
-    add("raybundle_iterations_per_second", "gauge", "Solver iterations per second", metric_rate_);
-    add("raybundle_settled", "gauge", "Part of the last change already worked in, 0..1",
-        metric_settled_);
-    add("raybundle_epoch", "gauge", "Scene changes applied", metric_epoch_);
-    add("raybundle_rendered_viewers", "gauge", "Viewers with a picture", metric_viewers_);
-    add("raybundle_frames_total", "counter", "Frames encoded", static_cast<double>(metric_frames_));
-    add("raybundle_frame_bytes_total", "counter", "Bytes of encoded frames",
-        static_cast<double>(metric_bytes_));
-    add("raybundle_non_finite_total", "counter", "Contributions dropped because not finite",
-        static_cast<double>(metric_non_finite_));
-    return text;
+    return metrics_.text();
 }
 
 }  // namespace raybundle

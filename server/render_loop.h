@@ -9,10 +9,14 @@
 #include <memory>
 #include <vector>
 
+#include "change_log.h"
+#include "loop_metrics.h"
 #include "net/server.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
+#include "stream/frame_scheduler.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 #include "viewer_session.h"
@@ -23,6 +27,8 @@ struct RenderLoopSettings {
     SolverSettings solver;
     /// Without viewers the solver rests after this many iterations since the last change.
     std::uint64_t idle_iterations = 4096;
+    /// A viewer is refused where the others would fall below this.
+    double min_frames_per_second = 1.0;
 };
 
 /// The one place that sees both the network's messages and the GPU: owns the solution and the
@@ -31,10 +37,13 @@ struct RenderLoopSettings {
 class RenderLoop {
   public:
     RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSettings& settings,
-               Server& server);
+               Server& server, ChangeLog& log);
 
     /// Runs until `stop` is set and the inbox is interrupted.
     void run(const std::atomic<bool>& stop);
+
+    /// Answers what still waits when the loop has ended.
+    void refuse_waiting();
 
     /// Prometheus text; any thread.
     [[nodiscard]] std::string metrics() const;
@@ -54,17 +63,22 @@ class RenderLoop {
     void queue_move(const ClientEvent& event);
     void start_pending_move();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
+    bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
+    bool collect_frames();
     bool send_frames();
     void send_solutions();
     bool solve();
     [[nodiscard]] bool idle() const;
     [[nodiscard]] v1::FrameHeader figures() const;
-    void refresh_receivers();
+    void choose_receivers();
     void update_rate(Clock::time_point now);
+    void publish_figures(Clock::time_point now);
 
     Scene scene_;
     RenderLoopSettings settings_;
     Server& server_;
+    ChangeLog& log_;
     Solver solver_;
     ViewPrograms programs_;
     std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
@@ -72,16 +86,14 @@ class RenderLoop {
     std::deque<PendingMove> pending_moves_;
     std::uint32_t epoch_ = 0;
     std::uint64_t iterations_at_change_ = 0;
+    double receiver_pixels_ = 0.0;
+    FrameScheduler scheduler_;
+    CostModel cost_;
+    LoopMetrics metrics_;
     FrameEncoder encoder_;
     Clock::time_point last_solution_, rate_since_;
     std::uint64_t rate_iterations_ = 0;
     double iterations_per_second_ = 0.0;
-
-    // For metrics().
-    std::atomic<std::uint64_t> metric_iterations_{0}, metric_frames_{0}, metric_non_finite_{0};
-    std::atomic<std::uint64_t> metric_bytes_{0};
-    std::atomic<std::uint32_t> metric_epoch_{0}, metric_viewers_{0};
-    std::atomic<double> metric_settled_{0.0}, metric_rate_{0.0};
 };
 
 }  // namespace raybundle

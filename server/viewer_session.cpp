@@ -20,17 +20,17 @@ double seconds(ViewerSession::Clock::duration d) {
     return std::chrono::duration<double>(d).count();
 }
 
-glm::uvec2 size_of(const v1::Hello& hello) {
-    return hello.has_viewport() ? glm::uvec2(hello.viewport().width(), hello.viewport().height())
-                                : default_size;
-}
-
 /// Frames of a refining picture: often at first, when it changes much, then less and less.
 double refining_interval(double since_change) {
     return std::clamp(0.1 * since_change, 0.1, 1.0);
 }
 
 }  // namespace
+
+glm::uvec2 ViewerSession::size_of(const v1::Hello& hello) {
+    return hello.has_viewport() ? glm::uvec2(hello.viewport().width(), hello.viewport().height())
+                                : default_size;
+}
 
 ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
                              const RadianceStore& store, const ViewPrograms& programs,
@@ -54,16 +54,28 @@ void ViewerSession::note_change() {
 }
 
 void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t request_id) {
-    Camera camera = image_.camera();
+    Camera camera = wanted_camera_.value_or(image_.camera());
     camera.eye = from_message(message.eye());
     camera.target = from_message(message.target());
     camera.up = message.has_up() ? from_message(message.up()) : glm::vec3(0.0F, 1.0F, 0.0F);
     if (message.has_vertical_fov()) {
         camera.vertical_fov = message.vertical_fov();
     }
-    image_.set_camera(camera);
+    wanted_camera_ = camera;
     camera_id_ = request_id;
     note_change();
+}
+
+void ViewerSession::apply_camera() {
+    if (wanted_camera_) {
+        image_.set_camera(*wanted_camera_);
+        wanted_camera_.reset();
+    }
+}
+
+double ViewerSession::pixels() const {
+    const glm::uvec2 size = image_.size();
+    return static_cast<double>(size.x) * static_cast<double>(size.y);
 }
 
 void ViewerSession::set_viewport(glm::uvec2 size) {
@@ -120,9 +132,7 @@ bool ViewerSession::target_met() {
 }
 
 FrameDemand ViewerSession::demand(Clock::time_point now) const {
-    const glm::uvec2 size = image_.size();
-    return {moving(now), lossless_ && !moving(now),
-            static_cast<double>(size.x) * static_cast<double>(size.y)};
+    return {moving(now), lossless_ && !moving(now), pixels()};
 }
 
 float ViewerSession::exposure() {
@@ -136,6 +146,7 @@ float ViewerSession::exposure() {
 
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
                            Clock::time_point now) {
+    apply_camera();
     const glm::uvec2 size = image_.size();
     const auto scaled = [&](unsigned pixels) {
         return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));

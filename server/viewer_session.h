@@ -18,10 +18,16 @@ class ViewerSession {
   public:
     using Clock = std::chrono::steady_clock;
 
+    /// Size of the pictures that a hello asks for.
+    static glm::uvec2 size_of(const v1::Hello& hello);
+
     ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
                   const RadianceStore& store, const ViewPrograms& programs, const Camera& camera);
 
+    /// The camera takes effect with the next frame or apply_camera(): placing it costs time, of
+    /// which every viewer gets his share.
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
+    void apply_camera();
     void set_viewport(glm::uvec2 size);
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
@@ -46,7 +52,12 @@ class ViewerSession {
     /// Error, interval and prediction for a `solution` message.
     void fill_solution(v1::Solution* solution);
 
+    /// Nobody seems to look: frames stay unacknowledged.
+    [[nodiscard]] bool paused() const { return paused_; }
+    void set_paused(bool paused) { paused_ = paused; }
+
     [[nodiscard]] ViewerImage& image() { return image_; }
+    [[nodiscard]] double pixels() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
@@ -59,6 +70,7 @@ class ViewerSession {
     std::string name_;
     bool lossless_ = false;  // the client decodes PNG
     ViewerImage image_;
+    std::optional<Camera> wanted_camera_;
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;
     bool auto_exposure_ = true;
@@ -69,6 +81,7 @@ class ViewerSession {
     std::uint32_t frame_ = 0;
     bool changed_ = true;
     bool rendering_ = false;
+    bool paused_ = false;
     v1::FrameHeader header_;
     Clock::time_point last_change_, last_frame_, last_statistics_;
     std::uint64_t samples_at_frame_ = 0;

@@ -13,6 +13,7 @@ struct LoadedScene {
     Scene scene;
     PatchMesh mesh;
     double seconds = 0.0;  ///< to read and tessellate
+    std::string digest;    ///< SHA-256 of the file, hexadecimal
 };
 LoadedScene load_scene(const Options& options);
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "commands/command.h"
+#include "journal/session_journal.h"
 #include "scene/gltf_loader.h"
 
 namespace raybundle {
@@ -18,6 +19,7 @@ LoadedScene load_scene(const Options& options) {
     settings.sky_luminance = options.sky;
     LoadedScene loaded;
     loaded.scene = load_gltf(options.scene, settings);
+    loaded.digest = file_digest(options.scene).value_or("");
     TessellationSettings tessellation;
     tessellation.patch_size = options.patch_size;
     loaded.mesh = tessellate(loaded.scene, tessellation);

@@ -3,13 +3,15 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <thread>
 
+#include "change_log.h"
 #include "commands/command.h"
+#include "commands/scene_watch.h"
+#include "commands/signal_watch.h"
 #include "config_file.h"
 #include "gpu/egl_context.h"
+#include "log_settings.h"
 #include "net/server.h"
 #include "render_loop.h"
 #include "serve_settings.h"
@@ -18,49 +20,81 @@ namespace raybundle {
 
 namespace {
 
-/// Waits for SIGINT or SIGTERM on a thread of its own and then stops the loop.
-class SignalWatch {
-  public:
-    SignalWatch(std::atomic<bool>& stop, Inbox& inbox) {
-        sigemptyset(&signals_);
-        sigaddset(&signals_, SIGINT);
-        sigaddset(&signals_, SIGTERM);
-        pthread_sigmask(SIG_BLOCK, &signals_, nullptr);  // inherited by threads started later
-        thread_ = std::jthread([this, &stop, &inbox](const std::stop_token& token) {
-            const timespec interval{0, 100'000'000};
-            while (!token.stop_requested()) {
-                if (sigtimedwait(&signals_, nullptr, &interval) > 0) {
-                    stop = true;
-                    inbox.interrupt();
-                    return;
-                }
-            }
-        });
+/// Reads tokens, origins, log level and certificate again. What is wrong is logged and changes
+/// nothing.
+void reload_settings(const Options& options, Server& server) {
+    try {
+        const Options fresh = reread_config(options);
+        const ServerSettings settings = server_settings(fresh);
+        server.reload_certificate();
+        server.set_access(settings.access);
+        set_log_level(fresh);
+        spdlog::info("settings have been read again: tokens, origins, log level, certificate");
+    } catch (const std::exception& error) {
+        spdlog::error("settings stay as they were: {}", error.what());
     }
+}
 
-  private:
-    sigset_t signals_{};
-    std::jthread thread_;
-};
+ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
+    if (options.journal.empty()) {
+        return {};
+    }
+    JournalSettings settings;
+    settings.file = options.journal;
+    settings.scene_name = loaded.scene.name;
+    settings.scene_digest = loaded.digest;
+    return ChangeLog(settings);
+}
 
-/// Lets the server ask the loop for its metrics, and stops it before the loop goes, however that
-/// comes.
-class Serving {
+/// Lets the server ask a loop for its metrics while both exist.
+class MetricsSource {
   public:
-    Serving(Server& server, const RenderLoop& loop) : server_(server) {
+    MetricsSource(Server& server, const RenderLoop& loop) : server_(server) {
         server_.set_metrics_source([&loop] { return loop.metrics(); });
-        server_.start();
     }
-    ~Serving() {
-        server_.stop();
-        server_.set_metrics_source({});
-    }
-    Serving(const Serving&) = delete;
-    Serving& operator=(const Serving&) = delete;
+    ~MetricsSource() { server_.set_metrics_source({}); }
+    MetricsSource(const MetricsSource&) = delete;
+    MetricsSource& operator=(const MetricsSource&) = delete;
 
   private:
     Server& server_;
 };
+
+/// Why a loop ends: `leave` is set last.
+struct Control {
+    std::atomic<bool> stop{false};   ///< the program ends
+    std::atomic<bool> leave{false};  ///< that, or another scene waits
+    std::optional<SceneWatch> watch;
+};
+
+/// Serves one scene; returns the one to serve next, or nothing where the program is to end.
+std::optional<LoadedScene> serve_scene(const Options& options, LoadedScene loaded, Server& server,
+                                       Control& control) {
+    ChangeLog log = open_change_log(options, loaded);
+    log.restore(loaded.scene);
+    RenderLoopSettings settings;
+    settings.solver.seed = options.seed;
+    settings.min_frames_per_second = options.min_frames_per_second;
+    RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server, log);
+    const MetricsSource source(server, loop);
+    if (server.port() == 0) {
+        server.start();
+        fmt::print("raybundle serves {} at {}\n", options.scene, server.address());
+        std::fflush(stdout);
+    }
+    std::optional<LoadedScene> next;
+    while (!control.stop && !next) {
+        loop.run(control.leave);
+        control.leave = false;
+        next = control.watch ? control.watch->take() : std::nullopt;
+    }
+    server.set_ready(false);
+    loop.refuse_waiting();
+    if (!control.stop) {
+        server.close_all(CloseCode::service_restart, "the scene has been replaced");
+    }
+    return next;
+}
 
 }  // namespace
 
@@ -70,18 +104,27 @@ int run_serve(const Options& options) {
         return exit_done;
     }
     Server server(server_settings(options));
-    std::atomic<bool> stop{false};
-    const SignalWatch watch(stop, server.inbox());
+    Control control;
+    const auto leave = [&] {
+        control.leave = true;
+        server.inbox().interrupt();
+    };
+    const SignalWatch signals(
+        [&] {
+            control.stop = true;
+            leave();
+        },
+        [&] { reload_settings(options, server); });
     const EglContext context = create_egl_context({options.gpu, false});
-    LoadedScene loaded = load_scene(options);
-    RenderLoopSettings settings;
-    settings.solver.seed = options.seed;
-    RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server);
-    const Serving serving(server, loop);
-    fmt::print("raybundle serves {} at {}\n", options.scene, server.address());
-    std::fflush(stdout);
-    loop.run(stop);
+    std::optional<LoadedScene> loaded = load_scene(options);
+    if (options.watch) {
+        control.watch.emplace(options, leave);
+    }
+    while (loaded && !control.stop) {
+        loaded = serve_scene(options, std::move(*loaded), server, control);
+    }
     spdlog::info("stopping");
+    server.stop();
     return exit_done;
 }
 

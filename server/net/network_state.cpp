@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/network_state.h"
 
-#include <string_view>
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
+
+#include "net/clock.h"
+#include "net/metrics_text.h"
 
 namespace raybundle {
 namespace {
 
-std::string metric(std::string_view name, std::string_view type, std::string_view help,
-                   std::uint64_t value) {
-    std::string text;
-    text.append("# HELP ").append(name).append(" ").append(help).append("\n");
-    text.append("# TYPE ").append(name).append(" ").append(type).append("\n");
-    text.append(name).append(" ").append(std::to_string(value)).append("\n");
-    return text;
+/// Queueing delays of all viewers' frames, seconds: median, 95th percentile and largest.
+void add_queue_delays(const ViewerTable& viewers, MetricsText& out) {
+    std::vector<double> delays;
+    for (const auto& link : viewers.all()) {
+        delays.push_back(link->queueing_delay_ms() / 1000.0);
+    }
+    std::sort(delays.begin(), delays.end());
+    out.family("raybundle_queue_delay_seconds", "gauge",
+               "Delay of frames above the base round trip, over viewers");
+    for (const auto& [label, share] :
+         {std::pair("quantile=\"0.5\"", 0.5), std::pair("quantile=\"0.95\"", 0.95),
+          std::pair("quantile=\"1\"", 1.0)}) {
+        const auto last = static_cast<double>(delays.size()) - 1.0;
+        const double value =
+            delays.empty() ? 0.0 : delays[static_cast<std::size_t>(std::ceil(share * last))];
+        out.sample("raybundle_queue_delay_seconds", label, value);
+    }
 }
 
 }  // namespace
@@ -24,16 +39,27 @@ void NetworkState::set_metrics_source(std::function<std::string()> source) {
 }
 
 std::string NetworkState::metrics() const {
-    std::string text =
-        metric("raybundle_viewers", "gauge", "Connected viewers.", viewers.size()) +
-        metric("raybundle_frames_queued_total", "counter", "Frames handed over for sending.",
-               counters.frames_queued) +
-        metric("raybundle_frames_replaced_total", "counter", "Frames dropped for a newer one.",
-               counters.frames_replaced) +
-        metric("raybundle_sent_bytes_total", "counter", "WebSocket payload sent.",
-               counters.bytes_sent) +
-        metric("raybundle_connections_refused_total", "counter",
-               "Connections refused by origin, path or number.", counters.connections_refused);
+    MetricsText out;
+    const auto count = [](const std::atomic<std::uint64_t>& counter) {
+        return static_cast<double>(counter.load());
+    };
+    out.family("raybundle_build_info", "gauge", "Version of the server");
+    out.sample("raybundle_build_info", "version=\"" RAYBUNDLE_VERSION "\"", 1.0);
+    out.gauge("raybundle_uptime_seconds", "Since the program started", server_time_ms() / 1000.0);
+    out.gauge("raybundle_ready", "1 once the first iteration is done", ready ? 1.0 : 0.0);
+    out.gauge("raybundle_viewers", "Connected viewers", static_cast<double>(gate.present()));
+    out.counter("raybundle_frames_queued_total", "Frames handed over for sending",
+                count(counters.frames_queued));
+    out.counter("raybundle_frames_replaced_total", "Frames dropped for a newer one",
+                count(counters.frames_replaced));
+    out.counter("raybundle_sent_bytes_total", "WebSocket payload sent", count(counters.bytes_sent));
+    out.counter("raybundle_received_bytes_total", "WebSocket payload received",
+                count(counters.bytes_received));
+    out.counter("raybundle_connections_refused_total",
+                "Connections refused by origin, path or number",
+                count(counters.connections_refused));
+    add_queue_delays(viewers, out);
+    std::string text = out.text();
     const std::lock_guard lock(metrics_mutex_);
     if (metrics_source_) {
         text += metrics_source_();

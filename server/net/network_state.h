@@ -19,6 +19,7 @@ struct NetworkCounters {
     std::atomic<std::uint64_t> frames_queued{0};
     std::atomic<std::uint64_t> frames_replaced{0};  ///< dropped for a newer one
     std::atomic<std::uint64_t> bytes_sent{0};       ///< WebSocket payload
+    std::atomic<std::uint64_t> bytes_received{0};   ///< WebSocket payload
     std::atomic<std::uint64_t> connections_refused{0};
 };
 

@@ -90,9 +90,28 @@ void Server::disconnect(ViewerId viewer, v1::Error::Code code, const std::string
     }
 }
 
+void Server::close(ViewerId viewer, CloseCode code, const std::string& text) {
+    if (const auto link = impl_->state.viewers.find(viewer)) {
+        link->close(code, text);
+        impl_->network.wake();
+    }
+}
+
+void Server::close_all(CloseCode code, const std::string& text) {
+    for (const auto& link : impl_->state.viewers.all()) {
+        link->close(code, text);
+    }
+    impl_->network.wake();
+}
+
 FrameAdvice Server::advise(ViewerId viewer, const FrameDemand& demand) {
     const auto link = impl_->state.viewers.find(viewer);
     return link ? link->advise(demand, server_time_ms()) : FrameAdvice{};
+}
+
+double Server::silence_ms(ViewerId viewer) const {
+    const auto link = impl_->state.viewers.find(viewer);
+    return link ? link->silence_ms(server_time_ms()) : 0.0;
 }
 
 void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,

@@ -50,8 +50,18 @@ class Server {
     /// Sends an error, then closes the connection.
     void disconnect(ViewerId viewer, v1::Error::Code code, const std::string& text);
 
+    /// Closes a connection once what waits for it is written.
+    void close(ViewerId viewer, CloseCode code, const std::string& text);
+
+    /// Closes every connection of a viewer; clients may come back at once.
+    void close_all(CloseCode code, const std::string& text);
+
     /// Whether and how to send this viewer's next frame. Never `send` while a frame waits here.
     FrameAdvice advise(ViewerId viewer, const FrameDemand& demand);
+
+    /// How long this viewer has left a frame unacknowledged, ms. A page that is hidden, a client
+    /// that has hung and a link that has stalled look like this.
+    [[nodiscard]] double silence_ms(ViewerId viewer) const;
 
     /// Sends a frame. One frame waits at most: a newer one replaces it.
     void send_frame(ViewerId viewer, const v1::FrameHeader& header,

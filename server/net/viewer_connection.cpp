@@ -49,6 +49,7 @@ ViewerConnection::~ViewerConnection() {
 }
 
 void ViewerConnection::on_receive(std::string_view bytes) {
+    state_.counters.bytes_received += bytes.size();
     const bool last =
         lws_is_final_fragment(connection_) != 0 && lws_remaining_packet_payload(connection_) == 0;
     session_.on_fragment(bytes, lws_is_first_fragment(connection_) != 0, last,

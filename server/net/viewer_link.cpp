@@ -70,6 +70,16 @@ void ViewerLink::on_ack(const v1::Ack& ack, double now_ms) {
     congestion_.on_ack(ack.frame(), ack.decode_ms(), now_ms);
 }
 
+double ViewerLink::queueing_delay_ms() const {
+    const std::lock_guard lock(mutex_);
+    return congestion_.queueing_delay_ms();
+}
+
+double ViewerLink::silence_ms(double now_ms) const {
+    const std::lock_guard lock(mutex_);
+    return congestion_.silence_ms(now_ms);
+}
+
 void ViewerLink::on_pong(std::string_view payload, double now_ms) {
     const std::lock_guard lock(mutex_);
     if (payload == std::to_string(pings_)) {

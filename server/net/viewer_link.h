@@ -22,6 +22,7 @@ enum class CloseCode : std::uint16_t {
     protocol_error = 1002,
     policy_violation = 1008,
     too_large = 1009,
+    service_restart = 1012,
     try_again_later = 1013,
 };
 
@@ -60,6 +61,12 @@ class ViewerLink {
 
     FrameAdvice advise(const FrameDemand& demand, double now_ms);
     void on_ack(const v1::Ack& ack, double now_ms);
+
+    /// Of the frame acknowledged last, above the base round trip.
+    [[nodiscard]] double queueing_delay_ms() const;
+
+    /// How long a frame has been waiting for its acknowledgement; 0 where none does.
+    [[nodiscard]] double silence_ms(double now_ms) const;
 
     /// A WebSocket pong has come; `payload` tells whether it answers take()'s last ping.
     void on_pong(std::string_view payload, double now_ms);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/wire_codec.h"
 
+#include <google/protobuf/stubs/logging.h>
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/spdlog.h>
 
@@ -16,6 +17,12 @@ namespace {
 namespace json_util = google::protobuf::util;
 
 constexpr std::size_t kMaxQuoted = 160;  ///< bytes of foreign text repeated in an error
+
+/// Protobuf complains about foreign bytes on stderr, where any client could fill the log.
+void log_quietly(google::protobuf::LogLevel /*level*/, const char* /*file*/, int /*line*/,
+                 const std::string& text) {
+    spdlog::debug("protobuf: {}", text);
+}
 
 /// First line of `text`, cut between two UTF-8 characters.
 std::string excerpt(std::string_view text) {
@@ -129,6 +136,9 @@ ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& lim
     if (auto too_large = check_size(bytes.size(), limits)) {
         return *too_large;
     }
+    static google::protobuf::LogHandler* const before =
+        google::protobuf::SetLogHandler(&log_quietly);
+    static_cast<void>(before);
     v1::ClientMessage message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
         return Refusal{v1::Error::INVALID_ARGUMENT, "not a valid protobuf ClientMessage",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -56,6 +57,11 @@ class CongestionWindow {
 
     /// Decides about the next frame. Until the first acknowledgement there is one frame only.
     FrameAdvice advise(const FrameDemand& demand, double now_ms);
+
+    /// Time since the oldest frame without acknowledgement was sent; 0 where there is none.
+    [[nodiscard]] double silence_ms(double now_ms) const {
+        return flights_.empty() ? 0.0 : std::max(now_ms - flights_.front().sent_ms, 0.0);
+    }
 
     [[nodiscard]] int in_flight() const { return static_cast<int>(flights_.size()); }
     [[nodiscard]] double window() const { return window_; }               ///< frames

@@ -99,6 +99,7 @@ void Solver::plan_group() {
 
 void Solver::step(std::span<BundleReceiver* const> receivers) {
     if (phase_) {
+        last_strategy_.reset();
         phase_->step(receivers);
         if (phase_->done()) {
             phase_.reset();
@@ -142,6 +143,7 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.batch = planned.sample.batch;
     settings.slot = slot;
     settings.row_phase = planned.sample.row_phase;
+    last_strategy_ = planned.sample.strategy;
     if (planned.sample.strategy == Strategy::perspective) {
         BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
                                        static_cast<float>(planned.sample.angle));

@@ -42,6 +42,11 @@ class Solver {
                      std::span<BundleReceiver* const> receivers);
     [[nodiscard]] bool correcting() const { return phase_.has_value(); }
 
+    /// Receivers may be exchanged now: no group of iterations is under way.
+    [[nodiscard]] bool between_groups() const { return group_next_ >= group_.size(); }
+    /// Of the last iteration; nothing after a slice of a special phase.
+    [[nodiscard]] std::optional<Strategy> last_strategy() const { return last_strategy_; }
+
     [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] RadianceStore& store() { return store_; }
@@ -76,6 +81,7 @@ class Solver {
     std::optional<SpecialPhase> phase_;
     std::vector<Planned> group_;
     std::size_t group_next_ = 0;
+    std::optional<Strategy> last_strategy_;
     std::uint64_t iterations_ = 0;
     std::uint64_t since_change_ = 0;
     std::uint64_t changes_ = 0;

@@ -40,7 +40,8 @@ TEST(ConfigFile, EveryOptionCanBeSet) {
     apply_config_text("site.json",
                       R"({"scene":"a.gltf","listen":"[::1]:9","allowRemote":true,
         "tlsCert":"c","tlsKey":"k","allowedOrigins":["https://a.example"],"maxViewers":3,
-        "maxConnections":9,"maxConnectionsPerAddress":4,"maxMessagesPerSecond":50.5,
+        "minFramesPerSecond":2,"maxConnections":9,"maxConnectionsPerAddress":4,"maxMessagesPerSecond":50.5,
+        "journal":"j.db","watch":true,
         "logFormat":"json","patchSize":0.25,"seed":18446744073709551615,"gpu":2,"unit":"cm",
         "sky":5000,"logLevel":"warn",
         "tokens":[{"name":"lead","role":"EDITOR","sha256":")" +
@@ -123,6 +124,23 @@ TEST(ConfigFile, TheCommandLineWins) {
     EXPECT_EQ(options.listen, "127.0.0.1:2");
     EXPECT_EQ(options.max_viewers, 3);
     EXPECT_THROW(parsed({"serve", "--config", "/nonexistent.json", "a.gltf"}), UsageError);
+}
+
+TEST(ConfigFile, IsReadAgainUnderTheSameCommandLine) {
+    const auto file = std::filesystem::temp_directory_path() / "raybundle_reread_test.json";
+    std::ofstream(file) << R"({"maxViewers":3,"seed":5,"tokens":[{"name":"a","role":"EDITOR",
+        "sha256":")" << kDigest
+                        << R"("}]})";
+    const Options before = parsed({"serve", "a.gltf", "--config", file.string(), "--seed", "7"});
+    ASSERT_EQ(before.tokens.size(), 1U);
+    std::ofstream(file) << R"({"maxConnections":9,"seed":6})";
+    const Options after = reread_config(before);
+    std::filesystem::remove(file);
+    EXPECT_TRUE(after.tokens.empty()) << "they are gone from the file";
+    EXPECT_EQ(after.max_viewers, Options().max_viewers);
+    EXPECT_EQ(after.max_connections, 9);
+    EXPECT_EQ(after.seed, 7U);
+    EXPECT_EQ(after.scene, "a.gltf");
 }
 
 TEST(ConfigFile, TheCommandLineIsCheckedByTheSameTable) {

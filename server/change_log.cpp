@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "change_log.h"
+
+#include <spdlog/spdlog.h>
+
+#include "scene_messages.h"
+
+namespace raybundle {
+
+ChangeLog::ChangeLog(const JournalSettings& settings) : required_(true) {
+    try {
+        journal_.emplace(settings);
+        epoch_ = journal_->epoch();
+        if (journal_->set_aside()) {
+            spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
+                          *journal_->set_aside());
+        }
+    } catch (const JournalError& error) {
+        working_ = false;
+        spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
+                      error.what());
+    }
+}
+
+void ChangeLog::restore(Scene& scene) {
+    if (!journal_) {
+        return;
+    }
+    for (const v1::SceneChanged& change : journal_->changes()) {
+        const std::uint32_t object = change.move_object().object();
+        if (!change.has_move_object() || object < 1 || object > scene.objects.size()) {
+            spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
+            continue;
+        }
+        scene.objects[object - 1].transform = from_message(change.move_object().transform());
+    }
+    spdlog::info("the session goes on at epoch {}", epoch_);
+}
+
+bool ChangeLog::record(v1::SceneChanged& change) {
+    change.set_epoch(epoch_ + 1);
+    if (required_ && !journal_) {
+        ++failures_;
+        return false;
+    }
+    try {
+        if (journal_) {
+            journal_->append(change);
+        }
+    } catch (const JournalError& error) {
+        ++failures_;
+        working_ = false;
+        spdlog::error("a change was refused, since it could not be saved: {}", error.what());
+        return false;
+    }
+    working_ = true;
+    ++epoch_;
+    return true;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "journal/session_journal.h"
+#include "raybundle.pb.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// The one ordered log of scene changes: gives each its epoch and, where a journal is configured,
+/// puts it on disk before anybody hears of it.
+class ChangeLog {
+  public:
+    ChangeLog() = default;  ///< without a journal
+
+    /// With a journal. A journal that cannot be used is reported in the log and refuses every
+    /// change from then on; viewing does not depend on it.
+    explicit ChangeLog(const JournalSettings& settings);
+
+    [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
+
+    /// Brings a scene as read from its file to the state of the journal.
+    void restore(Scene& scene);
+
+    /// Numbers the change and stores it. False: it could not be stored and must not be made.
+    [[nodiscard]] bool record(v1::SceneChanged& change);
+
+    [[nodiscard]] std::uint64_t failures() const { return failures_; }
+    /// Whether the next change is expected to be stored.
+    [[nodiscard]] bool working() const { return working_; }
+
+  private:
+    bool required_ = false;
+    bool working_ = true;
+    std::optional<SessionJournal> journal_;
+    std::uint32_t epoch_ = 0;
+    std::uint64_t failures_ = 0;
+};
+
+}  // namespace raybundle

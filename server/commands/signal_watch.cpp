@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/signal_watch.h"
+
+#include <ctime>
+#include <utility>
+
+namespace raybundle {
+
+SignalWatch::SignalWatch(std::function<void()> stop, std::function<void()> reload)
+    : stop_(std::move(stop)), reload_(std::move(reload)) {
+    sigemptyset(&signals_);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        sigaddset(&signals_, number);
+    }
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+    thread_ = std::jthread([this](const std::stop_token& token) { watch(token); });
+}
+
+void SignalWatch::watch(const std::stop_token& token) const {
+    const timespec interval{0, 100'000'000};
+    while (!token.stop_requested()) {
+        const int number = sigtimedwait(&signals_, nullptr, &interval);
+        if (number == SIGHUP) {
+            reload_();
+        } else if (number > 0) {
+            stop_();
+        }
+    }
+}
+
+}  // namespace raybundle

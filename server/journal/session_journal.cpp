@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "journal/session_journal.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+namespace raybundle {
+namespace {
+
+constexpr int kSchemaVersion = 1;
+constexpr std::uint64_t kPageBytes = 4096;
+
+/// Number of the object, light or material that a change is about.
+std::int64_t subject_of(const v1::SceneChanged& change) {
+    switch (change.change_case()) {
+        case v1::SceneChanged::kMoveObject:
+            return change.move_object().object();
+        case v1::SceneChanged::kSetLight:
+            return change.set_light().light();
+        case v1::SceneChanged::kSetMaterial:
+            return change.set_material().material();
+        case v1::SceneChanged::CHANGE_NOT_SET:
+            break;
+    }
+    return 0;
+}
+
+/// Moves the database and its companions out of the way; returns the new name.
+std::string move_aside(const std::string& file) {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
+                             std::chrono::system_clock::now().time_since_epoch())
+                             .count();
+    const std::string name = file + ".damaged-" + std::to_string(seconds);
+    std::filesystem::rename(file, name);
+    for (const char* companion : {"-wal", "-shm"}) {
+        std::error_code absent;
+        std::filesystem::rename(file + companion, name + companion, absent);
+    }
+    return name;
+}
+
+}  // namespace
+
+SessionJournal::SessionJournal(const JournalSettings& settings) : file_(settings.file) {
+    try {
+        try {
+            open(settings);
+        } catch (const SqliteError& error) {
+            if (!error.corrupt) {
+                throw;
+            }
+            database_.reset();
+            set_aside_ = move_aside(file_);
+            open(settings);
+        }
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        throw JournalError(file_ + ": damaged, and " + error.code().message());
+    }
+}
+
+void SessionJournal::open(const JournalSettings& settings) {
+    database_.emplace(file_);
+    // One server at a time; the lock goes with the process, however that ends.
+    database_->execute("PRAGMA locking_mode=EXCLUSIVE");
+    database_->execute("PRAGMA journal_mode=WAL");
+    database_->execute("PRAGMA synchronous=FULL");
+    database_->execute("PRAGMA max_page_count=" + std::to_string(settings.max_bytes / kPageBytes));
+    auto check = database_->prepare("PRAGMA quick_check(1)");
+    if (!check.step() || check.bytes(0) != "ok") {
+        throw SqliteError("the database is damaged", true);
+    }
+    create_tables();
+    find_session(settings);
+}
+
+void SessionJournal::create_tables() {
+    auto query = database_->prepare("PRAGMA user_version");
+    query.step();
+    const std::int64_t version = query.integer(0);
+    if (version > kSchemaVersion) {
+        throw SqliteError("has version " + std::to_string(version) + ", this server knows " +
+                              std::to_string(kSchemaVersion),
+                          false);
+    }
+    if (version == kSchemaVersion) {
+        return;
+    }
+    SqliteTransaction transaction(*database_);
+    database_->execute(
+        "CREATE TABLE session(id INTEGER PRIMARY KEY, scene_digest TEXT NOT NULL UNIQUE,"
+        " scene_name TEXT NOT NULL, epoch INTEGER NOT NULL);"
+        // kind: field number in SceneChanged; body: serialised SceneChanged
+        "CREATE TABLE change(session INTEGER NOT NULL REFERENCES session(id),"
+        " epoch INTEGER NOT NULL, kind INTEGER NOT NULL, subject INTEGER NOT NULL,"
+        " body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID;"
+        "CREATE UNIQUE INDEX change_subject ON change(session, kind, subject);"
+        "PRAGMA user_version=" +
+        std::to_string(kSchemaVersion));
+    transaction.commit();
+}
+
+void SessionJournal::find_session(const JournalSettings& settings) {
+    auto insert = database_->prepare(
+        "INSERT INTO session(scene_digest, scene_name, epoch) VALUES(?, ?, 0)"
+        " ON CONFLICT(scene_digest) DO NOTHING");
+    insert.bind(1, settings.scene_digest);
+    insert.bind(2, settings.scene_name);
+    insert.run();
+    auto select = database_->prepare("SELECT id, epoch FROM session WHERE scene_digest=?");
+    select.bind(1, settings.scene_digest);
+    select.step();
+    session_ = select.integer(0);
+    epoch_ = static_cast<std::uint32_t>(select.integer(1));
+}
+
+std::vector<v1::SceneChanged> SessionJournal::changes() {
+    std::vector<v1::SceneChanged> result;
+    try {
+        auto select = database_->prepare("SELECT body FROM change WHERE session=? ORDER BY epoch");
+        select.bind(1, session_);
+        while (select.step()) {
+            if (!result.emplace_back().ParseFromString(select.bytes(0))) {
+                throw JournalError(file_ + ": holds a change that cannot be read");
+            }
+        }
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+    return result;
+}
+
+/// Removes the earlier change of the same subject and returns it, empty where there is none.
+v1::SceneChanged SessionJournal::take_earlier(const v1::SceneChanged& change,
+                                              std::int64_t subject) {
+    v1::SceneChanged earlier;
+    auto select = database_->prepare(
+        "DELETE FROM change WHERE session=? AND kind=? AND subject=? RETURNING body");
+    select.bind(1, session_);
+    select.bind(2, std::int64_t{change.change_case()});
+    select.bind(3, subject);
+    while (select.step()) {
+        earlier.ParseFromString(select.bytes(0));
+    }
+    return earlier;
+}
+
+void SessionJournal::append(const v1::SceneChanged& change) {
+    try {
+        const std::int64_t subject = subject_of(change);
+        SqliteTransaction transaction(*database_);
+        v1::SceneChanged sum = take_earlier(change, subject);
+        if (change.has_move_object()) {
+            sum = change;  // a place replaces the one before it; other changes add up
+        } else {
+            sum.MergeFrom(change);
+        }
+        auto insert = database_->prepare("INSERT INTO change VALUES(?, ?, ?, ?, ?)");
+        insert.bind(1, session_);
+        insert.bind(2, std::int64_t{change.epoch()});
+        insert.bind(3, std::int64_t{change.change_case()});
+        insert.bind(4, subject);
+        insert.bind_blob(5, sum.SerializeAsString());
+        insert.run();
+        auto update = database_->prepare("UPDATE session SET epoch=? WHERE id=?");
+        update.bind(1, std::int64_t{change.epoch()});
+        update.bind(2, session_);
+        update.run();
+        transaction.commit();
+        epoch_ = change.epoch();
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+std::optional<std::string> file_digest(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        return std::nullopt;
+    }
+    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                          &EVP_MD_CTX_free);
+    EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+    std::vector<char> piece(1U << 16U);
+    while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())),
+           stream.gcount() > 0) {
+        EVP_DigestUpdate(context.get(), piece.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    std::array<unsigned char, 32> digest{};
+    EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text;
+    for (const unsigned byte : digest) {
+        text += kDigits[byte >> 4U];
+        text += kDigits[byte & 15U];
+    }
+    return text;
+}
+
+}  // namespace raybundle

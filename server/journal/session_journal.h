@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "journal/sqlite_database.h"
+#include "raybundle.pb.h"
+
+namespace raybundle {
+
+/// The journal cannot be used; the text names the file and the reason, for the operator.
+class JournalError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct JournalSettings {
+    std::string file;
+    std::string scene_name;    ///< for people who look into the file
+    std::string scene_digest;  ///< of the scene file: another one is another session
+    std::uint64_t max_bytes = 64U << 20U;
+};
+
+/// The session's scene changes on disk, so that a server that is killed goes on where it was. A
+/// change that append() has returned from survives the process and the machine (SQLite, WAL,
+/// synchronous=FULL). Of the changes to one object, light or material only the sum is kept, so the
+/// file does not grow with time. One thread only.
+class SessionJournal {
+  public:
+    /// Opens the journal, or begins one. A damaged file is set aside under another name, which
+    /// set_aside() gives, and a new journal begins. Throws JournalError where that fails: a folder
+    /// that is missing, a file of a newer version, a journal in use by another server.
+    explicit SessionJournal(const JournalSettings& settings);
+
+    /// Changes applied in this session, 0 in a new one.
+    [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
+
+    /// What brings the scene file to the state of this session, in order of epochs.
+    [[nodiscard]] std::vector<v1::SceneChanged> changes();
+
+    /// Writes a change, whose epoch must be epoch() + 1. Throws JournalError: nothing is written
+    /// then, and a later attempt may succeed.
+    void append(const v1::SceneChanged& change);
+
+    [[nodiscard]] const std::optional<std::string>& set_aside() const { return set_aside_; }
+
+  private:
+    void open(const JournalSettings& settings);
+    void create_tables();
+    void find_session(const JournalSettings& settings);
+    v1::SceneChanged take_earlier(const v1::SceneChanged& change, std::int64_t subject);
+
+    std::string file_;
+    std::optional<SqliteDatabase> database_;
+    std::optional<std::string> set_aside_;
+    std::int64_t session_ = 0;
+    std::uint32_t epoch_ = 0;
+};
+
+/// SHA-256 of a file as hexadecimal digits; nothing where it cannot be read.
+std::optional<std::string> file_digest(const std::string& file);
+
+}  // namespace raybundle

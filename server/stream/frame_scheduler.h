@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+
+#include "stream/viewer_id.h"
+
+namespace raybundle {
+
+/// A viewer that wants a frame now.
+struct FrameRequest {
+    ViewerId viewer = 0;
+    bool moving = false;  ///< its picture changes: served first, and with a larger share
+};
+
+/// Shares rendering time among viewers by deficit round robin (Shreedhar and Varghese, Efficient
+/// Fair Queuing Using Deficit Round-Robin, 1995), in measured milliseconds instead of bytes: a
+/// viewer with a large picture gets fewer frames, not more time. Has no clock of its own.
+class FrameScheduler {
+  public:
+    static constexpr double kMovingQuantumMs = 20.0;  ///< a moving viewer's share of a round
+    static constexpr double kRestingQuantumMs = 5.0;  ///< a resting viewer's
+    static constexpr double kUnknownCostMs = 10.0;    ///< of a frame before the first
+    static constexpr double kMaxCostMs = 10000.0;     ///< longer measurements are cut
+
+    /// The viewer to render for next, or nothing where nobody wants a frame. A viewer that is not
+    /// among the requests loses what it has saved.
+    std::optional<ViewerId> next(std::span<const FrameRequest> requests);
+
+    /// A frame of this viewer has taken so long.
+    void charge(ViewerId viewer, double milliseconds);
+
+    /// Smoothed cost of this viewer's frames.
+    [[nodiscard]] double cost_ms(ViewerId viewer) const;
+
+    void forget(ViewerId viewer) { accounts_.erase(viewer); }
+
+  private:
+    struct Account {
+        double deficit_ms = 0.0;
+        double cost_ms = kUnknownCostMs;
+    };
+
+    std::optional<ViewerId> affordable(std::span<const FrameRequest> requests, bool moving) const;
+    void begin_rounds(std::span<const FrameRequest> requests);
+
+    std::map<ViewerId, Account> accounts_;
+    ViewerId last_ = 0;  ///< served last: the next one in order follows it
+};
+
+}  // namespace raybundle

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// What operators and accidents do to a running server.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "daemon.h"
+#include "json_viewer.h"
+#include "net/access_tokens.h"
+
+namespace raybundle {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kShortBox = 2;
+
+class DaemonTest : public testing::Test {
+  protected:
+    DaemonTest() {
+        std::string pattern = fs::temp_directory_path() / "raybundle_daemon_XXXXXX";
+        folder_ = mkdtemp(pattern.data());
+    }
+    ~DaemonTest() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+
+    fs::path folder_;
+};
+
+const std::string& cornell_box() {
+    static const std::string file = scene_file("cornell_box.gltf");
+    return file;
+}
+
+Json place(double x) {
+    return {{"translation", {{"x", x}, {"y", 0.825}, {"z", 1.7}}}};
+}
+
+Json move(JsonViewer& viewer, double x, bool final = true) {
+    return viewer.request(
+        {{"moveObject", {{"object", kShortBox}, {"transform", place(x)}, {"final", final}}}});
+}
+
+double x_of_box(const Json& welcome) {
+    for (const Json& object : welcome.at("welcome").at("scene").at("objects")) {
+        if (object.at("id") == kShortBox) {
+            return object.at("transform").at("translation").at("x").get<double>();
+        }
+    }
+    return -1.0;
+}
+
+/// Waits until a solution message says that light has been solved for.
+bool solves(JsonViewer& viewer) {
+    const auto solved = [](const Json& message) {
+        return message.contains("solution") && message["solution"].value("iterations", 0) > 16;
+    };
+    return !viewer.next(solved).empty();
+}
+
+TEST_F(DaemonTest, KilledItGoesOnWhereItWas) {
+    const std::vector<std::string> options{"--journal", path("session.db")};
+    std::uint32_t epoch = 0;
+    {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 0);
+        move(viewer, 2.0);
+        move(viewer, 2.3, false);
+        epoch = move(viewer, 2.6).at("sceneChanged").at("epoch").get<std::uint32_t>();
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    EXPECT_EQ(epoch, 3U);
+    for (int restart = 0; restart < 2; ++restart) {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        const Json welcome = viewer.join();
+        EXPECT_EQ(welcome.at("welcome").at("epoch"), epoch);
+        EXPECT_NEAR(x_of_box(welcome), 2.6, 1e-6);
+        EXPECT_TRUE(solves(viewer));
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+}
+
+TEST_F(DaemonTest, KilledWhileItIsWrittenToItLosesNothingAcknowledged) {
+    const std::vector<std::string> options{"--journal", path("session.db")};
+    std::uint32_t acknowledged = 0;
+    {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        viewer.join();
+        for (int i = 0; i < 200; ++i) {
+            viewer.send(
+                {{"id", i + 1},
+                 {"moveObject", {{"object", kShortBox}, {"transform", place(1.5 + 0.005 * i)}}}});
+        }
+        for (int i = 0; i < 5; ++i) {
+            acknowledged =
+                viewer.next_with("sceneChanged").at("sceneChanged").at("epoch").get<unsigned>();
+        }
+        daemon.end(SIGKILL);
+    }
+    ASSERT_GE(acknowledged, 1U);
+    Daemon daemon(cornell_box(), options);
+    JsonViewer viewer(daemon.port());
+    EXPECT_GE(viewer.join().at("welcome").at("epoch").get<unsigned>(), acknowledged);
+}
+
+TEST_F(DaemonTest, WithoutAJournalASessionBeginsAnew) {
+    for (int start = 0; start < 2; ++start) {
+        Daemon daemon(cornell_box());
+        JsonViewer viewer(daemon.port());
+        EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 0);
+        EXPECT_EQ(move(viewer, 2.0).at("sceneChanged").at("epoch"), 1);
+    }
+}
+
+TEST_F(DaemonTest, ADamagedJournalIsReportedAndSetAside) {
+    std::ofstream(path("session.db")) << "not a database, whatever else it may have been once";
+    Daemon daemon(cornell_box(), {"--journal", path("session.db")});
+    EXPECT_TRUE(daemon.says("the journal was damaged"));
+    JsonViewer viewer(daemon.port());
+    viewer.join();
+    EXPECT_EQ(move(viewer, 2.0).at("sceneChanged").at("epoch"), 1);
+}
+
+TEST_F(DaemonTest, AJournalThatCannotBeWrittenStopsChangesNotViewing) {
+    Daemon daemon(cornell_box(), {"--journal", path("no/such/folder/session.db")});
+    EXPECT_TRUE(daemon.says("changes cannot be saved"));
+    JsonViewer viewer(daemon.port());
+    viewer.join();
+    const Json refusal = move(viewer, 2.0);
+    ASSERT_TRUE(refusal.contains("error")) << refusal.dump();
+    EXPECT_EQ(refusal.at("error").at("code"), "INTERNAL");
+    EXPECT_EQ(refusal.dump().find(folder_.string()), std::string::npos) << "no paths in errors";
+    EXPECT_TRUE(solves(viewer));
+    EXPECT_FALSE(viewer.next_frame([](const Json& frame) { return frame["epoch"] == 0; }).empty());
+    EXPECT_NE(http_exchange(daemon.port(),
+                            "GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n")
+                  .find("raybundle_viewers 1"),
+              std::string::npos);
+}
+
+TEST_F(DaemonTest, SigtermSaysGoodbyeAndEndsWithSuccess) {
+    Daemon daemon(cornell_box());
+    JsonViewer viewer(daemon.port());
+    viewer.join();
+    RawClient silent(daemon.port());
+    const auto start = Clock::now();
+    daemon.signal(SIGTERM);
+    EXPECT_EQ(viewer.close_code(), 1001);
+    EXPECT_EQ(daemon.wait(), 0);
+    EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
+}
+
+TEST_F(DaemonTest, SighupReadsTokensAgainAndWrongSettingsChangeNothing) {
+    const std::string first(64, '1');
+    const std::string second(64, '2');
+    const auto configure = [&](const std::string& token) {
+        std::ofstream(path("site.json")) << R"({"tokens":[{"name":"a","role":"EDITOR","sha256":")"
+                                         << to_hex(token_digest(token)) << R"("}]})";
+    };
+    configure(first);
+    Daemon daemon(cornell_box(), {"--config", path("site.json")});
+    JsonViewer old_viewer(daemon.port());
+    EXPECT_EQ(old_viewer.join(first).at("welcome").at("role"), "EDITOR");
+    std::ofstream(path("site.json")) << R"({"tokenz":[]})";
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(daemon.says("did you mean 'tokens'?"));
+    EXPECT_TRUE(old_viewer.request({{"ping", Json::object()}}).contains("pong"));
+    configure(second);
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(daemon.says("have been read again"));
+    EXPECT_EQ(old_viewer.close_code(), 1008);
+    EXPECT_TRUE(JsonViewer(daemon.port()).join(first).contains("error"));
+    EXPECT_TRUE(JsonViewer(daemon.port()).join(second).contains("welcome"));
+}
+
+TEST_F(DaemonTest, AReplacedSceneIsServedAndARejectedOneIsNot) {
+    fs::copy_file(cornell_box(), path("scene.gltf"));
+    for (const char* companion : {"cornell_box.bin"}) {
+        if (fs::exists(scene_file(companion))) {
+            fs::copy_file(scene_file(companion), path(companion));
+        }
+    }
+    Daemon daemon(path("scene.gltf"), {"--watch"});
+    JsonViewer viewer(daemon.port());
+    EXPECT_TRUE(viewer.join().contains("welcome"));
+
+    std::ofstream(path("broken.gltf")) << R"({"asset":{"version":"2.0"},"scenes":7})";
+    fs::rename(path("broken.gltf"), path("scene.gltf"));
+    EXPECT_TRUE(daemon.says("the scene stays as it was"));
+    EXPECT_EQ(move(viewer, 2.0).at("sceneChanged").at("epoch"), 1) << "the old scene is there";
+
+    Json scene = Json::parse(std::ifstream(cornell_box()));
+    for (Json& node : scene["nodes"]) {
+        if (node.value("name", "") == "short box") {
+            node["name"] = "renamed box";
+        }
+    }
+    std::ofstream(path("new.gltf")) << scene.dump();
+    fs::rename(path("new.gltf"), path("scene.gltf"));
+    EXPECT_EQ(viewer.close_code(), 1012);
+    JsonViewer again(daemon.port());
+    const Json welcome = again.join();
+    EXPECT_NE(welcome.dump().find("renamed box"), std::string::npos) << welcome.dump();
+    EXPECT_EQ(welcome.at("welcome").at("epoch"), 0);
+    EXPECT_TRUE(solves(again));
+    EXPECT_EQ(daemon.end(), 0);
+}
+
+}  // namespace
+}  // namespace raybundle

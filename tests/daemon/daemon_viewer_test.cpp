@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many viewers, and bad ones among them.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "daemon.h"
+#include "json_viewer.h"
+
+namespace raybundle {
+namespace {
+
+double metric(std::uint16_t port, const std::string& name) {
+    const std::string text =
+        http_exchange(port, "GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+    const std::size_t found = text.find("\n" + name + " ");
+    return found == std::string::npos ? -1.0 : std::stod(text.substr(found + name.size() + 2));
+}
+
+/// Waits up to twenty seconds for a metric to reach a value.
+bool reaches(std::uint16_t port, const std::string& name, double value) {
+    for (int i = 0; i < 100; ++i) {
+        if (metric(port, name) == value) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+    return false;
+}
+
+class ViewersTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        daemon_ =
+            std::make_unique<Daemon>(scene_file("cornell_box.gltf"),
+                                     std::vector<std::string>{"--min-frames-per-second", "2"});
+    }
+    static void TearDownTestSuite() { daemon_.reset(); }
+
+    static std::unique_ptr<Daemon> daemon_;
+};
+
+std::unique_ptr<Daemon> ViewersTest::daemon_;
+
+TEST_F(ViewersTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
+    JsonViewer small(daemon_->port());
+    EXPECT_TRUE(small.join().contains("welcome"));
+    JsonViewer another(daemon_->port());
+    EXPECT_TRUE(another.join().contains("welcome"));
+    std::vector<std::unique_ptr<JsonViewer>> large;
+    Json refusal;
+    for (int i = 0; i < 12 && refusal.empty(); ++i) {
+        large.push_back(std::make_unique<JsonViewer>(daemon_->port()));
+        const Json answer = large.back()->join("", 3840, 2160);
+        if (answer.contains("error") || !answer.contains("welcome")) {
+            refusal = answer;
+        }
+    }
+    ASSERT_FALSE(refusal.empty()) << "twelve 4K pictures were admitted";
+    EXPECT_EQ(refusal.at("error").at("code"), "RESOURCE_EXHAUSTED");
+    EXPECT_NE(refusal.at("error").at("message").get<std::string>().find("fit"), std::string::npos);
+    EXPECT_GE(metric(daemon_->port(), "raybundle_viewers_refused_total"), 1.0);
+    const Json grown = small.request({{"setViewport", {{"width", 3840}, {"height", 2160}}}});
+    EXPECT_EQ(grown.at("error").at("code"), "RESOURCE_EXHAUSTED") << grown.dump();
+}
+
+TEST_F(ViewersTest, AViewerThatAcknowledgesNothingIsPausedAndComesBack) {
+    JsonViewer active(daemon_->port());
+    active.join();
+    RawClient hidden(daemon_->port());
+    hidden.upgrade();
+    hidden.send_text(
+        R"({"id":1,"hello":{"protocol":"1.0","viewport":{"width":160,"height":120}}})");
+    // The active one must keep acknowledging meanwhile.
+    bool paused = false;
+    for (int i = 0; i < 100 && !paused; ++i) {
+        active.request({{"ping", Json::object()}});
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        paused = metric(daemon_->port(), "raybundle_paused_viewers") == 1.0;
+    }
+    EXPECT_TRUE(paused);
+    for (int frame = 1; frame <= 50; ++frame) {
+        hidden.send_text(R"({"ack":{"frame":)" + std::to_string(frame) + R"(,"decodeMs":1}})");
+    }
+    EXPECT_TRUE(reaches(daemon_->port(), "raybundle_paused_viewers", 0.0));
+}
+
+TEST_F(ViewersTest, EndsInTheMiddleOfEverythingLeaveNothingBehind) {
+    for (int i = 0; i < 20; ++i) {
+        RawClient client(daemon_->port());
+        client.upgrade();
+        client.send_text(
+            R"({"id":1,"hello":{"protocol":"1.0","viewport":{"width":160,"height":120}}})");
+        if (i % 4 == 1) {
+            client.read_message();
+        }
+        if (i % 4 >= 2) {
+            client.send(std::string("\x81\xfe\x01\x00\x11\x22\x33\x44{\"set", 13));
+        }
+        client.reset();
+    }
+    EXPECT_TRUE(reaches(daemon_->port(), "raybundle_viewers", 0.0));
+    EXPECT_TRUE(reaches(daemon_->port(), "raybundle_rendered_viewers", 0.0));
+    JsonViewer viewer(daemon_->port());
+    EXPECT_TRUE(viewer.join().contains("welcome"));
+}
+
+TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
+    constexpr int kViewers = 6;
+    std::vector<std::unique_ptr<JsonViewer>> viewers;
+    for (int i = 0; i < kViewers; ++i) {
+        viewers.push_back(std::make_unique<JsonViewer>(daemon_->port()));
+        ASSERT_TRUE(viewers.back()->join("", 320, 180).contains("welcome"));
+    }
+    for (int turn = 1; turn <= 5; ++turn) {
+        for (int i = 0; i < kViewers; ++i) {
+            viewers[static_cast<std::size_t>(i)]->send(
+                {{"id", turn},
+                 {"setCamera",
+                  {{"eye", {{"x", 2.7 + 0.1 * turn}, {"y", 2.7}, {"z", -7.5 + 0.1 * i}}},
+                   {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+        }
+        for (auto& viewer : viewers) {
+            EXPECT_FALSE(
+                viewer->next_frame([&](const Json& f) { return f["cameraId"] == turn; }).empty());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/cost_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace raybundle {
+namespace {
+
+constexpr double kPixels = 800.0 * 600.0;
+
+/// Iterations that cost 10 ms and 30 ms a megapixel, frames 50 ms a megapixel.
+CostModel learnt() {
+    CostModel model;
+    for (int i = 0; i < 1000; ++i) {
+        const double pixels = kPixels * (i / 100 % 5);
+        model.note_iteration(10.0 + 30e-6 * pixels, pixels);
+        model.note_frame(50e-6 * kPixels, kPixels);
+    }
+    return model;
+}
+
+TEST(CostModel, LearnsWhatViewersCost) {
+    const CostModel model = learnt();
+    EXPECT_NEAR(model.round_ms(0.0), 10.0, 1.0);
+    EXPECT_NEAR(model.round_ms(10 * kPixels), 10.0 + 80e-6 * 10 * kPixels, 8.0);
+}
+
+TEST(CostModel, AssumesSomethingBeforeItKnows) {
+    const CostModel model;
+    EXPECT_NEAR(model.round_ms(640000.0), 40.0, 5.0);
+}
+
+TEST(CostModel, WithOneSizeOnlyTheSlopeStaysInBounds) {
+    CostModel model;
+    for (int i = 0; i < 1000; ++i) {
+        model.note_iteration(2.0, kPixels);
+    }
+    const double slope = model.round_ms(1e6) - model.round_ms(0.0);
+    EXPECT_GT(slope, 0.0);
+    EXPECT_LE(slope, 2.0 / kPixels * 1e6 + 44.1);
+    EXPECT_GE(model.round_ms(0.0), 0.0);
+}
+
+TEST(CostModel, AdmitsUntilTheRoundIsFullAndSaysWhatWouldFit) {
+    const CostModel model = learnt();
+    constexpr double kLimitMs = 1000.0;
+    double present = 0.0;
+    int viewers = 0;
+    while (model.admit(800, 600, present, kLimitMs).fits && viewers < 1000) {
+        present += kPixels;
+        ++viewers;
+    }
+    // (1000 - 10) ms / (80e-6 ms * 480 000) = 25.8
+    EXPECT_GE(viewers, 24);
+    EXPECT_LE(viewers, 27);
+    const auto refused = model.admit(3840, 2160, 20 * kPixels, kLimitMs);
+    EXPECT_FALSE(refused.fits);
+    ASSERT_TRUE(refused.would_fit.has_value());
+    const auto [width, height] = *refused.would_fit;
+    EXPECT_TRUE(model.admit(width, height, 20 * kPixels, kLimitMs).fits);
+    EXPECT_FALSE(model.admit(width + 40, height + 40, 20 * kPixels, kLimitMs).fits);
+    EXPECT_NEAR(static_cast<double>(width) / height, 16.0 / 9.0, 0.01);
+}
+
+TEST(CostModel, NothingFitsWhereItIsFullButTheFirstViewerAlwaysDoes) {
+    const CostModel model = learnt();
+    EXPECT_FALSE(model.admit(64, 64, 100 * kPixels, 1000.0).would_fit.has_value());
+    EXPECT_TRUE(model.admit(3840, 2160, 0.0, 1.0).fits);
+}
+
+TEST(CostModel, NonsenseIsIgnored) {
+    CostModel model = learnt();
+    const double before = model.round_ms(kPixels);
+    model.note_iteration(std::nan(""), kPixels);
+    model.note_iteration(-1.0, kPixels);
+    model.note_frame(1.0, 0.0);
+    EXPECT_EQ(model.round_ms(kPixels), before);
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "journal/session_journal.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+namespace raybundle {
+namespace {
+
+namespace fs = std::filesystem;
+
+v1::SceneChanged move(std::uint32_t epoch, std::uint32_t object, float x) {
+    v1::SceneChanged change;
+    change.set_epoch(epoch);
+    change.set_by(3);
+    change.mutable_move_object()->set_object(object);
+    change.mutable_move_object()->mutable_transform()->mutable_translation()->set_x(x);
+    return change;
+}
+
+v1::SceneChanged light(std::uint32_t epoch, std::uint32_t id) {
+    v1::SceneChanged change;
+    change.set_epoch(epoch);
+    change.mutable_set_light()->set_light(id);
+    return change;
+}
+
+class SessionJournalTest : public testing::Test {
+  protected:
+    SessionJournalTest() {
+        std::string pattern = fs::temp_directory_path() / "raybundle_journal_XXXXXX";
+        folder_ = mkdtemp(pattern.data());
+        settings_.file = folder_ / "session.db";
+        settings_.scene_name = "room";
+        settings_.scene_digest = "digest of the room";
+    }
+    ~SessionJournalTest() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+
+    [[nodiscard]] std::size_t damaged_files() const {
+        std::size_t count = 0;
+        for (const auto& entry : fs::directory_iterator(folder_)) {
+            count += entry.path().string().find(".damaged-") != std::string::npos ? 1 : 0;
+        }
+        return count;
+    }
+
+    fs::path folder_;
+    JournalSettings settings_;
+};
+
+TEST_F(SessionJournalTest, ANewOneIsEmpty) {
+    SessionJournal journal(settings_);
+    EXPECT_EQ(journal.epoch(), 0U);
+    EXPECT_TRUE(journal.changes().empty());
+}
+
+TEST_F(SessionJournalTest, GoesOnWhereItWas) {
+    {
+        SessionJournal journal(settings_);
+        journal.append(move(1, 2, 0.5F));
+        journal.append(move(2, 1, 1.5F));
+        journal.append(move(3, 2, 2.5F));
+    }
+    SessionJournal journal(settings_);
+    EXPECT_EQ(journal.epoch(), 3U);
+    const auto changes = journal.changes();
+    ASSERT_EQ(changes.size(), 2U) << "an object's earlier places are forgotten";
+    EXPECT_EQ(changes[0].move_object().object(), 1U);
+    EXPECT_EQ(changes[1].SerializeAsString(), move(3, 2, 2.5F).SerializeAsString());
+}
+
+TEST_F(SessionJournalTest, PartialChangesOfALightAddUp) {
+    v1::SceneChanged off = light(1, 4);
+    off.mutable_set_light()->set_on(false);
+    v1::SceneChanged dim = light(2, 4);
+    dim.mutable_set_light()->set_intensity(80.0F);
+    {
+        SessionJournal journal(settings_);
+        journal.append(off);
+        journal.append(dim);
+        journal.append(light(3, 5));
+    }
+    const auto changes = SessionJournal(settings_).changes();
+    ASSERT_EQ(changes.size(), 2U);
+    EXPECT_TRUE(changes[0].set_light().has_on());
+    EXPECT_FALSE(changes[0].set_light().on());
+    EXPECT_EQ(changes[0].set_light().intensity(), 80.0F);
+    EXPECT_EQ(changes[0].epoch(), 2U);
+}
+
+TEST_F(SessionJournalTest, AnotherSceneIsAnotherSession) {
+    SessionJournal(settings_).append(move(1, 1, 1.0F));
+    JournalSettings other = settings_;
+    other.scene_digest = "digest of the hall";
+    EXPECT_EQ(SessionJournal(other).epoch(), 0U);
+    EXPECT_EQ(SessionJournal(settings_).epoch(), 1U);
+}
+
+TEST_F(SessionJournalTest, OneServerAtATime) {
+    const SessionJournal first(settings_);
+    EXPECT_THROW(SessionJournal second(settings_), JournalError);
+}
+
+/// A process that appends until it is killed; what it has reported before must be there after.
+TEST_F(SessionJournalTest, WhatWasAppendedSurvivesKill) {
+    for (int round = 0; round < 5; ++round) {
+        int reports[2];
+        ASSERT_EQ(pipe(reports), 0);
+        const pid_t child = fork();
+        if (child == 0) {
+            SessionJournal journal(settings_);
+            for (std::uint32_t epoch = journal.epoch() + 1; true; ++epoch) {
+                journal.append(move(epoch, epoch % 7 + 1, static_cast<float>(epoch)));
+                if (write(reports[1], &epoch, sizeof epoch) != sizeof epoch) {
+                    _exit(1);
+                }
+            }
+        }
+        std::uint32_t acknowledged = 0;
+        for (int i = 0; i < 20 + round; ++i) {
+            ASSERT_EQ(read(reports[0], &acknowledged, sizeof acknowledged),
+                      static_cast<ssize_t>(sizeof acknowledged));
+        }
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        close(reports[1]);
+        for (std::uint32_t later = 0; read(reports[0], &later, sizeof later) == sizeof later;) {
+            acknowledged = later;
+        }
+        close(reports[0]);
+        SessionJournal journal(settings_);
+        EXPECT_GE(journal.epoch(), acknowledged);
+        EXPECT_LE(journal.epoch(), acknowledged + 1);
+        const auto changes = journal.changes();
+        ASSERT_FALSE(changes.empty());
+        EXPECT_EQ(changes.back().epoch(), journal.epoch());
+        EXPECT_LE(changes.size(), 7U);
+        EXPECT_FALSE(journal.set_aside());
+    }
+}
+
+TEST_F(SessionJournalTest, ADamagedFileIsSetAside) {
+    SessionJournal(settings_).append(move(1, 1, 1.0F));
+    std::ofstream(settings_.file, std::ios::binary) << "this is no database at all, not even close";
+    SessionJournal journal(settings_);
+    ASSERT_TRUE(journal.set_aside().has_value());
+    EXPECT_TRUE(fs::exists(*journal.set_aside()));
+    EXPECT_EQ(journal.epoch(), 0U);
+    EXPECT_NO_THROW(journal.append(move(1, 1, 1.0F)));
+}
+
+TEST_F(SessionJournalTest, DamageInTheMiddleIsFound) {
+    {
+        SessionJournal journal(settings_);
+        for (std::uint32_t i = 1; i <= 400; ++i) {
+            journal.append(move(i, i, 1.0F));
+        }
+    }
+    const auto size = fs::file_size(settings_.file);
+    ASSERT_GT(size, 20000U);
+    std::fstream stream(settings_.file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(8192);
+    stream << std::string(size - 8192 - 4096, '\x55');
+    stream.close();
+    EXPECT_TRUE(SessionJournal(settings_).set_aside().has_value());
+    EXPECT_EQ(damaged_files(), 1U);
+}
+
+TEST_F(SessionJournalTest, AFullDiskIsAnErrorAndChangesNothing) {
+    settings_.max_bytes = 10 * 4096;
+    SessionJournal journal(settings_);
+    std::uint32_t epoch = 0;
+    bool full = false;
+    for (std::uint32_t i = 1; i <= 2000 && !full; ++i) {
+        try {
+            journal.append(move(i, i, 1.0F));
+            epoch = i;
+        } catch (const JournalError& error) {
+            full = true;
+            EXPECT_NE(std::string(error.what()).find("full"), std::string::npos) << error.what();
+        }
+    }
+    ASSERT_TRUE(full);
+    EXPECT_EQ(journal.epoch(), epoch);
+    EXPECT_EQ(journal.changes().size(), epoch);
+    EXPECT_NO_THROW(journal.append(move(epoch + 1, 1, 2.0F))) << "it replaces another";
+}
+
+TEST_F(SessionJournalTest, NewerVersionsAndMissingFoldersAreErrorsThatNameTheFile) {
+    SessionJournal(settings_).append(move(1, 1, 1.0F));
+    SqliteDatabase(settings_.file).execute("PRAGMA user_version=99");
+    try {
+        const SessionJournal journal(settings_);
+        ADD_FAILURE() << "version 99 was accepted";
+    } catch (const JournalError& error) {
+        EXPECT_NE(std::string(error.what()).find("version 99"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find(settings_.file), std::string::npos);
+    }
+    EXPECT_EQ(damaged_files(), 0U) << "it belongs to a newer server";
+    settings_.file = folder_ / "missing" / "session.db";
+    EXPECT_THROW(SessionJournal journal(settings_), JournalError);
+}
+
+TEST(FileDigest, IsSha256) {
+    const auto file = fs::temp_directory_path() / "raybundle_digest_test";
+    std::ofstream(file) << "abc";
+    EXPECT_EQ(file_digest(file),
+              "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    fs::remove(file);
+    EXPECT_FALSE(file_digest(file));
+}
+
+}  // namespace
+}  // namespace raybundle
