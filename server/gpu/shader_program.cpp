@@ -38,7 +38,7 @@ void expand(const std::string& name, int depth, std::vector<std::string>& names,
         if (line.rfind("#include \"", 0) == 0) {
             const std::string included = line.substr(10, line.find('"', 10) - 10);
             const std::string guard = "INCLUDED_" + included.substr(0, included.find('.'));
-            out += "#ifndef " + guard + "\n#define " + guard + "\n";
+            out.append("#ifndef ").append(guard).append("\n#define ").append(guard).append("\n");
             out += "#line 1 " + std::to_string(names.size()) + "\n";
             expand(included, depth + 1, names, out);
             out += "#endif\n";
