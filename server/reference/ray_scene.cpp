@@ -202,6 +202,11 @@ bool RayScene::mutually_visible(const SurfacePoint& a, const SurfacePoint& b) co
     return !occluded(origin, departure(b) - origin, 1.0F);
 }
 
+bool RayScene::sees_point(const SurfacePoint& from, const glm::dvec3& point) const {
+    const glm::vec3 origin = departure(from);
+    return !occluded(origin, glm::vec3(point) - origin, 1.0F);
+}
+
 bool RayScene::sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const {
     return !occluded(departure(from), glm::vec3(direction), infinity);
 }

@@ -52,6 +52,8 @@ class RayScene {
                                                          const glm::dvec3& direction) const;
     /// Whether nothing lies between two surface points, each in front of the other.
     [[nodiscard]] bool mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const;
+    /// Whether nothing lies between a surface point and a point in space in front of it.
+    [[nodiscard]] bool sees_point(const SurfacePoint& from, const glm::dvec3& point) const;
     /// Whether a ray from a surface point meets nothing.
     [[nodiscard]] bool sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const;
 

@@ -53,6 +53,13 @@ double Scattering::density(const glm::dvec3& incoming) const {
     return pdf(brdf_, glm::vec3(frame_.to_local(incoming)), outgoing_);
 }
 
+double Scattering::reverse_density(const glm::dvec3& incoming) const {
+    if (!in_front(incoming)) {
+        return 0.0;
+    }
+    return pdf(brdf_, outgoing_, glm::vec3(frame_.to_local(incoming)));
+}
+
 std::optional<ScatterSample> Scattering::sample(const glm::dvec2& u, double choice) const {
     const BrdfSample drawn =
         raybundle::sample(brdf_, outgoing_, glm::vec2(u), static_cast<float>(choice));

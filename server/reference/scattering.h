@@ -40,6 +40,9 @@ class Scattering {
     [[nodiscard]] glm::dvec3 reflectance(const glm::dvec3& incoming) const;
     /// Density with which sample() draws a direction, 1/sr.
     [[nodiscard]] double density(const glm::dvec3& incoming) const;
+    /// Density with which the outgoing direction would be drawn for light to or from `incoming`,
+    /// 1/sr. Geometric normals only.
+    [[nodiscard]] double reverse_density(const glm::dvec3& incoming) const;
     /// Nothing where the direction drawn lies behind the surface. u and choice: independent uniform
     /// numbers in (0, 1).
     [[nodiscard]] std::optional<ScatterSample> sample(const glm::dvec2& u, double choice) const;

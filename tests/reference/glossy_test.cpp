@@ -70,30 +70,6 @@ TEST(GlossyFloor, ReflectsItsAlbedoOfAUniformSky) {
     }
 }
 
-/// A sphere of n rings, fronts inwards.
-SceneBuilder sphere(int n, const Material& material) {
-    SceneBuilder b;
-    b.set_transform(odd_rotation());
-    const auto m = add_material(b, material);
-    const auto point = [n](int i, int j) {
-        const double theta = pi * i / n;
-        const double phi = pi * j / n;
-        return glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
-                         std::sin(theta) * std::sin(phi));
-    };
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < 2 * n; ++j) {
-            if (i > 0) {
-                b.add_triangle(point(i, j), point(i + 1, j), point(i, j + 1), m);
-            }
-            if (i + 1 < n) {
-                b.add_triangle(point(i, j + 1), point(i + 1, j), point(i + 1, j + 1), m);
-            }
-        }
-    }
-    return b;
-}
-
 /// Irradiance in a sphere that emits Le = 1 everywhere. Both ends of a chord make the same angle
 /// with the normal, so radiance is a function of one cosine: L(c) = 1 + integral of K(c, c') L(c')
 /// dc', K = c' times the mean of f_r over azimuths times 2 pi; and E = 2 pi integral of L c dc.
@@ -137,7 +113,9 @@ TEST(GlossyFurnace, SphereHasTheIrradianceOfItsIntegralEquation) {
     materials[0].material.base_colour = glm::vec3(0.95F);  // its gloss is slight: many bounces
     for (NamedMaterial& named : materials) {
         named.material.emission = glm::vec3(1.0F);
-        const SceneBuilder b = sphere(48, named.material);
+        SceneBuilder b;
+        b.set_transform(odd_rotation());
+        add_sphere(b, glm::vec3(0.0F), 1.0F, 48, true, add_material(b, named.material));
         const Tracing t(b);
         const double exact =
             sphere_irradiance(make_brdf(named.material, named.material.base_colour));

@@ -90,6 +90,29 @@ std::vector<NamedMaterial> glossy_materials() {
     return {{"plastic", plastic}, {"metal", metal}, {"max_phong", phong}};
 }
 
+void add_sphere(SceneBuilder& builder, const glm::vec3& centre, float radius, int rings,
+                bool inwards, std::uint32_t material) {
+    const auto point = [&](int i, int j) {
+        const double theta = glm::pi<double>() * i / rings;
+        const double phi = glm::pi<double>() * j / rings;
+        return centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                           std::sin(theta) * std::sin(phi));
+    };
+    const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+        builder.add_triangle(a, inwards ? b : c, inwards ? c : b, material);
+    };
+    for (int i = 0; i < rings; ++i) {
+        for (int j = 0; j < 2 * rings; ++j) {
+            if (i > 0) {
+                add(point(i, j), point(i + 1, j), point(i, j + 1));
+            }
+            if (i + 1 < rings) {
+                add(point(i, j + 1), point(i + 1, j), point(i + 1, j + 1));
+            }
+        }
+    }
+}
+
 std::uint32_t add_material(SceneBuilder& builder, const Material& material) {
     builder.scene.materials.push_back(material);
     return static_cast<std::uint32_t>(builder.scene.materials.size()) - 1;

@@ -43,6 +43,10 @@ struct NamedMaterial {
 };
 std::vector<NamedMaterial> glossy_materials();
 
+/// Adds a sphere of `rings` rings of flat triangles, fronts inwards (a room) or outwards.
+void add_sphere(SceneBuilder& builder, const glm::vec3& centre, float radius, int rings,
+                bool inwards, std::uint32_t material);
+
 /// Adds a material of any kind; returns its index.
 std::uint32_t add_material(SceneBuilder& builder, const Material& material);
 
