@@ -44,6 +44,10 @@ const MethodRow method_table[] = {
     {"path", ReferenceKind::path},
     {"single-ray", ReferenceKind::single_ray},
     {"ray-cast", ReferenceKind::ray_cast},
+    {"light", ReferenceKind::light},
+    {"bidirectional", ReferenceKind::bidirectional},
+    {"metropolis", ReferenceKind::metropolis},
+    {"photon-map", ReferenceKind::photon_map},
 };
 
 std::string method_names() {
@@ -147,7 +151,8 @@ void add_render(CLI::App& app, Options& o) {
         ->check(CLI::PositiveNumber);
     app.add_option("--method", o.method,
                    "On the GPU combined, parallel-layered, perspective; on the CPU, as references, "
-                   "path, single-ray, ray-cast (direct light alone)")
+                   "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
+                   "metropolis, photon-map")
         ->capture_default_str();
     app.add_option("--stats", o.stats, "Write statistics as JSON");
 }

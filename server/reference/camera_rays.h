@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "reference/ray_scene.h"
 #include "scene/camera_axes.h"
 
 namespace raybundle {
+
+/// Where a picture shows what lies in a direction.
+struct FilmPoint {
+    std::size_t pixel = 0;    ///< row by row from the top
+    double importance = 0.0;  ///< pixels per solid angle there, 1/sr
+};
 
 /// Rays of a picture, in the own space of a ray scene.
 class CameraRays {
@@ -17,6 +25,8 @@ class CameraRays {
         right_ = axes.right;
         up_ = axes.up;
         forward_ = axes.forward;
+        pixels_per_area_ =
+            static_cast<double>(size.x) * size.y / (4.0 * glm::length(right_) * glm::length(up_));
     }
 
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
@@ -28,10 +38,37 @@ class CameraRays {
         return glm::normalize(forward_ + edge.x * right_ - edge.y * up_);
     }
 
+    /// Nothing outside the picture. direction: unit.
+    [[nodiscard]] std::optional<FilmPoint> project(const glm::dvec3& direction) const {
+        const double along = glm::dot(direction, forward_);
+        if (!(along > 0.0)) {
+            return std::nullopt;
+        }
+        const glm::dvec3 on_plane = direction / along;
+        const glm::dvec2 edge(glm::dot(on_plane, right_) / glm::dot(right_, right_),
+                              -glm::dot(on_plane, up_) / glm::dot(up_, up_));
+        const glm::dvec2 at = (edge + 1.0) * 0.5 * glm::dvec2(size_);
+        if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < size_.x && at.y < size_.y)) {
+            return std::nullopt;
+        }
+        return FilmPoint{static_cast<std::size_t>(at.y) * size_.x + static_cast<std::size_t>(at.x),
+                         pixels_per_area_ / (along * along * along)};
+    }
+    /// One pixel's share of the picture.
+    [[nodiscard]] double pixel_share() const {
+        return 1.0 / (static_cast<double>(size_.x) * size_.y);
+    }
+    /// Density of a direction within the picture when its points are drawn evenly, 1/sr.
+    [[nodiscard]] double density(const glm::dvec3& direction) const {
+        const double along = glm::dot(direction, forward_);
+        return pixels_per_area_ * pixel_share() / (along * along * along);
+    }
+
   private:
     glm::dvec3 origin_;
     glm::uvec2 size_;
     glm::dvec3 right_{0.0}, up_{0.0}, forward_{0.0};
+    double pixels_per_area_ = 0.0;  // of the plane at distance 1
 };
 
 }  // namespace raybundle

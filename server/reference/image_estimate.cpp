@@ -29,32 +29,56 @@ ImageEstimate::ImageEstimate(glm::uvec2 size, std::uint64_t seed, PixelFilter fi
 void ImageEstimate::add_pass(const CameraRays& camera, const RadianceEstimator& estimator) {
     const std::size_t pixels = sums_.size() / batches;
     std::atomic<std::uint64_t> dropped{0};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, pixels_per_task),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
-                              if (!add_sample(pixel, camera, estimator)) {
-                                  ++dropped;
-                              }
-                          }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, pixels, pixels_per_task),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+                PixelRay ray = next_ray(pixel, camera);
+                if (!add(pixel, estimator(camera.origin(), ray.direction, ray.sampler))) {
+                    ++dropped;
+                }
+            }
+        });
     ++passes_;
     non_finite_ += dropped;
 }
 
-bool ImageEstimate::add_sample(std::size_t pixel, const CameraRays& camera,
-                               const RadianceEstimator& estimator) {
+void ImageEstimate::add_splatting_pass(const CameraRays& camera,
+                                       const SplattingEstimator& estimator) {
+    const std::size_t pixels = sums_.size() / batches;
+    const std::size_t tasks = (pixels + pixels_per_task - 1) / pixels_per_task;
+    std::vector<std::vector<Splat>> splats(tasks);
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+        const std::size_t last = std::min((task + 1) * pixels_per_task, pixels);
+        for (std::size_t pixel = task * pixels_per_task; pixel < last; ++pixel) {
+            PixelRay ray = next_ray(pixel, camera);
+            const glm::dvec3 value =
+                estimator(camera.origin(), ray.direction, ray.sampler, splats[task]);
+            splats[task].push_back({pixel, value});
+        }
+    });
+    for (const std::vector<Splat>& list : splats) {
+        for (const Splat& splat : list) {
+            non_finite_ += add(splat.pixel, splat.value) ? 0 : 1;
+        }
+    }
+    ++passes_;
+}
+
+ImageEstimate::PixelRay ImageEstimate::next_ray(std::size_t pixel, const CameraRays& camera) const {
     const auto batch = static_cast<std::uint32_t>(passes_ % batches);
     PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch,
                          static_cast<std::uint32_t>(passes_ / batches));
-    const std::size_t column = pixel % size_.x;
-    const std::size_t row = pixel / size_.x;
-    const glm::dvec2 corner(static_cast<double>(column), static_cast<double>(row));
+    const glm::dvec2 corner(static_cast<double>(pixel % size_.x),
+                            static_cast<double>(pixel / size_.x));
     const glm::dvec2 within = filter_ == PixelFilter::box ? sampler.next_pair() : glm::dvec2(0.5);
-    const glm::dvec3 direction = camera.direction(corner + within);
-    const glm::dvec3 value = estimator(camera.origin(), direction, sampler);
+    return {camera.direction(corner + within), sampler};
+}
+
+bool ImageEstimate::add(std::size_t pixel, const glm::dvec3& value) {
     const bool finite = is_finite(value);
     if (finite) {
-        sums_[pixel * batches + batch] += value;
+        sums_[pixel * batches + passes_ % batches] += value;
     }
     return finite;
 }

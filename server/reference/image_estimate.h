@@ -41,6 +41,17 @@ class VarianceSum {
 using RadianceEstimator = std::function<glm::dvec3(
     const glm::dvec3& origin, const glm::dvec3& direction, PixelSampler& sampler)>;
 
+/// Light for a pixel other than the one being sampled: its part of one pass' picture, cd/m².
+struct Splat {
+    std::size_t pixel = 0;
+    glm::dvec3 value{0.0};
+};
+
+/// An estimator that may add to other pixels too.
+using SplattingEstimator =
+    std::function<glm::dvec3(const glm::dvec3& origin, const glm::dvec3& direction,
+                             PixelSampler& sampler, std::vector<Splat>& splats)>;
+
 /// What a pixel measures: the mean over its area, or its centre alone, as the viewers' geometry
 /// buffers do.
 enum class PixelFilter { box, centre };
@@ -56,6 +67,8 @@ class ImageEstimate {
     /// Adds one sample to every pixel. The result depends on the seed and the number of passes
     /// alone, not on the number of threads.
     void add_pass(const CameraRays& camera, const RadianceEstimator& estimator);
+    /// The same; splats are added in order of the pixels that they come from.
+    void add_splatting_pass(const CameraRays& camera, const SplattingEstimator& estimator);
 
     [[nodiscard]] const glm::uvec2& size() const { return size_; }
     [[nodiscard]] std::uint64_t passes() const { return passes_; }
@@ -69,9 +82,14 @@ class ImageEstimate {
     [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
 
   private:
-    /// False where the sample is not finite and was dropped.
-    bool add_sample(std::size_t pixel, const CameraRays& camera,
-                    const RadianceEstimator& estimator);
+    struct PixelRay {
+        glm::dvec3 direction;
+        PixelSampler sampler;
+    };
+
+    [[nodiscard]] PixelRay next_ray(std::size_t pixel, const CameraRays& camera) const;
+    /// False where the value is not finite and was dropped.
+    bool add(std::size_t pixel, const glm::dvec3& value);
 
     glm::uvec2 size_;
     std::uint64_t seed_;

@@ -94,6 +94,15 @@ EmittedParticle LightSampling::emit_from_sky(const glm::dvec2& at,
     return particle;
 }
 
+double LightSampling::sky_direction_density() const {
+    return sky_probability_ / (4.0 * pi);
+}
+
+double LightSampling::sky_disc_density() const {
+    const double radius = 0.5 * scene_.diameter();
+    return 1.0 / (pi * radius * radius);
+}
+
 std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const Frame& receiver,
                                                  double choice, const glm::dvec2& at) const {
     if (choice >= sky_probability_) {

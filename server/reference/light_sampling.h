@@ -49,6 +49,15 @@ class LightSampling {
                                  const glm::dvec3& direction,
                                  const std::optional<SurfacePoint>& hit) const;
 
+    /// Density with which a point of a patch is chosen, 1/own area.
+    [[nodiscard]] double area_density(std::uint32_t patch) const {
+        return density_per_area_[patch];
+    }
+    /// Densities of a line from the sky, as emit() draws it: of its direction, 1/sr, and of its
+    /// place across it, 1/own area.
+    [[nodiscard]] double sky_direction_density() const;
+    [[nodiscard]] double sky_disc_density() const;
+
     /// For particles that are followed from the light. Must not be empty().
     [[nodiscard]] EmittedParticle emit(double choice, const glm::dvec2& at,
                                        const glm::dvec2& direction) const;

@@ -3,24 +3,34 @@
 
 #include <algorithm>
 
-namespace raybundle {
-namespace {
+#include "reference/roulette.h"
 
-/// Russian roulette on the largest channel (ch. 3): whether the path goes on, and its throughput
-/// then.
-bool survives(glm::dvec3& throughput, double u) {
-    const double chance = std::max({throughput.r, throughput.g, throughput.b});
-    if (chance >= 1.0) {
-        return true;
+namespace raybundle {
+
+PathTracer::PathTracer(const RayScene& scene, const LightSampling& lights,
+                       const PathSettings& settings)
+    : scene_(scene), lights_(lights), settings_(settings) {
+    if (settings.survival == Survival::albedo) {
+        tables_.emplace(scene.scene());
     }
-    throughput /= chance;
-    return u < chance;
 }
 
-}  // namespace
-
+/// Chance with which a walk survives its reflection at a point; throughput: with that reflection.
+double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& scattering,
+                                   const glm::dvec3& throughput) const {
+    switch (settings_.survival) {
+        case Survival::albedo:
+            return largest_channel(
+                tables_->albedo(scene_.mesh().triangle_material[point.triangle], scattering));
+        case Survival::fixed:
+            return settings_.survival_probability;
+        case Survival::throughput:
+            break;
+    }
+    return std::min(largest_channel(throughput), 1.0);
+}
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
-                                PixelSampler& sampler) const {
+                                Sampler& sampler) const {
     const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
     const glm::dvec3 sum = emitted(hit);
     if (!hit || hit->absorbs()) {
@@ -30,7 +40,7 @@ glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& dire
            reflected(*hit, Scattering(scene_, *hit, NormalKind::shading, -direction), sampler);
 }
 
-glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, PixelSampler& sampler) const {
+glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) const {
     return glm::pi<double>() * reflected(point, Scattering::white(point), sampler);
 }
 
@@ -39,18 +49,23 @@ glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit) const {
 }
 
 glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
-                                 PixelSampler& sampler) const {
+                                 Sampler& sampler) const {
     glm::dvec3 sum(0.0);
     glm::dvec3 throughput(1.0);
     for (int bounce = 0; bounce < settings_.max_bounces; ++bounce) {
         sum += throughput * next_event(point, scattering, sampler);
-        const std::optional<ScatterSample> next = scattering.sample(sampler.next_pair());
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         if (!next) {
             break;
         }
         throughput *= next->weight;
-        if (bounce >= settings_.certain_bounces && !survives(throughput, sampler.next())) {
-            break;
+        if (bounce >= settings_.certain_bounces) {
+            const double chance = survival_chance(point, scattering, throughput);
+            if (sampler.next() >= chance) {
+                break;
+            }
+            throughput /= chance;
         }
         const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
         const glm::dvec3 emission = emitted(hit);
@@ -70,7 +85,7 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
 }
 
 glm::dvec3 PathTracer::next_event(const SurfacePoint& point, const Scattering& scattering,
-                                  PixelSampler& sampler) const {
+                                  Sampler& sampler) const {
     if (!settings_.next_event || lights_.empty()) {
         return glm::dvec3(0.0);
     }

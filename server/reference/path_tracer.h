@@ -2,10 +2,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
+#include "reference/albedo_tables.h"
 #include "reference/light_sampling.h"
 #include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/russian_roulette.h"
 #include "reference/scattering.h"
 
 namespace raybundle {
@@ -14,6 +17,8 @@ struct PathSettings {
     int max_bounces = 1 << 16;  ///< far beyond what Russian roulette lets live
     int certain_bounces = 3;    ///< before Russian roulette begins
     bool next_event = true;     ///< false: paths meet the light by themselves
+    Survival survival = Survival::throughput;
+    double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };
 
 /// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation. Light that a path meets by
@@ -22,26 +27,28 @@ struct PathSettings {
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,
-               const PathSettings& settings = {})
-        : scene_(scene), lights_(lights), settings_(settings) {}
+               const PathSettings& settings = {});
 
     /// Unbiased estimate of the radiance that arrives at a point in space (own space of the ray
     /// scene) against a unit direction, cd/m².
     [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& origin, const glm::dvec3& direction,
-                                      PixelSampler& sampler) const;
+                                      Sampler& sampler) const;
     /// The same for irradiance: light that arrives at a surface point, lx, cosine included.
-    [[nodiscard]] glm::dvec3 irradiance(const SurfacePoint& point, PixelSampler& sampler) const;
+    [[nodiscard]] glm::dvec3 irradiance(const SurfacePoint& point, Sampler& sampler) const;
 
   private:
     [[nodiscard]] glm::dvec3 reflected(SurfacePoint point, Scattering scattering,
-                                       PixelSampler& sampler) const;
+                                       Sampler& sampler) const;
     [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
-                                        PixelSampler& sampler) const;
+                                        Sampler& sampler) const;
+    [[nodiscard]] double survival_chance(const SurfacePoint& point, const Scattering& scattering,
+                                         const glm::dvec3& throughput) const;
     [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit) const;
 
     const RayScene& scene_;
     const LightSampling& lights_;
     PathSettings settings_;
+    std::optional<AlbedoTables> tables_;  // where Survival::albedo asks for them
 };
 
 }  // namespace raybundle

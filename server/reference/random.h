@@ -25,14 +25,26 @@ inline double unit_interval(std::uint32_t bits) {
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
+/// Source of uniform numbers in (0, 1) for one sample of something.
+class Sampler {
+  public:
+    Sampler() = default;
+    virtual ~Sampler() = default;
+    Sampler(const Sampler&) = default;
+    Sampler& operator=(const Sampler&) = default;
+
+    virtual double next() = 0;
+    virtual glm::dvec2 next_pair() = 0;
+};
+
 /// Source of independent uniform random numbers: the stream is a pure function of seed, stream
 /// number and position, so results do not depend on who draws them.
-class RandomStream {
+class RandomStream final : public Sampler {
   public:
     RandomStream(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
 
-    double next();  ///< in (0, 1)
-    glm::dvec2 next_pair();
+    double next() override;
+    glm::dvec2 next_pair() override;
 
   private:
     std::uint64_t seed_, stream_;
@@ -44,12 +56,12 @@ class RandomStream {
 /// and padded (Burley 2020, "Practical Hash-based Owen Scrambling"). The samples of one pixel and
 /// batch are spread evenly over every dimension and pair; different pixels, batches and seeds are
 /// independent.
-class PixelSampler {
+class PixelSampler final : public Sampler {
   public:
     PixelSampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t batch, std::uint32_t index);
 
-    double next() { return next_pair().x; }  ///< in (0, 1)
-    glm::dvec2 next_pair();
+    double next() override { return next_pair().x; }
+    glm::dvec2 next_pair() override;
 
   private:
     std::uint64_t key_;

@@ -94,6 +94,10 @@ void RayScene::SceneDeleter::operator()(RTCScene scene) const {
 
 RayScene::RayScene(const Scene& scene, const PatchMesh& mesh)
     : scene_(scene), mesh_(mesh), centre_(scene.bounds.centre()), scale_(1.0) {
+    models_.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        models_.push_back(reflectance_model(material));
+    }
     place_vertices();
     find_smooth_triangles();
     build();
@@ -196,6 +200,11 @@ bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, flo
 bool RayScene::mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const {
     const glm::vec3 origin = departure(a);
     return !occluded(origin, departure(b) - origin, 1.0F);
+}
+
+bool RayScene::sees_point(const SurfacePoint& from, const glm::dvec3& point) const {
+    const glm::vec3 origin = departure(from);
+    return !occluded(origin, glm::vec3(point) - origin, 1.0F);
 }
 
 bool RayScene::sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const {

@@ -3,7 +3,11 @@
 
 #include <utility>
 
+#include "reference/bidirectional.h"
+#include "reference/light_tracer.h"
+#include "reference/metropolis.h"
 #include "reference/path_tracer.h"
+#include "reference/photon_mapper.h"
 #include "reference/ray_caster.h"
 #include "reference/single_ray_picture.h"
 #include "reference/solution_picture.h"
@@ -42,22 +46,119 @@ class PixelMethod : public ReferenceMethod {
     ImageEstimate image_;
 };
 
+/// Methods whose samples add to other pixels too.
+template <typename Estimator>
+class SplattingMethod : public ReferenceMethod {
+  public:
+    SplattingMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
+                    std::uint64_t seed)
+        : lights_(scene),
+          camera_(scene, camera, size),
+          estimator_(scene, lights_, camera_),
+          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          image_(size, seed) {}
+
+    void iterate() override {
+        image_.add_splatting_pass(
+            camera_, [this](const glm::dvec3&, const glm::dvec3& direction, PixelSampler& sampler,
+                            std::vector<Splat>& splats) {
+                return estimator_.radiance(direction, sampler, splats);
+            });
+    }
+    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
+    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
+    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
+    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
+    [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
+
+  private:
+    LightSampling lights_;
+    CameraRays camera_;
+    Estimator estimator_;
+    std::vector<bool> reflecting_;
+    ImageEstimate image_;
+};
+
+class MetropolisMethod : public ReferenceMethod {
+  public:
+    MetropolisMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
+                     std::uint64_t seed)
+        : lights_(scene),
+          tracer_(scene, lights_),
+          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          metropolis_(tracer_, CameraRays(scene, camera, size), seed) {}
+
+    void iterate() override { metropolis_.iterate(); }
+    [[nodiscard]] std::uint64_t iterations() const override { return metropolis_.iterations(); }
+    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return metropolis_.picture(); }
+    [[nodiscard]] ImageError error() const override { return metropolis_.error(reflecting_); }
+    [[nodiscard]] std::uint64_t non_finite() const override { return metropolis_.non_finite(); }
+    [[nodiscard]] std::size_t bytes() const override { return metropolis_.bytes(); }
+
+  private:
+    LightSampling lights_;
+    PathTracer tracer_;
+    std::vector<bool> reflecting_;
+    Metropolis metropolis_;
+};
+
+class PhotonMethod : public ReferenceMethod {
+  public:
+    PhotonMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size, std::uint64_t seed)
+        : scene_(scene),
+          seed_(seed),
+          lights_(scene),
+          mapper_(scene, lights_, settings_),
+          camera_(scene, camera, size),
+          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          image_(size, seed) {}
+
+    void iterate() override {
+        const PhotonMaps maps =
+            trace_photons(scene_, lights_, settings_, mixed_bits(seed_), image_.passes());
+        image_.add_pass(camera_, [&](const glm::dvec3& origin, const glm::dvec3& direction,
+                                     PixelSampler& sampler) {
+            return mapper_.radiance(maps, origin, direction, sampler);
+        });
+        map_bytes_ = (maps.global.size() + maps.caustic.size()) * sizeof(Photon);
+    }
+    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
+    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
+    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
+    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
+    [[nodiscard]] std::size_t bytes() const override { return image_.bytes() + map_bytes_; }
+
+  private:
+    const RayScene& scene_;
+    std::uint64_t seed_;
+    PhotonSettings settings_;
+    LightSampling lights_;
+    PhotonMapper mapper_;
+    CameraRays camera_;
+    std::vector<bool> reflecting_;
+    ImageEstimate image_;
+    std::size_t map_bytes_ = 0;  // of the latest maps
+};
+
 class SingleRayMethod : public ReferenceMethod {
   public:
     SingleRayMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
                     std::uint64_t seed)
         : lights_(scene),
           solution_(scene, lights_, seed),
-          view_(scene, CameraRays(scene, camera, size)) {}
+          view_(scene, CameraRays(scene, camera, size), seed) {}
 
-    void iterate() override { solution_.iterate(); }
+    void iterate() override {
+        solution_.iterate();
+        view_.follow(solution_);
+    }
     [[nodiscard]] std::uint64_t iterations() const override { return solution_.iterations(); }
     [[nodiscard]] std::vector<glm::dvec3> picture() const override {
         return view_.picture(solution_);
     }
     [[nodiscard]] ImageError error() const override { return view_.error(solution_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return 0; }
-    [[nodiscard]] std::size_t bytes() const override { return solution_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const override { return solution_.bytes() + view_.bytes(); }
 
   private:
     LightSampling lights_;
@@ -75,6 +176,14 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);
         case ReferenceKind::ray_cast:
             return std::make_unique<PixelMethod<RayCaster>>(scene, camera, size, seed);
+        case ReferenceKind::light:
+            return std::make_unique<SplattingMethod<LightTracer>>(scene, camera, size, seed);
+        case ReferenceKind::bidirectional:
+            return std::make_unique<SplattingMethod<Bidirectional>>(scene, camera, size, seed);
+        case ReferenceKind::metropolis:
+            return std::make_unique<MetropolisMethod>(scene, camera, size, seed);
+        case ReferenceKind::photon_map:
+            return std::make_unique<PhotonMethod>(scene, camera, size, seed);
         default:
             return std::make_unique<PixelMethod<PathTracer>>(scene, camera, size, seed);
     }

@@ -13,7 +13,15 @@
 namespace raybundle {
 
 /// The comparison methods of `render --method`.
-enum class ReferenceKind { path, single_ray, ray_cast };
+enum class ReferenceKind {
+    path,
+    single_ray,
+    ray_cast,
+    light,
+    bidirectional,
+    metropolis,
+    photon_map
+};
 
 /// A method on the CPU that improves a picture with every iteration. The result depends on the seed
 /// and the number of iterations alone.
@@ -24,7 +32,8 @@ class ReferenceMethod {
     ReferenceMethod(const ReferenceMethod&) = delete;
     ReferenceMethod& operator=(const ReferenceMethod&) = delete;
 
-    /// path, ray_cast: one more sample of every pixel; single_ray: a fixed number of particles.
+    /// One more sample of every pixel, and as many light paths (light, bidirectional) or new photon
+    /// maps; metropolis: about as many steps as pixels; single_ray: a fixed number of particles.
     virtual void iterate() = 0;
     [[nodiscard]] virtual std::uint64_t iterations() const = 0;
     /// Radiance, cd/m², row 0 at the top.

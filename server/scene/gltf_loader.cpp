@@ -54,13 +54,23 @@ void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene
     }
 }
 
-/// What the simplified shading of the used materials leaves out.
+/// Names the materials whose reflections are nearly mirror images: bundles find those slowly.
 void note_materials(GltfDocument& document, const Scene& scene) {
+    constexpr float nearly_mirror = 0.1F;  // roughness
+    std::vector<bool> used(scene.materials.size(), false);
     for (const Triangle& triangle : scene.triangles) {
-        if (scene.materials[triangle.material].metallic > 0.0F) {
-            document.note("glossy reflection of metals is approximated as diffuse");
-            return;
+        used[triangle.material] = true;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const bool specular = !m.max_phong && (m.metallic > 0.0F || m.specular > 0.0F);
+        if (used[i] && specular && m.roughness < nearly_mirror) {
+            names += (names.empty() ? "'" : ", '") + m.name + "'";
         }
+    }
+    if (!names.empty()) {
+        document.note(fmt::format("nearly mirrors, their reflections settle slowly: {}", names));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 #include <utility>
 
 namespace raybundle {
@@ -44,8 +45,26 @@ glm::vec3 uniform_direction(double u, double v) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities)
-    : probabilities_(probabilities), seed_(seed), numbers_(seed) {}
+IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
+                                     bool shuffled)
+    : probabilities_(probabilities), seed_(seed), shuffled_(shuffled), numbers_(seed) {}
+
+/// Index of the next perspective sample in its sequence.
+std::uint64_t IterationSchedule::next_perspective() {
+    const std::uint64_t k = perspective_++;
+    if (!shuffled_) {
+        return k + 1;
+    }
+    const std::uint64_t at = k % shuffle_length;
+    if (at == 0) {
+        std::iota(order_.begin(), order_.end(), std::uint8_t{0});
+        for (unsigned i = shuffle_length; i-- > 1;) {
+            const std::uint64_t random = mix_bits(mix_bits(seed_ + k) + i);
+            std::swap(order_[i], order_[random % (i + 1)]);
+        }
+    }
+    return k - at + order_[at] + 1;
+}
 
 /// Every BATCHES iterations in a row fall to all batches, in an order drawn anew each time: with a
 /// fixed one a batch would see but a part of the range of a sequence whose base divides its stride.
@@ -76,7 +95,7 @@ IterationSample IterationSchedule::next() {
                         static_cast<float>(numbers_.sample(shift_y, k))};
         return sample;
     }
-    const std::uint64_t k = ++perspective_;
+    const std::uint64_t k = next_perspective();
     // A dimension of its own: the parity of k would go hand in hand with the choice of the patch.
     sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
     const auto [leading, trailing] = split(numbers_.sample(choose_patch, k));

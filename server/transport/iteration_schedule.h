@@ -37,15 +37,23 @@ struct IterationSample {
 /// much. No clock and no state beyond counters, so a seed always gives the same sequence.
 class IterationSchedule {
   public:
-    IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities);
+    /// shuffled: perspective samples come in an order that is random within blocks of
+    /// shuffle_length. What a glossy patch sends depends on what it has received last; in the
+    /// order of a Halton sequence the same shooter would always come after the same other one.
+    IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
+                      bool shuffled = false);
 
     IterationSample next();
+    static constexpr unsigned shuffle_length = 32;
 
   private:
     unsigned next_batch();
+    std::uint64_t next_perspective();
 
     StrategyProbabilities probabilities_;
     std::uint64_t seed_;
+    bool shuffled_;
+    std::array<std::uint8_t, shuffle_length> order_{};
     RandomisedHalton numbers_;
     std::array<unsigned, BATCHES> batch_order_ = {0, 1, 2, 3, 4, 5, 6, 7};
     std::uint64_t iterations_ = 0, layered_ = 0, perspective_ = 0;

@@ -57,7 +57,7 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
     : settings_(prepared(settings, scene)),
       scene_(scene, mesh),
       store_(scene_),
-      schedule_(settings_.seed, settings_.probabilities),
+      schedule_(settings_.seed, settings_.probabilities, scene_.reflectance().any_glossy()),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
       transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
 
@@ -150,12 +150,17 @@ void Solver::run(const Planned& planned, unsigned slot,
         frame.pixel_shift = planned.sample.shift - 0.5F;
         transfer().perspective(frame, planned.shooter, transfer().hemicube().full(), settings,
                                receivers);
-        store_.update(true, settings.context.sample_weight, iterate_step(),
-                      planned.shooter.density);
+        store_.update({.scalar = planned.shooter.glossy == 0,
+                       .weight = settings.context.sample_weight,
+                       .step = iterate_step(),
+                       .shooter_density = planned.shooter.density,
+                       .iteration = iterations_});
     } else {
         transfer().layered(transfer().window_geometry(planned.sample), transfer().window().full(),
                            settings, receivers);
-        store_.update(false, settings.context.sample_weight, iterate_step(), 0.0F);
+        store_.update({.weight = settings.context.sample_weight,
+                       .step = iterate_step(),
+                       .iteration = iterations_});
     }
     after_iteration();
 }
@@ -194,6 +199,7 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
     store_.bind();
     store_.checkpoint();
     scene_.move_object(object, world_from_object);
+    store_.turn_gloss(object, scene_.now_from_before(object));
     for (BundleReceiver* receiver : receivers) {
         receiver->begin_special(object);
     }

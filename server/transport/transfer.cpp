@@ -30,7 +30,12 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {}
+      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {
+    if (scene.reflectance().any_glossy()) {
+        hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
+                                                 with(scene.defines(), "SHOOTER_GLOSSY 1"));
+    }
+}
 
 LayeredWindow::Geometry Transfer::window_geometry(const IterationSample& sample) const {
     return window_.geometry(sample.direction, static_cast<float>(sample.angle), sample.shift,
@@ -53,6 +58,10 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
                  static_cast<float>(settings.batch)};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
+    p.moved.x = settings.context.moved_object;
+    if (settings.context.moved_object != NO_PATCH) {
+        p.before_from_now = glm::transpose(scene_.now_from_before(settings.context.moved_object));
+    }
     return p;
 }
 
@@ -80,8 +89,9 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     hemicube_.draw(scene_, frame, p.origin.w, place, rectangles);
     hemicube_.bind_textures();
 
-    const ShaderProgram& patches =
-        settings.coloured ? hemicube_patches_coloured_ : hemicube_patches_;
+    const ShaderProgram& patches = shooter.glossy != 0 ? hemicube_patches_glossy_
+                                   : settings.coloured ? hemicube_patches_coloured_
+                                                       : hemicube_patches_;
     patches.set("patch_base", scene_.patch_base(place));
     patches.set("facet_base", scene_.facet_base(place));
     patches.set("vertex_base", scene_.vertex_base(place));
@@ -107,8 +117,10 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
             }
         }
     }
+    BundleReceiver::Context context = settings.context;
+    context.glossy_shooter = shooter.glossy != 0;
     for (BundleReceiver* receiver : receivers) {
-        receiver->receive_hemicube(settings.context);
+        receiver->receive_hemicube(context);
     }
 }
 
@@ -126,6 +138,7 @@ void Transfer::layered(const LayeredWindow::Geometry& geometry, const PixelRecta
     p.resolution.z = window_.capacity();
     p.scissor[0] = to_vector(rectangle);
     upload(p);
+    store_.send_along_bundle(place);
     window_.draw(scene_, geometry, place, rectangle, store_.counters());
 
     layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));

@@ -66,7 +66,8 @@ class Transfer {
     Hemicube hemicube_;
     LayeredWindow window_;
     Buffer parameters_;
-    ShaderProgram hemicube_patches_, hemicube_patches_coloured_, layers_patches_;
+    ShaderProgram hemicube_patches_, hemicube_patches_coloured_, hemicube_patches_glossy_;
+    ShaderProgram layers_patches_;
     std::uint64_t non_finite_ = 0;
 };
 

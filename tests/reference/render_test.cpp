@@ -75,7 +75,9 @@ TEST_P(Render, NeedsNoGlContextAndRepeatsItsBits) {
     EXPECT_GT(fs::file_size(file("a.png")), 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Render, testing::Values("path", "single-ray", "ray-cast"));
+INSTANTIATE_TEST_SUITE_P(Methods, Render,
+                         testing::Values("path", "single-ray", "ray-cast", "light", "bidirectional",
+                                         "metropolis", "photon-map"));
 
 class RenderFailure : public Render {};
 

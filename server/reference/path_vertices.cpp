@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/path_vertices.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/roulette.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::size_t max_vertices = 1U << 12U;  // far beyond what Russian roulette lets live
+constexpr std::size_t certain_vertices = 4;      // before Russian roulette begins
+
+/// Density of a vertex for a draw per solid angle at `from`.
+double density_of(const PathVertex& vertex, double density, const glm::dvec3& from) {
+    return vertex.kind == PathVertex::Kind::sky ? density : per_area(density, from, vertex.point);
+}
+
+}  // namespace
+
+double per_area(double density, const glm::dvec3& from, const SurfacePoint& to) {
+    const glm::dvec3 offset = to.position - from;
+    const double square = glm::dot(offset, offset);
+    return square > 0.0
+               ? density * std::abs(glm::dot(offset, to.normal)) / (square * std::sqrt(square))
+               : 0.0;
+}
+
+Subpath SubpathSampler::from_eye(const glm::dvec3& direction, PixelSampler& sampler) const {
+    Subpath path(1);
+    path[0].kind = PathVertex::Kind::eye;
+    path[0].point.position = camera_.origin();
+    path[0].forward = 1.0;
+    const std::optional<SurfacePoint> hit = scene_.trace(camera_.origin(), direction);
+    PathVertex vertex;
+    vertex.towards = -direction;
+    if (!hit) {
+        vertex.kind = PathVertex::Kind::sky;
+        vertex.forward = camera_.density(direction);
+        path.push_back(vertex);
+        return path;
+    }
+    vertex.point = *hit;
+    vertex.forward = per_area(camera_.density(direction), camera_.origin(), *hit);
+    if (!hit->absorbs()) {
+        vertex.lobe.emplace(scene_, *hit, NormalKind::shading, -direction);
+    }
+    path.push_back(vertex);
+    extend(path, direction, sampler, true);
+    return path;
+}
+
+Subpath SubpathSampler::from_light(PixelSampler& sampler) const {
+    Subpath path(1);
+    if (lights_.empty()) {
+        return path;
+    }
+    const double choice = sampler.next();
+    const glm::dvec2 at = sampler.next_pair();
+    const EmittedParticle particle = lights_.emit(choice, at, sampler.next_pair());
+    PathVertex& light = path[0];
+    light.kind = particle.emitter ? PathVertex::Kind::emitter : PathVertex::Kind::sky;
+    light.towards = particle.direction;
+    light.point = particle.emitter.value_or(SurfacePoint{});
+    light.forward = particle.emitter ? lights_.area_density(particle.emitter->patch)
+                                     : lights_.sky_direction_density();
+    if (particle.power == glm::dvec3(0.0)) {
+        return path;
+    }
+    const std::optional<SurfacePoint> hit =
+        particle.emitter ? scene_.trace_from(*particle.emitter, particle.direction)
+                         : scene_.trace(particle.origin, particle.direction);
+    if (!hit || hit->absorbs()) {
+        return path;
+    }
+    PathVertex vertex;
+    vertex.point = *hit;
+    vertex.towards = -particle.direction;
+    vertex.throughput = particle.power;
+    vertex.forward = emission_density(light, *hit, particle.direction);
+    vertex.lobe.emplace(scene_, *hit, NormalKind::geometric, -particle.direction);
+    path.push_back(vertex);
+    extend(path, particle.direction, sampler, false);
+    return path;
+}
+
+double SubpathSampler::emission_density(const PathVertex& light, const SurfacePoint& lit,
+                                        const glm::dvec3& direction) const {
+    if (light.kind == PathVertex::Kind::sky) {
+        return lights_.sky_disc_density() * std::abs(glm::dot(direction, lit.normal));
+    }
+    const double cosine = std::max(glm::dot(direction, light.point.normal), 0.0);
+    return per_area(cosine * glm::one_over_pi<double>(), light.point.position, lit);
+}
+
+/// Continues a subpath whose last vertex has just been found; with_sky: whether lines that meet
+/// nothing, and surfaces that absorb, become vertices.
+void SubpathSampler::extend(Subpath& path, glm::dvec3 direction, PixelSampler& sampler,
+                            bool with_sky) const {
+    const glm::dvec3 start = path.back().throughput;
+    while (path.size() < max_vertices && path.back().lobe) {
+        const PathVertex& last = path.back();
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = last.lobe->sample(u, sampler.next());
+        if (!next) {
+            return;
+        }
+        PathVertex vertex;
+        vertex.throughput = last.throughput * next->weight;
+        if (path.size() >= certain_vertices &&
+            !survives(vertex.throughput, start, sampler.next())) {
+            return;
+        }
+        direction = next->direction;
+        vertex.towards = -direction;
+        const std::optional<SurfacePoint> hit = scene_.trace_from(last.point, direction);
+        if (!with_sky && (!hit || hit->absorbs())) {
+            return;
+        }
+        vertex.kind = hit ? PathVertex::Kind::surface : PathVertex::Kind::sky;
+        vertex.point = hit.value_or(SurfacePoint{});
+        vertex.forward = density_of(vertex, next->density, last.point.position);
+        if (hit && !hit->absorbs()) {
+            vertex.lobe.emplace(scene_, *hit, NormalKind::geometric, -direction);
+        }
+        PathVertex& before = path[path.size() - 2];
+        before.backward =
+            density_of(before, last.lobe->reverse_density(direction), last.point.position);
+        path.push_back(vertex);
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "reference/camera_rays.h"
+#include "reference/light_sampling.h"
+#include "reference/random.h"
+#include "reference/ray_scene.h"
+#include "reference/scattering.h"
+
+namespace raybundle {
+
+/// A vertex of a subpath that sets out from the eye or from a light (Veach 1997, ch. 10).
+///
+/// Densities are per area of the ray scene's own space, but per solid angle for the sky.
+struct PathVertex {
+    enum class Kind { eye, emitter, surface, sky };
+
+    Kind kind = Kind::surface;
+    SurfacePoint point;              ///< eye: the position alone; sky: nothing
+    glm::dvec3 towards{0.0};         ///< unit, to the previous vertex; sky: the way it was met
+    glm::dvec3 throughput{1.0};      ///< of the subpath up to here, scattering here not included
+    double forward = 0.0;            ///< density with which its own subpath draws it
+    double backward = 0.0;           ///< density with which the next vertex would draw it
+    std::optional<Scattering> lobe;  ///< of a surface, for light to or from `towards`
+};
+
+using Subpath = std::vector<PathVertex>;
+
+/// A density per solid angle at `from`, as one per area at `to`.
+double per_area(double density, const glm::dvec3& from, const SurfacePoint& to);
+
+/// Draws the subpaths of bidirectional path tracing. Surfaces take the shading normal at the vertex
+/// next to the eye and the geometric one elsewhere, as in path tracing.
+class SubpathSampler {
+  public:
+    SubpathSampler(const RayScene& scene, const LightSampling& lights, const CameraRays& camera)
+        : scene_(scene), lights_(lights), camera_(camera) {}
+
+    /// From the eye along a unit direction; ends at the sky, at a surface that absorbs, or by
+    /// Russian roulette.
+    [[nodiscard]] Subpath from_eye(const glm::dvec3& direction, PixelSampler& sampler) const;
+    /// From a light; the first vertex is the emitter's or the sky. Its last vertex reflects.
+    [[nodiscard]] Subpath from_light(PixelSampler& sampler) const;
+
+    /// Density per area at a vertex that a light illuminates, in the direction to it.
+    [[nodiscard]] double emission_density(const PathVertex& light, const SurfacePoint& lit,
+                                          const glm::dvec3& direction) const;
+
+  private:
+    void extend(Subpath& path, glm::dvec3 direction, PixelSampler& sampler, bool with_sky) const;
+
+    const RayScene& scene_;
+    const LightSampling& lights_;
+    CameraRays camera_;
+};
+
+}  // namespace raybundle

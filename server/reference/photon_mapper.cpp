@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/photon_mapper.h"
+
+#include "reference/roulette.h"
+
+namespace raybundle {
+namespace {
+
+constexpr int max_bounces = 1 << 16;  // far beyond what Russian roulette lets live
+constexpr int certain_bounces = 3;    // before Russian roulette begins
+constexpr int max_gatherings = 8;     // in a corner, one from the other
+
+}  // namespace
+
+glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& origin,
+                                  const glm::dvec3& direction, PixelSampler& sampler) const {
+    const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
+    if (!hit) {
+        return glm::dvec3(scene_.scene().sky_radiance);
+    }
+    const glm::dvec3 emission = scene_.emission(*hit);
+    if (hit->absorbs()) {
+        return emission;
+    }
+    const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
+    return emission + (is_sharp(scattering, settings_)
+                           ? by_sharp(maps, *hit, scattering, sampler)
+                           : by_maps(maps, *hit, scattering, max_gatherings, sampler));
+}
+
+/// Light chosen by LightSampling, by the balance heuristic with met_light().
+glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering& scattering,
+                                    PixelSampler& sampler) const {
+    if (lights_.empty()) {
+        return glm::dvec3(0.0);
+    }
+    const double choice = sampler.next();
+    const std::optional<LightSample> light =
+        lights_.sample(point, scattering.frame(), choice, sampler.next_pair());
+    if (!light) {
+        return glm::dvec3(0.0);
+    }
+    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
+    if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
+        return glm::dvec3(0.0);
+    }
+    return value / (light->density + scattering.density(light->direction));
+}
+
+/// Emission of what a direction drawn at a point has met.
+glm::dvec3 PhotonMapper::met_light(const SurfacePoint& point, const Scattering& scattering,
+                                   const ScatterSample& drawn,
+                                   const std::optional<SurfacePoint>& hit) const {
+    const glm::dvec3 emission =
+        hit ? scene_.emission(*hit) : glm::dvec3(scene_.scene().sky_radiance);
+    if (emission == glm::dvec3(0.0)) {
+        return emission;
+    }
+    const double other = lights_.density(point, scattering.frame(), drawn.direction, hit);
+    return emission * (drawn.density / (drawn.density + other));
+}
+
+/// Light reflected by an S surface: path tracing up to the first D surface.
+glm::dvec3 PhotonMapper::by_sharp(const PhotonMaps& maps, SurfacePoint point, Scattering scattering,
+                                  PixelSampler& sampler) const {
+    glm::dvec3 sum(0.0);
+    glm::dvec3 throughput(1.0);
+    for (int bounce = 0; bounce < max_bounces; ++bounce) {
+        sum += throughput * next_event(point, scattering, sampler);
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
+        if (!next) {
+            break;
+        }
+        throughput *= next->weight;
+        if (bounce >= certain_bounces && !survives(throughput, glm::dvec3(1.0), sampler.next())) {
+            break;
+        }
+        const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
+        sum += throughput * met_light(point, scattering, *next, hit);
+        if (!hit || hit->absorbs()) {
+            break;
+        }
+        point = *hit;
+        scattering = Scattering(scene_, point, NormalKind::geometric, -next->direction);
+        if (!is_sharp(scattering, settings_)) {
+            return sum + throughput * by_maps(maps, point, scattering, max_gatherings, sampler);
+        }
+    }
+    return sum;
+}
+
+/// Light reflected by a D surface.
+glm::dvec3 PhotonMapper::by_maps(const PhotonMaps& maps, const SurfacePoint& point,
+                                 const Scattering& scattering, int gatherings,
+                                 PixelSampler& sampler) const {
+    return next_event(point, scattering, sampler) +
+           maps.caustic.reflected(point, scattering, settings_.nearest, radius_) +
+           gathered(maps, point, scattering, gatherings, sampler);
+}
+
+/// Final gathering: emission that the ray meets at once, and light that has left a D surface last,
+/// or one before S surfaces. Emission behind S surfaces is a caustic: by_maps() has it.
+glm::dvec3 PhotonMapper::gathered(const PhotonMaps& maps, SurfacePoint point, Scattering scattering,
+                                  int gatherings, PixelSampler& sampler) const {
+    glm::dvec3 direct(0.0);
+    glm::dvec3 throughput(1.0);
+    for (int bounce = 0; bounce < max_bounces; ++bounce) {
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
+        if (!next) {
+            break;
+        }
+        throughput *= next->weight;
+        if (bounce >= certain_bounces && !survives(throughput, glm::dvec3(1.0), sampler.next())) {
+            break;
+        }
+        const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
+        if (bounce == 0) {
+            direct = throughput * met_light(point, scattering, *next, hit);
+        }
+        if (!hit || hit->absorbs()) {
+            break;
+        }
+        const double distance = glm::distance(point.position, hit->position);
+        point = *hit;
+        scattering = Scattering(scene_, point, NormalKind::geometric, -next->direction);
+        if (!is_sharp(scattering, settings_)) {
+            const bool near = distance < radius_ && gatherings > 0;
+            return direct +
+                   throughput * (near ? by_maps(maps, point, scattering, gatherings - 1, sampler)
+                                      : maps.global.reflected(point, scattering, settings_.nearest,
+                                                              radius_));
+        }
+    }
+    return direct;
+}
+
+}  // namespace raybundle
