@@ -54,7 +54,7 @@ void SceneBuilder::add_triangle(const glm::vec3& a, const glm::vec3& b, const gl
     mesh.triangle_material.push_back(material);
     mesh.back_patch.push_back(PatchMesh::no_patch);
     mesh.patch_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()) - 1);
-    mesh.albedo.push_back(scene.materials[material].base_colour);
+    mesh.base_colour.push_back(scene.materials[material].base_colour);
     mesh.emission.push_back(scene.materials[material].emission);
 }
 
@@ -90,7 +90,7 @@ void SceneBuilder::add_box(const glm::vec3& min, const glm::vec3& max, bool inwa
 
 void SceneBuilder::set_triangle_material(std::size_t triangle, std::uint32_t material) {
     mesh.triangle_material[triangle] = material;
-    mesh.albedo[triangle] = scene.materials[material].base_colour;
+    mesh.base_colour[triangle] = scene.materials[material].base_colour;
     mesh.emission[triangle] = scene.materials[material].emission;
 }
 
@@ -106,7 +106,7 @@ void SceneBuilder::shuffle(std::uint64_t seed) {
         const std::size_t j = engine() % i;
         std::swap(mesh.triangles[i - 1], mesh.triangles[j]);
         std::swap(mesh.triangle_material[i - 1], mesh.triangle_material[j]);
-        std::swap(mesh.albedo[i - 1], mesh.albedo[j]);
+        std::swap(mesh.base_colour[i - 1], mesh.base_colour[j]);
         std::swap(mesh.emission[i - 1], mesh.emission[j]);
     }
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/base_colour.h"
 #include "scene/ggx_albedo.h"
-#include "scene/lambert_albedo.h"
 
 namespace raybundle {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/lambert_albedo.h"
+#include "scene/base_colour.h"
 #include "scene/texture_mean.h"
 
 namespace raybundle {
@@ -35,8 +35,8 @@ PatchColour patch_colour(const Scene& scene, const Material& material,
     } else if (cutoff && *cutoff > 1.0F) {
         result.coverage = 0.0F;
     }
-    result.albedo = lambert_albedo(material, colour);
-    result.albedo_was_clamped = exceeds_max_albedo(material, colour);
+    result.base_colour = clamped_base_colour(colour);
+    result.was_clamped = exceeds_max_albedo(colour);
     result.emission = patch_emission(scene, material, mesh_uv);
     return result;
 }

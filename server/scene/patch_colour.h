@@ -11,10 +11,10 @@ namespace raybundle {
 
 /// Area means over one patch.
 struct PatchColour {
-    glm::vec3 albedo{0.0F};    ///< lambert_albedo() of the covered part
-    glm::vec3 emission{0.0F};  ///< radiance, cd/m²
-    float coverage = 1.0F;     ///< share that alpha MASK leaves, 0: nothing is there
-    bool albedo_was_clamped = false;
+    glm::vec3 base_colour{0.0F};  ///< clamped_base_colour() of the covered part
+    glm::vec3 emission{0.0F};     ///< radiance, cd/m²
+    float coverage = 1.0F;        ///< share that alpha MASK leaves, 0: nothing is there
+    bool was_clamped = false;     ///< the base colour
 };
 
 /// Colours of a patch with this material and these mesh uv at its corners.

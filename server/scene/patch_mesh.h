@@ -37,7 +37,8 @@ struct PatchMesh {
 
     // Patches.
     std::vector<std::uint32_t> patch_triangle;
-    std::vector<glm::vec3> albedo;    ///< diffuse, linear, area mean over the patch, <= 0.999
+    /// Linear, area mean over the patch, <= 0.999; what is reflected of it, scene/brdf.h says.
+    std::vector<glm::vec3> base_colour;
     std::vector<glm::vec3> emission;  ///< radiance, cd/m², area mean over the patch
     /// Share of the patch that alpha MASK leaves; empty where nothing is cut.
     std::vector<float> coverage;

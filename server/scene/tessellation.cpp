@@ -123,13 +123,13 @@ class PatchPainter {
                                              triangle.corners[2].uv};
         if (material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0) {
             const PatchColour colour = patch_colour(scene_, material, uv);
-            clamped_[triangle.material] = clamped_[triangle.material] || colour.albedo_was_clamped;
+            clamped_[triangle.material] = clamped_[triangle.material] || colour.was_clamped;
             return colour;
         }
         std::optional<PatchColour>& known = constant_[triangle.material];
         if (!known) {
             known = patch_colour(scene_, material, uv);
-            clamped_[triangle.material] = known->albedo_was_clamped;
+            clamped_[triangle.material] = known->was_clamped;
         }
         return *known;
     }
@@ -202,7 +202,7 @@ class MeshBuilder {
         mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
         mesh_.triangles.push_back(corners);
         mesh_.triangle_material.push_back(triangle.material);
-        mesh_.albedo.push_back(colour.albedo);
+        mesh_.base_colour.push_back(colour.base_colour);
         mesh_.emission.push_back(colour.emission);
         mesh_.coverage.push_back(colour.coverage);
         cut_ = cut_ || colour.coverage < 1.0F;
@@ -275,7 +275,7 @@ class MeshBuilder {
             }
             mesh_.back_patch[t] = static_cast<std::uint32_t>(mesh_.patch_triangle.size());
             mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(t));
-            mesh_.albedo.push_back(glm::vec3(mesh_.albedo[t]));
+            mesh_.base_colour.push_back(glm::vec3(mesh_.base_colour[t]));
             mesh_.emission.push_back(glm::vec3(mesh_.emission[t]));
             mesh_.coverage.push_back(float{mesh_.coverage[t]});
         }

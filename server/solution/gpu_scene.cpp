@@ -132,7 +132,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
-        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(material, mesh.albedo[i]),
+        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(material, mesh.base_colour[i]),
                                       mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
                             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
@@ -179,7 +179,7 @@ void GpuScene::upload_reflectors(const PatchMesh& mesh) {
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
         reflectors.push_back(
-            with_bits(mesh.albedo[i], reflectance_.glossy(material) ? material : NOT_GLOSSY));
+            with_bits(mesh.base_colour[i], reflectance_.glossy(material) ? material : NOT_GLOSSY));
     }
     reflectors_ = Buffer::from<glm::vec4>("reflectors", reflectors);
     reflector_texture_ = create_buffer_texture("reflectors", GL_RGBA32F, reflectors_);

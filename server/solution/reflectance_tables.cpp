@@ -7,7 +7,7 @@
 
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
-#include "scene/lambert_albedo.h"
+#include "scene/base_colour.h"
 #include "scene/patch_colour.h"
 
 namespace raybundle {

@@ -39,7 +39,7 @@ float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
         const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
         const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);
         const auto area = static_cast<double>(glm::length(glm::cross(e1, e2)));
-        const glm::vec3& albedo = mesh.albedo[i];
+        const glm::vec3& albedo = mesh.base_colour[i];
         sum += area * static_cast<double>(std::max({albedo.r, albedo.g, albedo.b}));
         total += area;
     }

@@ -88,7 +88,7 @@ TEST(RayScene, BacksAbsorbUnlessDoubleSided) {
     for (std::uint32_t t = 0; t < 2; ++t) {
         b.mesh.back_patch[t] = 2 + t;
         b.mesh.patch_triangle.push_back(t);
-        b.mesh.albedo.emplace_back(0.25F);
+        b.mesh.base_colour.emplace_back(0.25F);
         b.mesh.emission.emplace_back(7.0F);
     }
     hit = from_below();

@@ -41,7 +41,7 @@ TEST(VertexIrradiance, KeepsTheSidesOfADoubleSidedTriangleApart) {
     for (std::uint32_t t = 0; t < 2; ++t) {
         b.mesh.back_patch[t] = 2 + t;
         b.mesh.patch_triangle.push_back(t);
-        b.mesh.albedo.emplace_back(0.5F);
+        b.mesh.base_colour.emplace_back(0.5F);
         b.mesh.emission.emplace_back(0.0F);
     }
     const RayScene scene(b.scene, b.mesh);

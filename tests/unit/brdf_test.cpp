@@ -11,7 +11,7 @@
 #include "hemisphere_quadrature.h"
 #include "random_brdf.h"
 #include "scene/ggx_albedo.h"
-#include "scene/lambert_albedo.h"
+#include "scene/base_colour.h"
 
 namespace raybundle::test {
 namespace {

@@ -102,8 +102,8 @@ TEST(SceneCorpus, ScenesAndObjectsLoadAndTessellate) {
             const PatchMesh mesh = tessellate(scene);
             EXPECT_GT(mesh.patch_count(), 0U) << file;
             for (std::size_t p = 0; p < mesh.patch_count(); ++p) {
-                ASSERT_TRUE(glm::all(glm::lessThanEqual(mesh.albedo[p], glm::vec3(0.999F))));
-                ASSERT_TRUE(glm::all(glm::greaterThanEqual(mesh.albedo[p], glm::vec3(0))));
+                ASSERT_TRUE(glm::all(glm::lessThanEqual(mesh.base_colour[p], glm::vec3(0.999F))));
+                ASSERT_TRUE(glm::all(glm::greaterThanEqual(mesh.base_colour[p], glm::vec3(0))));
             }
         }
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gltf_builder.h"
-#include "scene/lambert_albedo.h"
+#include "scene/base_colour.h"
 #include "scene/patch_mesh.h"
 #include "scene/texture_mean.h"
 
@@ -92,17 +92,15 @@ TEST(SceneMaterial, SpecularGlossinessGivesItsDiffuseColour) {
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.75F);
 }
 
-TEST(SceneMaterial, MetalsAreNotBlackAndAlbedoStaysBelowOne) {
-    Material metal;
-    metal.metallic = 1.0F;
-    EXPECT_EQ(lambert_albedo(metal, {0.9F, 0.8F, 0.7F}), glm::vec3(0.9F, 0.8F, 0.7F));
-    EXPECT_EQ(lambert_albedo(metal, {2.0F, 1.0F, 0.5F}), glm::vec3(0.999F, 0.999F, 0.5F));
+TEST(SceneMaterial, BaseColourStaysBelowOne) {
+    EXPECT_EQ(clamped_base_colour({0.9F, 0.8F, 0.7F}), glm::vec3(0.9F, 0.8F, 0.7F));
+    EXPECT_EQ(clamped_base_colour({2.0F, 1.0F, 0.5F}), glm::vec3(0.999F, 0.999F, 0.5F));
     Scene scene = square_with({{"name", "snow"},
                                {"pbrMetallicRoughness",
                                 {{"metallicFactor", 0}, {"baseColorFactor", {1.2, 1, 0.5, 1}}}}})
                       .load();
     const PatchMesh mesh = patches_of(scene, 0.5F);
-    EXPECT_EQ(mesh.albedo[0], glm::vec3(0.999F, 0.999F, 0.5F));
+    EXPECT_EQ(mesh.base_colour[0], glm::vec3(0.999F, 0.999F, 0.5F));
     EXPECT_TRUE(has_notice(scene, "\"snow\""));
 }
 
@@ -112,15 +110,15 @@ TEST(SceneMaterial, AlbedoIsTheAreaMeanInLinearLight) {
     add_texture(builder, 1, 1, {188, 188, 188, 255});
     Scene grey = builder.load();
     const PatchMesh grey_mesh = patches_of(grey, 2.0F);
-    EXPECT_NEAR(grey_mesh.albedo[0].g, 0.5029F, 1e-3F);
+    EXPECT_NEAR(grey_mesh.base_colour[0].g, 0.5029F, 1e-3F);
 
     add_texture(builder, 2, 1, left_white_right_black);
     Scene halves = builder.load();
     const PatchMesh whole = patches_of(halves, 2.0F);
     // Of the triangles of the square, one has 3/4 of its area on the right, one on the left.
     ASSERT_EQ(whole.patch_count(), 2U);
-    EXPECT_NEAR(whole.albedo[0].r + whole.albedo[1].r, 1.0F, 0.05F);
-    EXPECT_NEAR(std::min(whole.albedo[0].r, whole.albedo[1].r), 0.25F, 0.15F);
+    EXPECT_NEAR(whole.base_colour[0].r + whole.base_colour[1].r, 1.0F, 0.05F);
+    EXPECT_NEAR(std::min(whole.base_colour[0].r, whole.base_colour[1].r), 0.25F, 0.15F);
     const PatchMesh fine = patches_of(halves, 0.2F);
     for (std::size_t p = 0; p < fine.patch_count(); ++p) {
         glm::vec3 centre(0.0F);
@@ -128,7 +126,7 @@ TEST(SceneMaterial, AlbedoIsTheAreaMeanInLinearLight) {
             centre += fine.positions[fine.triangles[fine.patch_triangle[p]][k]] / 3.0F;
         }
         if (std::abs(centre.x - 0.5F) > 0.15F) {
-            EXPECT_NEAR(fine.albedo[p].r, centre.x < 0.5F ? 0.999F : 0.0F, 1e-6F);
+            EXPECT_NEAR(fine.base_colour[p].r, centre.x < 0.5F ? 0.999F : 0.0F, 1e-6F);
         }
     }
 }
@@ -159,7 +157,7 @@ TEST(SceneMaterial, TextureTransformAndWrapping) {
             if (mesh.positions[mesh.triangles[p].x].x < 0.1F &&
                 mesh.positions[mesh.triangles[p].y].x < 0.2F &&
                 mesh.positions[mesh.triangles[p].z].x < 0.2F) {
-                return mesh.albedo[p].r;
+                return mesh.base_colour[p].r;
             }
         }
         return -1.0F;
@@ -197,7 +195,7 @@ TEST(SceneMaterial, TheUvSetOfTheBaseColourIsRead) {
     builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] =
         builder.add_uvs({{0.9F, 0}, {0.9F, 0}, {0.9F, 0}, {0.9F, 0}});
     Scene scene = builder.load();
-    EXPECT_FLOAT_EQ(patches_of(scene, 2.0F).albedo[0].r, 0.0F);
+    EXPECT_FLOAT_EQ(patches_of(scene, 2.0F).base_colour[0].r, 0.0F);
 }
 
 TEST(SceneMaterial, MaskCutsPatchesAway) {
@@ -211,7 +209,7 @@ TEST(SceneMaterial, MaskCutsPatchesAway) {
     EXPECT_TRUE(has_notice(scene, "alpha MASK"));
     for (std::size_t p = 0; p < mesh.patch_count(); ++p) {
         // What is left shows only the opaque half's colour.
-        EXPECT_NEAR(mesh.albedo[p].r, linear_from_srgb(200), 1e-5F);
+        EXPECT_NEAR(mesh.base_colour[p].r, linear_from_srgb(200), 1e-5F);
         float left = 1.0F;
         for (int k = 0; k < 3; ++k) {
             left = std::min(left, mesh.positions[mesh.triangles[p][k]].x);

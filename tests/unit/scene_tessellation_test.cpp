@@ -171,7 +171,7 @@ TEST(SceneTessellation, IsDeterministic) {
     EXPECT_EQ(a.positions, b.positions);
     EXPECT_EQ(a.normals, b.normals);
     EXPECT_EQ(a.triangles, b.triangles);
-    EXPECT_EQ(a.albedo, b.albedo);
+    EXPECT_EQ(a.base_colour, b.base_colour);
 }
 
 TEST(SceneTessellation, DegenerateTrianglesChangeNothing) {
@@ -196,7 +196,7 @@ TEST(SceneTessellation, DegenerateTrianglesChangeNothing) {
     EXPECT_EQ(a.normals, b.normals);
     EXPECT_EQ(a.uvs, b.uvs);
     EXPECT_EQ(a.triangles, b.triangles);
-    EXPECT_EQ(a.albedo, b.albedo);
+    EXPECT_EQ(a.base_colour, b.base_colour);
     EXPECT_EQ(clean.bounds.min, littered.bounds.min);
     EXPECT_EQ(clean.bounds.max, littered.bounds.max);
 }
