@@ -24,6 +24,8 @@ struct CommandRow {
 constexpr CommandRow command_table[] = {
     {"serve", "Serve a scene to browsers", Options::Command::serve, false},
     {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
+    {"accuracy", "Measure error over time of several methods against a reference",
+     Options::Command::accuracy, true},
     {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
      true},
     {"bench", "Measure speed on this machine", Options::Command::bench, false},
@@ -49,14 +51,6 @@ const MethodRow method_table[] = {
     {"metropolis", ReferenceKind::metropolis},
     {"photon-map", ReferenceKind::photon_map},
 };
-
-std::string method_names() {
-    std::string names;
-    for (const MethodRow& row : method_table) {
-        names += (names.empty() ? "" : ", ") + std::string(row.name);
-    }
-    return names;
-}
 
 /// Adds a row of the table of `serve`.
 void add_row(CLI::App& app, Options& o, const ServeOption& row) {
@@ -134,15 +128,19 @@ void add_token(CLI::App& app, Options& o) {
     app.add_option("--role", o.token_role, "VIEWER, REVIEWER or EDITOR")->capture_default_str();
 }
 
-void add_render(CLI::App& app, Options& o) {
-    app.add_option("-o,--output", o.output, "Picture to write: .exr (linear, cd/m²) or .png")
-        ->required();
+void add_camera(CLI::App& app, Options& o) {
     app.add_option("--camera", o.camera, "Camera of the scene, by name or index from 0");
     app.add_option("--eye", o.eye, "Eye, x,y,z in metres (with --target)");
     app.add_option("--target", o.target, "Point looked at, x,y,z in metres");
     app.add_option("--fov", o.fov, "Vertical field of view, degrees")
         ->capture_default_str()
         ->check(CLI::Range(0.1F, 179.0F));
+}
+
+void add_render(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output, "Picture to write: .exr (linear, cd/m²) or .png")
+        ->required();
+    add_camera(app, o);
     app.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     app.add_option("--seconds", o.seconds, "Solving time")->check(CLI::PositiveNumber);
     app.add_option("--iterations", o.iterations, "Number of iterations; no clock decides anything")
@@ -155,6 +153,27 @@ void add_render(CLI::App& app, Options& o) {
                    "metropolis, photon-map")
         ->capture_default_str();
     app.add_option("--stats", o.stats, "Write statistics as JSON");
+}
+
+void add_accuracy(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output, "Folder to write index.html, accuracy.json, plots to")
+        ->required();
+    add_camera(app, o);
+    app.add_option("--size", o.accuracy_size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--seconds", o.seconds, "Solving time of each run (default: 10)")
+        ->check(CLI::Range(0.1, 86400.0));
+    app.add_option("--methods", o.methods,
+                   "Methods of render, between commas (default: all but ray-cast)");
+    app.add_option("--repeats", o.repeats, "Runs of each method, with seeds one apart")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    app.add_flag("--knobs", o.knobs,
+                 "Also vary patch size, bundle resolution and strategy probabilities");
+    app.add_option("--reference", o.reference,
+                   "Reference to compare with, .exr (default: path-traced, kept in the folder)");
+    app.add_option("--reference-seconds", o.reference_seconds,
+                   "At most for each reference (default: 60 times --seconds)")
+        ->check(CLI::PositiveNumber);
 }
 
 float parse_float(const std::string& option, const std::string& text) {
@@ -195,6 +214,8 @@ void define_options(CLI::App& app, Options& options) {
         }
         if (row.command == Options::Command::render) {
             add_render(*command, options);
+        } else if (row.command == Options::Command::accuracy) {
+            add_accuracy(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");
         } else {
@@ -261,7 +282,19 @@ RenderMethod parse_method(const std::string& method) {
             return row.method;
         }
     }
-    throw UsageError("--method: '" + method + "' is none of " + method_names());
+    std::string names;
+    for (const std::string& name : method_names()) {
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    throw UsageError("--method: '" + method + "' is none of " + names);
+}
+
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const MethodRow& row : method_table) {
+        names.emplace_back(row.name);
+    }
+    return names;
 }
 
 }  // namespace raybundle

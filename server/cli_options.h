@@ -85,6 +85,14 @@ struct Options {
     std::string method = "combined";
     std::string stats;
 
+    // accuracy, besides those of render
+    std::string accuracy_size = "128x128";
+    std::string methods;  // between commas; empty: all that solve the whole transport
+    std::string reference;
+    std::optional<double> reference_seconds;
+    std::size_t repeats = 1;
+    bool knobs = false;
+
     // inspect, bench, selftest
     bool json_to_stdout = false;
     std::string json_file;
@@ -108,5 +116,7 @@ float metres_per_unit(const std::string& unit);
 using RenderMethod = std::variant<StrategyProbabilities, ReferenceKind>;
 /// Throws UsageError.
 RenderMethod parse_method(const std::string& method);
+/// All that --method can be, in the order of the one table.
+std::vector<std::string> method_names();
 
 }  // namespace raybundle

@@ -37,6 +37,8 @@ int run(const Options& options, const CLI::App& app) {
             return raybundle::run_serve(options);
         case Options::Command::render:
             return raybundle::run_render(options);
+        case Options::Command::accuracy:
+            return raybundle::run_accuracy(options);
         case Options::Command::inspect:
             return raybundle::run_inspect(options);
         case Options::Command::bench:

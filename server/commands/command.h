@@ -4,6 +4,7 @@
 #include "cli_options.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "view/whole_file.h"
 
 namespace raybundle {
 
@@ -22,12 +23,10 @@ int run_serve(const Options& options);
 int run_render(const Options& options);
 /// The part of run_render() that needs no GL context.
 int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& options);
+int run_accuracy(const Options& options);
 int run_inspect(const Options& options);
 int run_bench(const Options& options);
 int run_selftest(const Options& options);
 int run_token(const Options& options);
-
-/// Writes text to a temporary name beside the path, then renames. Throws std::runtime_error.
-void write_file(const std::string& path, const std::string& text);
 
 }  // namespace raybundle

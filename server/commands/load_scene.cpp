@@ -2,8 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 
 #include "commands/command.h"
 #include "journal/session_journal.h"
@@ -32,24 +30,6 @@ LoadedScene load_scene(const Options& options) {
                  loaded.scene.triangles.size(), loaded.mesh.patch_count(),
                  loaded.scene.objects.size(), loaded.scene.lights.size(), loaded.seconds);
     return loaded;
-}
-
-void write_file(const std::string& path, const std::string& text) {
-    namespace fs = std::filesystem;
-    const fs::path target(path);
-    const fs::path temporary = target.parent_path() / ("." + target.filename().string() + ".part");
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    std::error_code error;
-    if (stream) {
-        fs::rename(temporary, target, error);
-    }
-    if (!stream || error) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw std::runtime_error(path + ": cannot be written");
-    }
 }
 
 }  // namespace raybundle

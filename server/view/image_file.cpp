@@ -65,4 +65,27 @@ void write_png(const std::string& path, int width, int height, std::span<const s
     write_image(path, spec, OIIO::TypeDesc::UINT8, rgb);
 }
 
+LinearPicture read_exr(const std::string& path) {
+    constexpr int most_pixels_a_side = 16384;
+    const auto fail = [&](const std::string& reason) {
+        throw std::runtime_error(path + ": cannot be read: " + reason);
+    };
+    const auto input = OIIO::ImageInput::open(path);
+    if (!input) {
+        fail(OIIO::geterror());
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.nchannels < 3 || spec.width < 1 || spec.height < 1 ||
+        spec.width > most_pixels_a_side || spec.height > most_pixels_a_side) {
+        fail("it is no RGB picture of up to 16384 x 16384 pixels");
+    }
+    LinearPicture picture{spec.width, spec.height, {}};
+    picture.radiance.resize(static_cast<std::size_t>(spec.width) *
+                            static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.radiance.data())) {
+        fail(input->geterror());
+    }
+    return picture;
+}
+
 }  // namespace raybundle

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `accuracy` is to run, from the command line alone.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "accuracy/error_curve.h"
+#include "cli_options.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+
+/// One curve to measure: a method with its settings.
+struct PlannedCurve {
+    std::string method;  ///< of --method
+    std::string name;    ///< of the curve
+    std::string knob;    ///< what is varied; empty: nothing
+    RenderMethod how;
+    SolverSettings solver;     ///< ray bundles
+    double patch_scale = 1.0;  ///< of the edges, ray bundles
+
+    [[nodiscard]] bool uses_bundles() const {
+        return std::holds_alternative<StrategyProbabilities>(how);
+    }
+    /// What its pixels show: ray-bundle pictures have one sample, in the centre.
+    [[nodiscard]] PixelFilter filter() const {
+        return uses_bundles() ? PixelFilter::centre : PixelFilter::box;
+    }
+};
+
+struct AccuracyJob {
+    std::vector<PlannedCurve> curves;
+    glm::uvec2 size{0};
+    double seconds = 0.0;  ///< of each run
+    std::size_t repeats = 1;
+    double reference_seconds = 0.0;  ///< at most, for each reference
+
+    [[nodiscard]] bool needs_gl() const;
+    /// Solving time of all runs, s.
+    [[nodiscard]] double run_seconds() const;
+};
+
+/// Throws UsageError.
+AccuracyJob plan_accuracy(const Options& options);
+
+}  // namespace raybundle

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/accuracy_measurement.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "accuracy/error_map.h"
+#include "accuracy/scene_fingerprint.h"
+#include "commands/accuracy_reference.h"
+#include "view/tone_curve.h"
+
+namespace raybundle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "Intel(R) Xeon(R) CPU, 2 threads".
+std::string processor_name() {
+    std::ifstream stream("/proc/cpuinfo");
+    std::string name = "CPU";
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            name = line.substr(colon + 2);
+            break;
+        }
+    }
+    return fmt::format("{}, {} threads", name, std::thread::hardware_concurrency());
+}
+
+/// The mesh with longer or shorter edges; the scene itself stays as it is.
+PatchMesh mesh_with_edges(const Scene& scene, const Options& options, double scale) {
+    Scene copy = scene;
+    TessellationSettings settings;
+    settings.patch_size = options.patch_size * static_cast<float>(scale);
+    settings.target_patches =
+        static_cast<std::size_t>(static_cast<double>(settings.target_patches) / (scale * scale));
+    return tessellate(copy, settings);
+}
+
+/// What decides how a scene's files are read, for the cache's key.
+std::string reading_options(const Options& options) {
+    return fmt::format("{} {} {}", RAYBUNDLE_VERSION, options.unit,
+                       options.sky ? std::to_string(*options.sky) : "own sky");
+}
+
+}  // namespace
+
+AccuracyMeasurement::AccuracyMeasurement(const Options& options, const AccuracyJob& job,
+                                         const LoadedScene& loaded)
+    : options_(options),
+      job_(job),
+      loaded_(loaded),
+      camera_(choose_camera(loaded.scene, options)),
+      ray_scene_(loaded.scene, loaded.mesh),
+      lights_(ray_scene_),
+      rays_(ray_scene_, camera_, job.size),
+      measured_(measured_pixels(ray_scene_, rays_)),
+      pictures_(std::size_t{job.size.x} * job.size.y) {
+    if (std::find(measured_.begin(), measured_.end(), true) == measured_.end()) {
+        throw std::runtime_error("every pixel sees a lamp or the sky: nothing to measure");
+    }
+}
+
+void AccuracyMeasurement::run() {
+    run_methods();
+    make_references();
+}
+
+void AccuracyMeasurement::run_methods() {
+    double left = job_.run_seconds();
+    std::size_t count = 0;
+    for (const PlannedCurve& plan : job_.curves) {
+        curves_.push_back({&plan, {}});
+        for (std::size_t repeat = 0; repeat < job_.repeats; ++repeat) {
+            left -= job_.seconds;
+            progress_.begin(fmt::format("{} ({} of {})", plan.name, ++count,
+                                        job_.curves.size() * job_.repeats));
+            curves_.back().runs.push_back(run_once(plan, options_.seed + repeat, left));
+        }
+    }
+}
+
+MethodRun AccuracyMeasurement::run_once(const PlannedCurve& plan, std::uint64_t seed,
+                                        double seconds_after) {
+    const bool other_patches = plan.patch_scale != 1.0;
+    const PatchMesh scaled =
+        other_patches ? mesh_with_edges(loaded_.scene, options_, plan.patch_scale) : PatchMesh{};
+    const RunSurroundings around{loaded_.scene, other_patches ? scaled : loaded_.mesh,
+                                 camera_,       job_.size,
+                                 job_.seconds,  pictures_,
+                                 progress_,     seconds_after};
+    return plan.uses_bundles()
+               ? run_bundles(around, plan, seed)
+               : run_on_cpu(around, ray_scene_, std::get<ReferenceKind>(plan.how), seed);
+}
+
+ReferenceKey AccuracyMeasurement::key(PixelFilter filter) const {
+    return {scene_fingerprint(options_.scene, reading_options(options_)), camera_, job_.size,
+            filter};
+}
+
+std::string AccuracyMeasurement::reference_file(PixelFilter filter) const {
+    return (fs::path(options_.output) /
+            (filter == PixelFilter::centre ? "reference.exr" : "reference_area.exr"))
+        .string();
+}
+
+void AccuracyMeasurement::take_named_reference() {
+    ReferencePicture reference = load_named_reference(options_.reference, key(PixelFilter::centre));
+    one_for_all_ = !reference.noise.has_value();
+    if (one_for_all_) {
+        spdlog::warn("{}: has no .json file of ours beside it, so its own noise is taken for 0",
+                     options_.reference);
+    }
+    reference_files_[reference.filter] = options_.reference;
+    references_.emplace(reference.filter, std::move(reference));
+}
+
+void AccuracyMeasurement::make_references() {
+    if (!options_.reference.empty()) {
+        take_named_reference();
+    }
+    for (const PixelFilter filter : {PixelFilter::centre, PixelFilter::box}) {
+        const bool wanted =
+            std::any_of(job_.curves.begin(), job_.curves.end(),
+                        [&](const PlannedCurve& curve) { return curve.filter() == filter; });
+        if (!wanted || one_for_all_ || references_.count(filter) > 0) {
+            continue;
+        }
+        reference_files_[filter] = reference_file(filter);
+        const ReferenceJob job{ray_scene_,
+                               lights_,
+                               rays_,
+                               measured_,
+                               key(filter),
+                               reference_files_[filter],
+                               mixed_bits(options_.seed ^ 0x7265666572656e63ULL),
+                               job_.reference_seconds,
+                               [this](const ReferencePicture& r) { return best_error(r); }};
+        references_.emplace(filter, make_reference(job, progress_));
+    }
+}
+
+const ReferencePicture& AccuracyMeasurement::reference_for(PixelFilter filter) const {
+    return one_for_all_ ? references_.begin()->second : references_.at(filter);
+}
+
+ImageMetrics AccuracyMeasurement::metrics(std::size_t picture, const ReferencePicture& r) const {
+    return compare_images(pictures_.picture(picture), r.radiance, measured_);
+}
+
+/// Every picture of the reference's filter counts.
+double AccuracyMeasurement::best_error(const ReferencePicture& reference) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (const CurveRuns& curve : curves_) {
+        if (curve.plan->filter() != reference.filter) {
+            continue;
+        }
+        for (const MethodRun& run : curve.runs) {
+            for (const RunCheckpoint& checkpoint : run.checkpoints) {
+                CurvePoint point;
+                set_measured(point, metrics(checkpoint.picture, reference), *reference.noise);
+                best = std::min(best, point.relative_rmse);
+            }
+        }
+    }
+    return best;
+}
+
+ErrorCurve AccuracyMeasurement::measured_curve(const CurveRuns& curve) const {
+    const ReferencePicture& reference = reference_for(curve.plan->filter());
+    std::vector<ErrorCurve> runs;
+    for (const MethodRun& run : curve.runs) {
+        ErrorCurve measured{curve.plan->method,   curve.plan->name, curve.plan->knob,
+                            curve.plan->filter(), run.settings,     {}};
+        for (const RunCheckpoint& checkpoint : run.checkpoints) {
+            measured.points.push_back(checkpoint.point);
+            set_measured(measured.points.back(), metrics(checkpoint.picture, reference),
+                         reference.noise.value_or(ReferenceNoise{}));
+        }
+        runs.push_back(std::move(measured));
+    }
+    return merged_runs(runs);
+}
+
+/// In the order of the plan; each knob begins with the curve whose settings are varied.
+std::vector<ErrorCurve> AccuracyMeasurement::curves() const {
+    std::vector<ErrorCurve> result;
+    result.reserve(2 * curves_.size());  // so that base stays where it is
+    const ErrorCurve* base = nullptr;
+    for (const CurveRuns& curve : curves_) {
+        ErrorCurve measured = measured_curve(curve);
+        if (!measured.knob.empty() && base != nullptr && result.back().knob != measured.knob) {
+            result.push_back(*base);
+            result.back().knob = measured.knob;
+            result.back().name = base->name + " as it comes";
+        }
+        result.push_back(std::move(measured));
+        if (base == nullptr && curve.plan->uses_bundles()) {
+            base = &result.back();
+        }
+    }
+    return result;
+}
+
+void AccuracyMeasurement::add_pictures(AccuracyReport& report) const {
+    const ReferencePicture& first = reference_for(curves_.front().plan->filter());
+    const double factor = automatic_display_factor(first.radiance, measured_);
+    report.pictures.push_back(
+        {"reference", 0.0, 0.0, png_of(tone_mapped(first.radiance, factor), job_.size), ""});
+    double p95 = 1.0;
+    for (const CurveRuns& curve : curves_) {
+        const auto& last = curve.runs.front().checkpoints.back();
+        p95 = std::min(p95, metrics(last.picture, reference_for(curve.plan->filter())).p95);
+    }
+    report.map_scale = error_map_scale(p95);
+    for (const CurveRuns& curve : curves_) {
+        if (!curve.plan->knob.empty()) {
+            continue;
+        }
+        const ReferencePicture& reference = reference_for(curve.plan->filter());
+        const auto& last = curve.runs.front().checkpoints.back();
+        const std::vector<glm::dvec3> picture = pictures_.picture(last.picture);
+        CurvePoint point;
+        set_measured(point, metrics(last.picture, reference),
+                     reference.noise.value_or(ReferenceNoise{}));
+        report.pictures.push_back(
+            {curve.plan->name, last.point.seconds, point.relative_rmse,
+             png_of(tone_mapped(picture, factor), job_.size),
+             png_of(error_map(picture, reference.radiance, measured_, report.map_scale),
+                    job_.size)});
+    }
+}
+
+AccuracyReport AccuracyMeasurement::report(const std::string& device) const {
+    AccuracyReport report;
+    report.scene = loaded_.scene.name;
+    report.camera = options_.eye.empty() ? camera_.name : options_.eye + " to " + options_.target;
+    report.device = device;
+    report.processor = processor_name();
+    report.size = job_.size;
+    report.patches = loaded_.mesh.patch_count();
+    report.seconds = job_.seconds;
+    report.seed = options_.seed;
+    report.repeats = job_.repeats;
+    for (const auto& [filter, reference] : references_) {
+        report.references.push_back({filter, reference_files_.at(filter), reference.noise,
+                                     reference.samples, reference.seconds});
+    }
+    std::stable_sort(report.references.begin(), report.references.end(),
+                     [](const ReferenceReport& a, const ReferenceReport&) {
+                         return a.filter == PixelFilter::centre;
+                     });
+    report.curves = curves();
+    add_pictures(report);
+    return report;
+}
+
+}  // namespace raybundle

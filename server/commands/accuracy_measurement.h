@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "accuracy/accuracy_report.h"
+#include "accuracy/reference_cache.h"
+#include "commands/accuracy_runs.h"
+#include "commands/command.h"
+
+namespace raybundle {
+
+/// A curve's runs, one for each seed, before they are measured.
+struct CurveRuns {
+    const PlannedCurve* plan = nullptr;
+    std::vector<MethodRun> runs;
+};
+
+/// Runs every planned curve of a job, makes the references that they need, and measures all. A job
+/// with ray bundles needs a GL context. Options, job and scene must outlive it.
+class AccuracyMeasurement {
+  public:
+    /// Throws UsageError, and std::runtime_error where the camera sees nothing to measure.
+    AccuracyMeasurement(const Options& options, const AccuracyJob& job, const LoadedScene& loaded);
+
+    /// Runs everything; the folder of the references exists. Throws std::runtime_error.
+    void run();
+
+    /// device: what the ray bundles ran on. Requires run().
+    [[nodiscard]] AccuracyReport report(const std::string& device) const;
+
+  private:
+    void run_methods();
+    MethodRun run_once(const PlannedCurve& plan, std::uint64_t seed, double seconds_after);
+    void make_references();
+    void take_named_reference();
+    [[nodiscard]] ReferenceKey key(PixelFilter filter) const;
+    [[nodiscard]] std::string reference_file(PixelFilter filter) const;
+    [[nodiscard]] const ReferencePicture& reference_for(PixelFilter filter) const;
+    [[nodiscard]] ImageMetrics metrics(std::size_t picture, const ReferencePicture& r) const;
+    [[nodiscard]] double best_error(const ReferencePicture& reference) const;
+    [[nodiscard]] ErrorCurve measured_curve(const CurveRuns& curve) const;
+    [[nodiscard]] std::vector<ErrorCurve> curves() const;
+    void add_pictures(AccuracyReport& report) const;
+
+    const Options& options_;
+    const AccuracyJob& job_;
+    const LoadedScene& loaded_;
+    Camera camera_;
+    RayScene ray_scene_;
+    LightSampling lights_;
+    CameraRays rays_;
+    std::vector<bool> measured_;
+    PictureStore pictures_;
+    AccuracyProgress progress_;
+    std::vector<CurveRuns> curves_;
+    std::map<PixelFilter, ReferencePicture> references_;
+    std::map<PixelFilter, std::string> reference_files_;
+    bool one_for_all_ = false;  // a reference of unknown making stands for both filters
+};
+
+}  // namespace raybundle

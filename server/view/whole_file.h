@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace raybundle {
+
+/// Writes bytes to a temporary name beside the path, then renames: the file appears whole or not at
+/// all. Throws std::runtime_error.
+void write_file(const std::string& path, const std::string& bytes);
+
+}  // namespace raybundle

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// `raybundle accuracy` with ray bundles: the whole way from the scene to the page.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
+    const fs::path folder = fs::path(testing::TempDir()) / "raybundle_accuracy_bundles";
+    fs::remove_all(folder);
+    const std::string command = RAYBUNDLE_EXECUTABLE
+                                " accuracy --log-level off " RAYBUNDLE_SCENES
+                                "/cornell_box.gltf --size 32x32 --patch-size 0.5 --seconds 1 "
+                                "--reference-seconds 4 --methods combined,path -o '" +
+                                folder.string() + "' >/dev/null 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream stream(folder / "accuracy.json");
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    ASSERT_TRUE(json.is_object());
+    EXPECT_FALSE(json["device"].get<std::string>().empty());
+    ASSERT_EQ(json["curves"].size(), 2U);
+    EXPECT_EQ(json["curves"][0]["method"], "combined");
+    EXPECT_EQ(json["curves"][0]["pixelFilter"], "centre");
+    EXPECT_EQ(json["curves"][1]["pixelFilter"], "area");
+    const auto& points = json["curves"][0]["points"];
+    ASSERT_GE(points.size(), 3U);
+    // One progressive run: iterations only grow, and the last picture is better than the first.
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        EXPECT_GT(points[i]["iterations"].get<int>(), points[i - 1]["iterations"].get<int>());
+    }
+    EXPECT_LT(points.back()["relRMSE"].get<double>(), points.front()["relRMSE"].get<double>());
+    EXPECT_LT(points.back()["relRMSE"].get<double>(), 0.3);
+    for (const char* name :
+         {"index.html", "reference.exr", "reference_area.exr", "estimate_combined.svg"}) {
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+    }
+    fs::remove_all(folder);
+}
+
+}  // namespace
