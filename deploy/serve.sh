@@ -14,11 +14,12 @@ Options: --listen ADDRESS:PORT, --config FILE.json, ... ("build/raybundle serve 
 TEXT
 }
 
+# A configuration file is expected to name the scene.
 names_a_scene() {
     local argument
     [[ $# -gt 0 && $1 != -* ]] && return 0
     for argument in "$@"; do
-        [[ ${argument,,} == *.gltf || ${argument,,} == *.glb ]] && return 0
+        [[ ${argument,,} == *.gltf || ${argument,,} == *.glb || $argument == --config* ]] && return 0
     done
     return 1
 }
