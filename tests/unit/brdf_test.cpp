@@ -10,8 +10,8 @@
 
 #include "hemisphere_quadrature.h"
 #include "random_brdf.h"
-#include "scene/ggx_albedo.h"
 #include "scene/base_colour.h"
+#include "scene/ggx_albedo.h"
 
 namespace raybundle::test {
 namespace {
