@@ -57,7 +57,7 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
     : settings_(prepared(settings, scene)),
       scene_(scene, mesh),
       store_(scene_),
-      schedule_(settings_.seed, settings_.probabilities),
+      schedule_(settings_.seed, settings_.probabilities, settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
       transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
 
@@ -151,8 +151,12 @@ void Solver::run(const Planned& planned, unsigned slot,
         store_.update(true, settings.context.sample_weight, iterate_step(),
                       planned.shooter.density);
     } else {
-        transfer().layered(transfer().window_geometry(planned.sample), transfer().window().full(),
-                           settings, receivers);
+        const ParallelWindow window = transfer().parallel_window(planned.sample);
+        if (planned.sample.strategy == Strategy::plane) {
+            transfer().plane(window, settings, receivers);
+        } else {
+            transfer().layered(window, window.full(), settings, receivers);
+        }
         store_.update(false, settings.context.sample_weight, iterate_step(), 0.0F);
     }
     after_iteration();

@@ -22,8 +22,9 @@ struct SolverSettings {
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
     std::uint64_t coarse_iterations = 768;
-    float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
-    bool adapt_to_sky = true;    ///< more parallel bundles where a sky lights the scene
+    float density_error = 1.0F;         ///< fault injection of tests: factor of the densities
+    bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
+    unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
 };
 
 /// Stochastic iteration of the object-space solution: one bundle at a time to patches and

@@ -40,7 +40,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       hemicube_pixels_special({"transport_hemicube_pixels.comp"},
                               with(scene.defines(), "SPECIAL 1")),
       layers_pixels({"transport_layers_pixels.comp"}, scene.defines()),
-      layers_pixels_special({"transport_layers_pixels.comp"}, with(scene.defines(), "SPECIAL 1")) {
+      layers_pixels_special({"transport_layers_pixels.comp"}, with(scene.defines(), "SPECIAL 1")),
+      planes_pixels({"transport_planes_pixels.comp"}, scene.defines()) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
     for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -205,6 +206,10 @@ void ViewerImage::receive_hemicube(const Context& context) {
 void ViewerImage::receive_layers(const Context& context) {
     prepare_receiving(context.special ? programs_.layers_pixels_special : programs_.layers_pixels,
                       context);
+}
+
+void ViewerImage::receive_planes(const Context& context) {
+    prepare_receiving(programs_.planes_pixels, context);
 }
 
 void ViewerImage::discard_sample(float sample_weight) {

@@ -50,6 +50,7 @@ struct ViewPrograms {
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram correct, vertex_irradiance, statistics, probe;
     ShaderProgram hemicube_pixels, hemicube_pixels_special, layers_pixels, layers_pixels_special;
+    ShaderProgram planes_pixels;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -70,6 +71,7 @@ class ViewerImage : public BundleReceiver {
     // BundleReceiver
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
+    void receive_planes(const Context& context) override;
     void discard_sample(float sample_weight) override;
     void begin_special(std::uint32_t moved_object) override;
     void end_special(float phase_weight) override;
