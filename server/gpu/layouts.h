@@ -29,6 +29,6 @@ static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(PickResult) == 64);
-static_assert(sizeof(BundleParameters) == 16 * 14);
+static_assert(sizeof(BundleParameters) == 16 * 19);
 static_assert(sizeof(ViewParameters) == 64 + 16 * 8);
 }  // namespace raybundle::layout

@@ -24,7 +24,8 @@ std::string_view find_shader(const std::string& name) {
     throw GpuError("shader file '" + name + "' is not part of this executable");
 }
 
-/// Expands includes. Lines keep their numbers; the file's index in `names` is the string number.
+/// Expands includes; guards let each file in once. Lines keep their numbers; the file's index in
+/// `names` is the string number.
 void expand(const std::string& name, int depth, std::vector<std::string>& names, std::string& out) {
     if (depth > max_include_depth) {
         throw GpuError("shader file '" + name + "': includes nest too deeply");
@@ -36,8 +37,11 @@ void expand(const std::string& name, int depth, std::vector<std::string>& names,
     for (int number = 1; std::getline(lines, line); ++number) {
         if (line.rfind("#include \"", 0) == 0) {
             const std::string included = line.substr(10, line.find('"', 10) - 10);
+            const std::string guard = "INCLUDED_" + included.substr(0, included.find('.'));
+            out += "#ifndef " + guard + "\n#define " + guard + "\n";
             out += "#line 1 " + std::to_string(names.size()) + "\n";
             expand(included, depth + 1, names, out);
+            out += "#endif\n";
             out += "#line " + std::to_string(number + 1) + " " + std::to_string(index) + "\n";
         } else {
             out += line + "\n";
@@ -149,6 +153,14 @@ void ShaderProgram::dispatch(std::size_t threads_x, std::size_t threads_y) const
     const GlScope scope(label_.c_str());
     use();
     glDispatchCompute(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]), 1);
+    storage_barrier();
+}
+
+void ShaderProgram::dispatch_indirect(const Buffer& command) const {
+    const GlScope scope(label_.c_str());
+    use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command.get());
+    glDispatchComputeIndirect(0);
     storage_barrier();
 }
 

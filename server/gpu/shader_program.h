@@ -35,6 +35,8 @@ class ShaderProgram {
     void dispatch(std::size_t threads) const;
     /// The same over a plane of invocations.
     void dispatch(std::size_t threads_x, std::size_t threads_y) const;
+    /// As many work groups as the first three numbers of a buffer say.
+    void dispatch_indirect(const Buffer& command) const;
 
   private:
     [[nodiscard]] GLint location(const char* name) const;
@@ -53,7 +55,8 @@ inline std::vector<std::string> with(std::vector<std::string> defines, const std
 /// Makes shader writes visible to everything that follows.
 inline void storage_barrier() {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                    GL_TEXTURE_FETCH_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+                    GL_TEXTURE_FETCH_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
+                    GL_COMMAND_BARRIER_BIT);
 }
 
 }  // namespace raybundle

@@ -6,62 +6,14 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "oracle/scene_builder.h"
-#include "transport/solver.h"
+#include "oracle/glossy_oracles.h"
+#include "oracle/oracle_solve.h"
 
 namespace raybundle {
 
 namespace {
 
 constexpr double pi = glm::pi<double>();
-
-/// Nothing axis-aligned passes by luck.
-glm::mat4 odd_rotation() {
-    return glm::rotate(glm::mat4(1.0F), 0.7F, glm::normalize(glm::vec3(0.3F, 1.0F, 0.5F)));
-}
-
-SolverSettings solver_settings(const OracleSettings& settings) {
-    SolverSettings result;
-    result.seed = settings.seed;
-    result.probabilities = settings.probabilities;
-    result.coarse = settings.resolution;
-    result.fine = settings.resolution;
-    result.coarse_iterations = settings.iterations + 1;
-    result.density_error = settings.density_error;
-    return result;
-}
-
-Solver solve(const SceneBuilder& builder, const OracleSettings& settings) {
-    Solver solver(builder.scene, builder.mesh, solver_settings(settings));
-    while (solver.iterations() < settings.iterations) {
-        solver.step({});
-    }
-    return solver;
-}
-
-double patch_area(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
-    const glm::dvec3 a(mesh.positions[t.x]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a,
-                                        glm::dvec3(mesh.positions[t.z]) - a));
-}
-
-/// Area mean of the irradiance (first channel) over patches [first, last).
-double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance,
-                       std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    double area = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-        const double a = patch_area(builder.mesh, i);
-        sum += a * static_cast<double>(irradiance[i].x);
-        area += a;
-    }
-    return sum / area;
-}
-
-double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance) {
-    return mean_irradiance(builder, irradiance, 0, irradiance.size());
-}
 
 constexpr float furnace_emission = 100.0F;
 
@@ -307,6 +259,8 @@ std::vector<Oracle> all_oracles() {
                     [=] { return squares_form_factor(0.1F, perspective); }),
         make_oracle("disc source above", 1000.0 / (pi * 4.01), 0.005,
                     [=] { return disc_illuminance(0.1F, 2.0F, 1000.0F, small_target); }),
+        make_oracle("furnace, glossy, albedo 0.5", 1.0, 0.02,
+                    [=] { return glossy_furnace_mean(0.3F, 0.5F, usual); }),
         make_oracle("black room", 0.0, 0.0, [=] { return black_room_irradiance(brief); }),
         make_oracle("dark room behind a wall of 0 mm", 0.0, 0.0,
                     [=] { return dark_room_irradiance(0.0F, brief); }),

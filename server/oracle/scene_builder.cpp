@@ -26,6 +26,12 @@ std::uint32_t SceneBuilder::add_material(const glm::vec3& albedo, const glm::vec
     Material material;
     material.base_colour = albedo;
     material.emission = emission;
+    material.metallic = 0.0F;
+    material.specular = 0.0F;
+    return add_material(material);
+}
+
+std::uint32_t SceneBuilder::add_material(const Material& material) {
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size()) - 1;
 }

@@ -20,6 +20,7 @@ class SceneBuilder {
     std::uint32_t add_object(const std::string& name, const Transform& transform = {});
     /// Lambert material; returns its index.
     std::uint32_t add_material(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0));
+    std::uint32_t add_material(const Material& material);
     /// Parallelogram with its front towards cross(u, v), split into n x m x 2 triangles.
     void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, std::uint32_t n,
                   std::uint32_t m, std::uint32_t material);

@@ -44,7 +44,8 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
     glm::dvec3 throughput(1.0);
     for (int bounce = 0; bounce < settings_.max_bounces; ++bounce) {
         sum += throughput * next_event(point, scattering, sampler);
-        const std::optional<ScatterSample> next = scattering.sample(sampler.next_pair());
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         if (!next) {
             break;
         }

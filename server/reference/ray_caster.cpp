@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/ray_caster.h"
 
-#include "reference/scattering.h"
-
 namespace raybundle {
 
 glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -15,15 +13,46 @@ glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direc
         return scene_.emission(*hit);
     }
     const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
+    glm::dvec3 sum = scene_.emission(*hit) + sampled(*hit, scattering, sampler);
+    if (!scattering.is_lambert()) {
+        sum += met(*hit, scattering, sampler);
+    }
+    return sum;
+}
+
+/// Reflection of light from a point chosen on the lights.
+glm::dvec3 RayCaster::sampled(const SurfacePoint& point, const Scattering& scattering,
+                              PixelSampler& sampler) const {
     const double choice = sampler.next();
     const std::optional<LightSample> light =
-        lights_.sample(*hit, scattering.frame(), choice, sampler.next_pair());
-    glm::dvec3 reflected(0.0);
-    if (light) {
-        reflected = scattering.evaluate(light->direction) * light->radiance / light->density;
+        lights_.sample(point, scattering.frame(), choice, sampler.next_pair());
+    if (!light) {
+        return glm::dvec3(0.0);
     }
-    const bool lit = reflected != glm::dvec3(0.0) && lights_.arrives(*hit, *light);
-    return scene_.emission(*hit) + (lit ? reflected : glm::dvec3(0.0));
+    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
+    if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
+        return glm::dvec3(0.0);
+    }
+    const double other = scattering.is_lambert() ? 0.0 : scattering.density(light->direction);
+    return value / (light->density + other);
+}
+
+/// Reflection of light that a direction of the lobe meets.
+glm::dvec3 RayCaster::met(const SurfacePoint& point, const Scattering& scattering,
+                          PixelSampler& sampler) const {
+    const glm::dvec2 u = sampler.next_pair();
+    const std::optional<ScatterSample> drawn = scattering.sample(u, sampler.next());
+    if (!drawn) {
+        return glm::dvec3(0.0);
+    }
+    const std::optional<SurfacePoint> hit = scene_.trace_from(point, drawn->direction);
+    const glm::dvec3 emitted =
+        hit ? scene_.emission(*hit) : glm::dvec3(scene_.scene().sky_radiance);
+    if (emitted == glm::dvec3(0.0)) {
+        return emitted;
+    }
+    const double other = lights_.density(point, scattering.frame(), drawn->direction, hit);
+    return drawn->weight * emitted * (drawn->density / (drawn->density + other));
 }
 
 }  // namespace raybundle

@@ -6,11 +6,13 @@
 #include "reference/light_sampling.h"
 #include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/scattering.h"
 
 namespace raybundle {
 
 /// Local rendering (appendix A, "DirectLight"): emitted light and its first reflection, light path
-/// classes LE and LDE, by sampling points of the emitters and directions of the sky.
+/// classes LE, LDE and LGE. Lambert surfaces sample points of the emitters and directions of the
+/// sky; glossy ones their lobe as well, both weighted by the balance heuristic.
 class RayCaster {
   public:
     RayCaster(const RayScene& scene, const LightSampling& lights)
@@ -22,6 +24,11 @@ class RayCaster {
                                       PixelSampler& sampler) const;
 
   private:
+    [[nodiscard]] glm::dvec3 sampled(const SurfacePoint& point, const Scattering& scattering,
+                                     PixelSampler& sampler) const;
+    [[nodiscard]] glm::dvec3 met(const SurfacePoint& point, const Scattering& scattering,
+                                 PixelSampler& sampler) const;
+
     const RayScene& scene_;
     const LightSampling& lights_;
 };

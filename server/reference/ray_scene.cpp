@@ -94,6 +94,10 @@ void RayScene::SceneDeleter::operator()(RTCScene scene) const {
 
 RayScene::RayScene(const Scene& scene, const PatchMesh& mesh)
     : scene_(scene), mesh_(mesh), centre_(scene.bounds.centre()), scale_(1.0) {
+    models_.reserve(scene.materials.size());
+    for (const Material& material : scene.materials) {
+        models_.push_back(reflectance_model(material));
+    }
     place_vertices();
     find_smooth_triangles();
     build();

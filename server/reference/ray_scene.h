@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/brdf.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 
@@ -66,8 +67,8 @@ class RayScene {
     [[nodiscard]] glm::dvec3 emission(const SurfacePoint& point) const;
     /// Linear base colour, factor times texture.
     [[nodiscard]] glm::vec3 base_colour(const SurfacePoint& point) const;
-    /// Diffuse albedo.
-    [[nodiscard]] glm::dvec3 albedo(const SurfacePoint& point) const;
+    /// Reflectance with the base colour at this point.
+    [[nodiscard]] Brdf brdf(const SurfacePoint& point) const;
     [[nodiscard]] const Material& material(const SurfacePoint& point) const;
     /// Interpolated vertex normal, unit, on the side of the geometric one; the geometric normal
     /// itself where the triangle is flat.
@@ -112,6 +113,7 @@ class RayScene {
     double scale_;                                // own units per metre, a power of two
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, own space; normals not unit
     std::vector<bool> smooth_;                    // triangles whose vertex normals bend
+    std::vector<ReflectanceModel> models_;        // of the materials
     std::unique_ptr<RTCDeviceTy, DeviceDeleter> device_;
     std::unique_ptr<RTCSceneTy, SceneDeleter> embree_;
 };

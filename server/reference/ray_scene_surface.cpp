@@ -5,7 +5,6 @@
 
 #include "reference/ray_scene.h"
 #include "reference/texture_lookup.h"
-#include "scene/lambert_albedo.h"
 
 namespace raybundle {
 namespace {
@@ -135,10 +134,8 @@ glm::vec3 RayScene::base_colour(const SurfacePoint& point) const {
            glm::vec3(look_up(*texture, m.base_colour_texture.uv_from_mesh_uv, mesh_uv(point)));
 }
 
-glm::dvec3 RayScene::albedo(const SurfacePoint& point) const {
-    const Material& m = material(point);
-    return m.base_colour_texture.texture < 0 ? glm::dvec3(mesh_.albedo[point.patch])
-                                             : glm::dvec3(lambert_albedo(m, base_colour(point)));
+Brdf RayScene::brdf(const SurfacePoint& point) const {
+    return make_brdf(models_[mesh_.triangle_material[point.triangle]], base_colour(point));
 }
 
 glm::dvec3 RayScene::emission(const SurfacePoint& point) const {

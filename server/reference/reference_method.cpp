@@ -48,16 +48,19 @@ class SingleRayMethod : public ReferenceMethod {
                     std::uint64_t seed)
         : lights_(scene),
           solution_(scene, lights_, seed),
-          view_(scene, CameraRays(scene, camera, size)) {}
+          view_(scene, CameraRays(scene, camera, size), seed) {}
 
-    void iterate() override { solution_.iterate(); }
+    void iterate() override {
+        solution_.iterate();
+        view_.follow(solution_);
+    }
     [[nodiscard]] std::uint64_t iterations() const override { return solution_.iterations(); }
     [[nodiscard]] std::vector<glm::dvec3> picture() const override {
         return view_.picture(solution_);
     }
     [[nodiscard]] ImageError error() const override { return view_.error(solution_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return 0; }
-    [[nodiscard]] std::size_t bytes() const override { return solution_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const override { return solution_.bytes() + view_.bytes(); }
 
   private:
     LightSampling lights_;

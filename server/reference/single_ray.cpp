@@ -12,8 +12,6 @@
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t particles_per_batch =
-    SingleRay::particles_per_iteration / SingleRay::batches;
 constexpr int max_rays = 1 << 16;  // of a particle; far beyond what Russian roulette lets live
 
 double largest(const glm::dvec3& rgb) {
@@ -38,7 +36,13 @@ SingleRay::SingleRay(const RayScene& scene, const LightSampling& lights, std::ui
     : scene_(scene),
       lights_(lights),
       seed_(seed),
-      power_(scene.mesh().patch_count() * batches, glm::dvec3(0.0)) {}
+      tables_(scene.scene()),
+      power_(scene.mesh().patch_count() * batches, glm::dvec3(0.0)),
+      incoming_(tables_.glossy() ? power_.size() : 0) {}
+
+void SingleRay::restart_incoming() {
+    std::fill(incoming_.begin(), incoming_.end(), IncomingSample{});
+}
 
 void SingleRay::iterate() {
     if (!lights_.empty()) {
@@ -74,11 +78,11 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
                                           ? scene_.trace_from(*particle.emitter, direction)
                                           : scene_.trace(particle.origin, direction);
     std::uint64_t rays = 1;
-    const std::size_t first = std::size_t{batch} * scene_.mesh().patch_count();
     for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
-        power_[first + hit->patch] += power;
         const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
-        const std::optional<ScatterSample> next = scattering.sample(sampler.next_pair());
+        receive(*hit, scattering, batch, power, -direction, sampler);
+        const glm::dvec2 u = sampler.next_pair();
+        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         const double roulette = sampler.next();
         if (!next || !survives(power, next->weight, roulette)) {
             break;
@@ -89,13 +93,22 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
     return rays;
 }
 
+void SingleRay::receive(const SurfacePoint& point, const Scattering& scattering,
+                        std::uint32_t batch, const glm::dvec3& power, const glm::dvec3& from,
+                        PixelSampler& sampler) {
+    power_[index(point.patch, batch)] += power;
+    if (!scattering.is_lambert()) {
+        const std::uint32_t material = scene_.mesh().triangle_material[point.triangle];
+        const double importance = largest(power) * tables_.importance(material, scattering);
+        incoming_[index(point.patch, batch)].add(power, from, importance, sampler.next());
+    }
+}
+
 glm::dvec3 SingleRay::batch_irradiance(std::uint32_t patch, std::uint32_t batch) const {
     const double particles = static_cast<double>(iterations_) * particles_per_batch;
     const double area = scene_.patch_area(patch);
-    return area > 0.0 && particles > 0.0
-               ? power_[std::size_t{batch} * scene_.mesh().patch_count() + patch] /
-                     (area * particles)
-               : glm::dvec3(0.0);
+    return area > 0.0 && particles > 0.0 ? power_[index(patch, batch)] / (area * particles)
+                                         : glm::dvec3(0.0);
 }
 
 glm::dvec3 SingleRay::irradiance(std::uint32_t patch) const {

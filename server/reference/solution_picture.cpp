@@ -20,16 +20,18 @@ void for_each_pixel(const glm::uvec2& size, const Visit& visit) {
     });
 }
 
-glm::dvec3 radiance(const RayScene& scene, const VertexIrradiance& irradiance,
-                    const std::optional<SurfacePoint>& hit) {
+glm::dvec3 radiance(const RayScene& scene, const AlbedoTables& tables,
+                    const VertexIrradiance& irradiance, const std::optional<SurfacePoint>& hit,
+                    const glm::dvec3& direction) {
     if (!hit) {
         return glm::dvec3(scene.scene().sky_radiance);
     }
     if (hit->absorbs()) {
         return glm::dvec3(0.0);
     }
-    return scene.emission(*hit) +
-           glm::one_over_pi<double>() * scene.albedo(*hit) * irradiance.at(*hit);
+    const Scattering scattering(scene, *hit, NormalKind::shading, -direction);
+    return scene.emission(*hit) + main_part(tables, scene.mesh().triangle_material[hit->triangle],
+                                            scattering, irradiance.at(*hit));
 }
 
 }  // namespace
@@ -61,8 +63,13 @@ glm::dvec3 VertexIrradiance::at(const SurfacePoint& point) const {
            b.y * vertices_[2 * std::size_t{t.z} + side];
 }
 
-std::vector<glm::dvec3> picture_of(const RayScene& scene, const CameraRays& camera,
-                                   const VertexIrradiance& irradiance) {
+glm::dvec3 main_part(const AlbedoTables& tables, std::uint32_t material,
+                     const Scattering& scattering, const glm::dvec3& irradiance) {
+    return glm::one_over_pi<double>() * tables.albedo(material, scattering) * irradiance;
+}
+
+std::vector<glm::dvec3> picture_of(const RayScene& scene, const AlbedoTables& tables,
+                                   const CameraRays& camera, const VertexIrradiance& irradiance) {
     std::vector<glm::dvec3> picture(std::size_t{camera.size().x} * camera.size().y);
     for_each_pixel(camera.size(), [&](std::size_t pixel, const glm::dvec2& corner) {
         glm::dvec3 sum(0.0);
@@ -70,7 +77,8 @@ std::vector<glm::dvec3> picture_of(const RayScene& scene, const CameraRays& came
             const glm::dvec2 cell(k % rays_per_side, k / rays_per_side);
             const glm::dvec3 direction =
                 camera.direction(corner + (cell + 0.5) / double{rays_per_side});
-            sum += radiance(scene, irradiance, scene.trace(camera.origin(), direction));
+            sum += radiance(scene, tables, irradiance, scene.trace(camera.origin(), direction),
+                            direction);
         }
         picture[pixel] = sum / double{rays_per_side * rays_per_side};
     });

@@ -78,12 +78,7 @@ glm::vec3 max_phong(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_
     return brdf.f0 * (power * (n + 2.0F) / (2.0F * pi * std::max({w_in.z, w_out.z, min_cosine})));
 }
 
-}  // namespace
-
-ReflectanceModel reflectance_model(const Material& material) {
-    if (material.max_phong) {
-        return max_phong_model(*material.max_phong);
-    }
+ReflectanceModel metallic_roughness_model(const Material& material) {
     const float metallic = std::clamp(material.metallic, 0.0F, 1.0F);
     const float specular = std::clamp(material.specular, 0.0F, 1.0F);
     ReflectanceModel model;
@@ -104,6 +99,18 @@ ReflectanceModel reflectance_model(const Material& material) {
         model.lobe.coating = glm::vec2(max_component(dielectric), specular);
         model.lobe.inverse_mean = inverse_mean_transmission(model.lobe);
     }
+    return model;
+}
+
+}  // namespace
+
+ReflectanceModel reflectance_model(const Material& material) {
+    ReflectanceModel model = material.max_phong ? max_phong_model(*material.max_phong)
+                                                : metallic_roughness_model(material);
+    model.f0 *= material.reflectance;
+    model.f0_share *= material.reflectance;
+    model.lambert_share *= material.reflectance;
+    model.lobe.f90 *= material.reflectance;
     return model;
 }
 

@@ -38,6 +38,24 @@ ReflectanceTable::ReflectanceTable(const Brdf& brdf) : brdf_(brdf) {
     for (int i = 0; i < reflectance_nodes; ++i) {
         nodes_[static_cast<std::size_t>(i)].importance = integrate_importance(i);
     }
+    mean_ = integrate_mean();
+}
+
+ReflectanceNode ReflectanceTable::integrate_mean() const {
+    constexpr int steps = 1024;
+    glm::dvec4 sum(0.0);
+    for (int i = 0; i < steps; ++i) {
+        const double cosine = (i + 0.5) / steps;
+        const ReflectanceNode node = at(static_cast<float>(cosine));
+        sum += 2.0 * cosine / steps *
+               glm::dvec4(node.scale, node.bias, node.transmission, node.importance);
+    }
+    const glm::vec4 mean(sum);
+    return {mean.x, mean.y, mean.z, mean.w};
+}
+
+glm::vec3 ReflectanceTable::mean_albedo(const Brdf& recoloured) const {
+    return albedo_of(recoloured, mean_);
 }
 
 /// S, by two lattices: one where the lobe is, one over the hemisphere, weighted by the balance

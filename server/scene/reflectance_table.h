@@ -54,6 +54,10 @@ class ReflectanceTable {
     [[nodiscard]] glm::vec3 albedo(const Brdf& recoloured, float cosine) const;
     /// S(cosine) of the BRDF that the table was made for.
     [[nodiscard]] float importance(float cosine) const { return at(cosine).importance; }
+    /// Means over the hemisphere, 2 * integral of ... cos dcos: what is reflected of light that
+    /// comes from everywhere alike, and how much of it a Lambert surface would send elsewhere.
+    [[nodiscard]] glm::vec3 mean_albedo(const Brdf& recoloured) const;
+    [[nodiscard]] float mean_importance() const { return mean_.importance; }
 
     [[nodiscard]] const Brdf& brdf() const { return brdf_; }
     [[nodiscard]] std::span<const ReflectanceNode> nodes() const { return nodes_; }
@@ -61,8 +65,10 @@ class ReflectanceTable {
   private:
     [[nodiscard]] ReflectanceNode at(float cosine) const;
     [[nodiscard]] float integrate_importance(int index) const;
+    [[nodiscard]] ReflectanceNode integrate_mean() const;
 
     Brdf brdf_;
+    ReflectanceNode mean_;
     std::array<ReflectanceNode, reflectance_nodes> nodes_;
 };
 

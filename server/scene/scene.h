@@ -68,6 +68,7 @@ struct Material {
     glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
     /// Over a Lambert base_colour, instead of metallic-roughness.
     std::optional<MaxPhong> max_phong;
+    float reflectance = 1.0F;  ///< factor of the whole BRDF; 1 in files
     glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
     bool double_sided = false;

@@ -16,6 +16,8 @@ vec4 facet_plane(uint index) { return texelFetch(facet_texels, int(4u * index));
 
 uint facet_object(uint index) { return floatBitsToUint(texelFetch(facet_texels, int(4u * index + 3u)).z); }
 
+uint facet_material(uint index) { return floatBitsToUint(texelFetch(facet_texels, int(4u * index + 3u)).w); }
+
 Facet load_facet(uint index) {
     int at = int(4u * index);
     return Facet(texelFetch(facet_texels, at), texelFetch(facet_texels, at + 1), texelFetch(facet_texels, at + 2),

@@ -4,6 +4,7 @@
 
 #define NO_PATCH 0xffffffffu
 #define NO_HIT 0xffffffffu
+#define NOT_GLOSSY 0xffffffffu
 
 // Storage bindings.
 #define BINDING_VERTICES 0         // vec4[]: object-space position, w = object index (bits)
@@ -13,7 +14,7 @@
 #define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch
 #define BINDING_BACK_PATCH 5       // uint[]: patch of a triangle's back side or NO_PATCH
 #define BINDING_SURFACES 6         // PatchSurface[]
-#define BINDING_RADIANCE 7         // vec4[]: radiance (radiance units), w = p_j / A_j, 1/m^2
+#define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j, 1/m^2
 #define BINDING_IRRADIANCE 8       // vec4[]: mean irradiance (radiance units), w = weight
 #define BINDING_ACCUMULATOR 9      // uint[6 * patches]: fixed-point sums, see accumulator.glsl
 #define BINDING_POWER 10           // vec4[]: see solution_power.comp
@@ -41,8 +42,17 @@
 #define BINDING_FACET_INDICES 32  // uint[3 * facets]: vertices
 #define BINDING_FLUX 33           // FluxSums[]: per block of patches, then the totals
 #define BINDING_BALANCE 34        // Balance
+#define BINDING_REFLECTORS 35     // vec4[]: base colour, material of a glossy patch (bits) or NOT_GLOSSY
+#define BINDING_GLOSS 36          // uvec4[]: glossy part of a patch's radiance, see gloss.glsl
+#define BINDING_CHAIN 37          // vec2[]: importance of the accepted sample, its scale C
+#define BINDING_PIXEL_GLOSS 38    // vec4[]: see pixel_gloss.glsl
+#define BINDING_PIXEL_GLOSS_DELTA 39  // vec4[]: signed increments of it
+#define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
+#define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
+#define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
 
 #define POWER_BLOCK 256
+#define SPECULAR_GROUP 64  // pixels
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -63,6 +73,10 @@
 #define UNIT_FACETS 13            // rgba32f: FacetGeometry, four texels each
 #define UNIT_FACET_NODES 14       // rg32ui: FacetNode of scene/facet_tree.h
 #define UNIT_REFLECTANCE 15       // rgba32f: Reflectance, three texels each, then tables, see brdf.glsl
+#define UNIT_REFLECTORS 16        // rgba32f
+#define UNIT_GLOSS 17             // rgba32f
+#define UNIT_PIXEL_GLOSS 18       // rgba32f
+#define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -95,7 +109,7 @@ struct FacetGeometry {
 };
 
 struct PatchSurface {
-    vec4 albedo;    // rgb; w: share of the patch that alpha MASK leaves
+    vec4 albedo;    // rgb, for light from everywhere alike; w: share of the patch that alpha MASK leaves
     vec4 emission;  // rgb, radiance units
 };
 
@@ -106,7 +120,8 @@ struct Shooter {
     vec3 normal;     // world space, unit
     float density;   // p_j / A_j, 1/m^2
     uint object;
-    uint pad0, pad1, pad2;
+    uint glossy;     // 1: its radiance depends on direction
+    uint pad0, pad1;
 };
 
 struct Counters {
@@ -116,7 +131,7 @@ struct Counters {
     uint overflowed;        // 1: there was too little room, and the running window is not transferred
     uint wanted;            // most layers that any overflowing window wanted
     uint overflow_mask;     // bit s: the layered iteration in slot s of its group overflowed
-    uint escaped;           // share of the shooter's flux that no patch receives, unit 2^-30
+    int escaped;            // share of the shooter's flux that no patch receives, unit 2^-24
     uint pad0, pad1;
 };
 
@@ -161,14 +176,14 @@ struct MaterialData {
 struct Reflectance {
     vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
     vec4 lobe;   // alpha (max-Phong: exponent), f90, share of the base colour in lambert, 1/mean transmission
-    vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w unused
+    vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w: 1: glossy, see ReflectanceTables
 };
 
 struct PixelSurface {
     vec3 position;   // world space
     uint patch_id;   // NO_PATCH: background
     uint normal;     // shading normal, octahedral snorm 2x16
-    uint albedo;     // unorm 4x8, square-root encoded
+    uint albedo;     // at the angle of view, unorm 4x8, square-root encoded
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
     uint facet;        // and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
@@ -176,7 +191,8 @@ struct PixelSurface {
 #define PIXEL_EMITTER 0x80000000u
 #define PIXEL_SKY 0x40000000u
 #define PIXEL_BACK 0x20000000u  // the facet's back is seen
-#define PIXEL_FACET_MASK 0x1fffffffu
+#define PIXEL_GLOSSY 0x10000000u
+#define PIXEL_FACET_MASK 0x0fffffffu
 
 struct PickResult {
     vec4 position;     // w = 1: hit
@@ -196,6 +212,8 @@ struct BundleParameters {
     vec4 weights;        // sign/weight of the transfer, iteration weight w, pixel size (m or tangent), batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
+    mat4 before_from_now;  // rotation of the object that is elsewhere at place 1
+    uvec4 moved;           // x: that object, or NO_PATCH
 };
 
 struct ViewParameters {

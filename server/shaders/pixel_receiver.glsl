@@ -12,6 +12,14 @@ layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float 
 #ifdef SPECIAL
 #include "mesh.glsl"
 #endif
+// In a GLOSSY scene there are two programs: one for the other pixels, one for the glossy ones (GLOSSY_PIXELS).
+#ifdef GLOSSY_PIXELS
+#include "pixel_gloss.glsl"
+#define SPECULAR_GROUPS_ACCESS readonly
+#include "specular_groups.glsl"
+layout(std430, binding = BINDING_PIXEL_GLOSS) buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
+layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer { vec4 pixel_gloss_delta[]; };
+#endif
 uniform uint facet_base;    // facets and vertices of the place that was drawn
 uniform uint vertex_base;
 uniform uint moved_object;  // object that is elsewhere at place 1, or NO_PATCH
@@ -22,9 +30,10 @@ struct Receiver {
     vec3 geometric;  // of the facet, on the receiving side
     uint surface;    // the facet and its receiving side
     uint object;     // SPECIAL only
+    uint albedo;     // of PixelSurface; GLOSSY_PIXELS only
 };
 
-/// The pixel's surface point at the place that was drawn. False for the background.
+/// The pixel's surface point at the place that was drawn. False where it is not for this program.
 bool load_receiver(uint index, out Receiver x) {
     uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
     uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, object
@@ -39,6 +48,7 @@ bool load_receiver(uint index, out Receiver x) {
 #endif
     x.surface = 2u * facet + (back ? 1u : 0u);
     x.object = 0u;
+    x.albedo = q.y;
 #ifdef SPECIAL
     // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
     x.object = facet_object(facet_base + facet);
@@ -49,7 +59,22 @@ bool load_receiver(uint index, out Receiver x) {
         x.normal = x.geometric;
     }
 #endif
+#ifdef GLOSSY_PIXELS
+    return p.w != NO_PATCH && (q.w & PIXEL_GLOSSY) != 0u;
+#elif defined(GLOSSY)
+    return p.w != NO_PATCH && (q.w & PIXEL_GLOSSY) == 0u;
+#else
     return p.w != NO_PATCH;
+#endif
+}
+
+/// Pixel of this invocation.
+uint receiving_pixel() {
+#ifdef GLOSSY_PIXELS
+    return specular_pixel();
+#else
+    return gl_GlobalInvocationID.x;
+#endif
 }
 
 /// A bundle pixel shows the surface at its centre, up to a pixel's footprint beside the receiver's own
@@ -69,11 +94,37 @@ bool beside_receiver(Receiver x, uint surface, vec3 hit_offset, vec3 ahead, floa
     return !in_front && dot(hit_offset, hit_offset) <= footprint * footprint;
 }
 
-/// Adds one sample (irradiance, radiance units) of the running bundle.
-void receive(uint index, vec3 value) {
+#ifdef GLOSSY_PIXELS
+/// Adds to the glossy part what a sample of irradiance brings. Returns the irradiance that a surface without
+/// gloss would need to look the same.
+vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
+    vec3 root = unpackUnorm4x8(x.albedo).rgb;
+    vec3 albedo = root * root;
+    vec3 w_out = normalize(view.eye.xyz - x.position);
+    float cos_out = dot(x.normal, w_out);
+    vec4 at_out;
+    Brdf brdf = pixel_brdf(facet_material(facet_base + (x.surface >> 1)), albedo, cos_out, at_out);
+    vec4 at_in = brdf_at(brdf, dot(x.normal, w_in));
+    vec3 reflected = value * brdf_value(brdf, x.normal, w_in, w_out, at_in.z * at_out.z);
+    vec3 gloss = reflected - value * albedo * brdf_inverse_pi;
+#ifdef SPECIAL
+    pixel_gloss_delta[index].rgb += gloss * bundle.weights.x;
+#else
+    pixel_gloss[index].rgb += gloss * bundle.weights.y;
+#endif
+    return reflected / max(albedo * brdf_inverse_pi, 1e-4);
+}
+#endif
+
+/// Adds one sample (irradiance, radiance units; from w_in) of the running bundle.
+void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
     if (!(value.r + value.g + value.b < 1e30) || value == vec3(0.0)) {
         return;
     }
+    vec3 seen = value;
+#ifdef GLOSSY_PIXELS
+    seen = receive_gloss(index, x, w_in, value);
+#endif
 #ifdef SPECIAL
     pixel_delta[index].rgb += value * bundle.weights.x;
 #else
@@ -83,7 +134,7 @@ void receive(uint index, vec3 value) {
     uvec2 at = uvec2(index % view.size.x, index / view.size.x);
     if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
         uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
-        pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(value, vec3(0.2126, 0.7152, 0.0722));
+        pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(seen, vec3(0.2126, 0.7152, 0.0722));
     }
 #endif
 }

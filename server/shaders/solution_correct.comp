@@ -11,6 +11,11 @@ layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_CHECKPOINT) buffer CheckpointBuffer { vec2 checkpoint[]; };
+#ifdef GLOSSY
+#include "gloss.glsl"
+layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
+layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
+#endif
 uniform uint patch_count;
 uniform float phase_weight;  // K, in units of the samples' weight
 
@@ -38,5 +43,17 @@ void main() {
     vec4 iterate = source[i];
     iterate.rgb = max(iterate.rgb + increment, 0.0);
     source[i] = iterate;
-    radiance[i].rgb = surfaces[i].emission.rgb + surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+    vec3 emitted = surfaces[i].emission.rgb;
+    vec3 reflected = surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+#ifdef GLOSSY
+    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+        reflected = max(radiance[i].rgb - emitted + surfaces[i].albedo.rgb * increment * inverse_pi, 0.0);
+        // The glossy part keeps its share of the light. Its chain starts anew the more the light has changed: an
+        // old bright sample would block acceptance.
+        float share = before > 0.0 ? clamp(luminance(mean.rgb) / before, 0.0, 4.0) : 0.0;
+        gloss[i].y = floatBitsToUint(share * uintBitsToFloat(gloss[i].y));
+        chain[i] = vec2(chain[i].x * (1.0 - q), chain[i].y * share);
+    }
+#endif
+    radiance[i].rgb = emitted + reflected;
 }

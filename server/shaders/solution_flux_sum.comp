@@ -6,6 +6,9 @@ layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { Patch
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
+#ifdef GLOSSY
+layout(std430, binding = BINDING_RADIANCE) readonly buffer RadianceBuffer { vec4 radiance[]; };
+#endif
 uniform uint patch_count;
 shared FluxSums fluxes[POWER_BLOCK];
 
@@ -15,7 +18,11 @@ FluxSums patch_flux(uint i) {
     float area = patches[i].area;
     FluxSums f;
     f.incident = area * source[i];
+#ifdef GLOSSY  // the albedo of glossy patches is not one number
+    f.reflected = (pi * area) * (radiance[i] - surfaces[i].emission);
+#else
     f.reflected = surfaces[i].albedo * f.incident;
+#endif
     f.emitted = (pi * area) * surfaces[i].emission;
     return f;
 }

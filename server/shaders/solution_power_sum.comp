@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the iterate to the level that energy conservation asks for (solution_balance.comp), and sums of patch_power over blocks of patches,
-// always in the same order.
+// Puts the iterate to the level that energy conservation asks for (solution_balance.comp), and sums
+// patch_power over blocks of patches, always in the same order.
 #include "layouts.glsl"
 layout(local_size_x = POWER_BLOCK) in;
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
+#ifdef GLOSSY
+#include "gloss.glsl"
+layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
+layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
+#endif
 uniform uint patch_count;
 shared vec3 sums[POWER_BLOCK];
 void main() {
@@ -14,7 +19,17 @@ void main() {
     sums[lane] = vec3(0.0);
     if (i < patch_count) {
         source[i].rgb *= balance.scale.rgb;
-        radiance[i].rgb = surfaces[i].emission.rgb + surfaces[i].albedo.rgb * source[i].rgb / pi;
+        vec3 emitted = surfaces[i].emission.rgb;
+        vec3 reflected = surfaces[i].albedo.rgb * source[i].rgb / pi;
+#ifdef GLOSSY
+        for (bool glossy = is_glossy(i); glossy; glossy = false) {
+            vec3 scale = balance.scale.rgb;
+            reflected = scale * (radiance[i].rgb - emitted);
+            gloss[i] = pack_gloss(scale * gloss_scale(gloss[i]), gloss_source(gloss[i]));
+            chain[i].y *= max(scale.r, max(scale.g, scale.b));
+        }
+#endif
+        radiance[i].rgb = emitted + reflected;
         sums[lane] = patch_power(i);
     }
     for (uint stride = POWER_BLOCK / 2; stride > 0u; stride /= 2u) {

@@ -7,6 +7,9 @@ layout(std430, binding = BINDING_CDF) readonly buffer CdfBuffer { float cdf[]; }
 layout(std430, binding = BINDING_WORLD_POSITIONS) readonly buffer WorldBuffer { vec4 world[]; };
 layout(std430, binding = BINDING_TRIANGLES) readonly buffer TriangleBuffer { uvec4 triangles[]; };
 layout(std430, binding = BINDING_SHOOTERS) writeonly buffer ShooterBuffer { Shooter shooters[]; };
+#ifdef GLOSSY
+#include "gloss.glsl"
+#endif
 uniform uint patch_count;
 uniform uint block_count;
 uniform uint shooter_count;
@@ -64,8 +67,12 @@ void main() {
     s.normal = patches[id].normal;
     s.density = radiance[id].w;
     s.object = patches[id].object;
+#ifdef GLOSSY
+    s.glossy = is_glossy(id) ? 1u : 0u;
+#else
+    s.glossy = 0u;
+#endif
     s.pad0 = 0u;
     s.pad1 = 0u;
-    s.pad2 = 0u;
     shooters[i] = s;
 }

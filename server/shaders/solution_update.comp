@@ -4,7 +4,8 @@
 //  * the iterate x that is transferred. It follows with a step that shrinks slower than 1/n; averaging
 //    such iterates converges at the best rate whatever the albedo (Polyak, Juditsky 1992,
 //    "Acceleration of stochastic approximation by averaging"), where transferring E itself would
-//    forget its dark start only like n^-(1-albedo).
+//    forget its dark start only like n^-(1-albedo). Of a glossy patch the iterate is the reflected main
+//    part itself, since its albedo depends on where the light comes from (gloss_update.glsl).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
@@ -20,23 +21,26 @@ uniform float shooter_density;  // p_j / A_j of a perspective bundle
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
 uniform float step;     // of the iterate
+#ifdef GLOSSY
+#include "gloss_update.glsl"
+#endif
 
 const float inverse_pi = 0.31830988618;
 
 /// What a perspective bundle says about the flux that no patch receives.
 void note_escaped_flux() {
     vec3 shot = 3.14159265359 * counters.shooter_radiance.rgb / shooter_density;
-    float share = float(counters.escaped) * 9.313225746154785e-10;
+    float share = float(counters.escaped) * 5.9604645e-8;
     FluxSums total = flux[block_count];
     balance.escaped.rgb += weight * share * shot;
     balance.outgoing.rgb += weight * (total.emitted.rgb + total.reflected.rgb);
     balance.outgoing.w += weight;
-    counters.escaped = 0u;
+    counters.escaped = 0;
 }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i == 0u && scalar && shooter_density > 0.0) {
+    if (i == 0u && shooter_density > 0.0) {
         note_escaped_flux();
     }
     if (i >= patch_count || counters.overflowed != 0u) {
@@ -55,5 +59,12 @@ void main() {
     vec4 iterate = source[i];
     iterate.rgb += (new_sample - iterate.rgb) * step;
     source[i] = iterate;
-    radiance[i].rgb = surfaces[i].emission.rgb + surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+    vec3 emitted = surfaces[i].emission.rgb;
+    vec3 reflected = surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+#ifdef GLOSSY
+    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+        reflected = update_gloss(i, new_sample, radiance[i].rgb - emitted, step);
+    }
+#endif
+    radiance[i].rgb = emitted + reflected;
 }

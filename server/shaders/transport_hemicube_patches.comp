@@ -4,11 +4,15 @@
 //   irradiance_i += L(y) (1/A_i) r^2 domega_p cos_y/d,   since the pixel's footprint has cos_x dA = r^2 domega_p.
 // A Lambert shooter has one radiance for all pixels: the sum is a scalar, multiplied by L in the update.
 // In a special phase (COLOURED) it is multiplied here, so that the signed sums of several bundles add up.
+// The radiance of a glossy shooter (SHOOTER_GLOSSY) differs from pixel to pixel.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#ifdef SHOOTER_GLOSSY
+#include "sending_gloss.glsl"
+#endif
 #include "facets.glsl"
 #include "hemicube.glsl"
 #ifdef THIN_WALLS
@@ -95,13 +99,25 @@ float crease_factor(Run run, vec3 d, float inverse_length, float r) {
 #endif
 }
 
-void deposit(Run run, float sum) {
+/// What is summed over pixels: form factors, or irradiance where the shooter is glossy.
+#ifdef SHOOTER_GLOSSY
+#define Sum vec3
+#define COLOURED
+#else
+#define Sum float
+#endif
+
+void deposit(Run run, Sum sum) {
     if (run.patch_id == NO_PATCH) {
         return;
     }
     sum *= patch_attributes(patch_base + run.patch_id).y * bundle.weights.x;  // 1/A_i, sign and weight
 #ifdef COLOURED
+#ifdef SHOOTER_GLOSSY
+    vec3 irradiance = sum;
+#else
     vec3 irradiance = sum * texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+#endif
     accumulate(run.patch_id, 0u, irradiance.r);
     accumulate(run.patch_id, 1u, irradiance.g);
     accumulate(run.patch_id, 2u, irradiance.b);
@@ -109,6 +125,8 @@ void deposit(Run run, float sum) {
     accumulate(run.patch_id, 0u, sum);
 #endif
 }
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
     if (gl_GlobalInvocationID.x == 0u) {
@@ -136,20 +154,34 @@ void main() {
     float d_z_step = hemicube_face(face)[0].z * (2.0 / n);
     float farthest = 1e6 * bundle.origin.w;  // the scene's diameter
     float escaped = 0.0;
+#ifdef SHOOTER_GLOSSY
+    vec3 normal = bundle.axis_z.xyz;
+    Gloss shooter = shooter_gloss(vertex_base);
+    vec3 main_part = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+    float inverse_luminance = 1.0 / max(luminance(main_part), 1e-20);
+#endif
     uint surface = texelFetch(surface_ids, texel, 0).r;
     while (texel.x < end) {
         Run run = start_run(surface, d, d_step);
-        float sum = 0.0;
+        Sum sum = Sum(0.0);
         float missed = 0.0;
         bool same;
         // All pixels of this run.
         do {
             float inverse_length = inversesqrt(dot(d, d));
             float inverse_square = inverse_length * inverse_length;
-            missed += d_z * inverse_square * inverse_square;  // cos_y domega / pixel area
+            float cosine = d_z * inverse_square * inverse_square;  // cos_y domega / pixel area
             float r = min(1.0 / (max(run.reciprocal, 1e-20) * inverse_length), farthest);
-            sum += r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
-                   cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
+            float form_factor = r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
+                                cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
+#ifdef SHOOTER_GLOSSY
+            vec3 sent = main_part + difference_radiance(shooter, normal, d * inverse_length);
+            missed += cosine * luminance(sent) * inverse_luminance;
+            sum += form_factor * sent;
+#else
+            missed += cosine;
+            sum += form_factor;
+#endif
             ++texel.x;
             d += d_step;
             d_z += d_z_step;
@@ -161,7 +193,7 @@ void main() {
         deposit(run, sum * pixel_area);
         escaped += run.patch_id == NO_PATCH ? missed : 0.0;
     }
-    if (escaped > 0.0) {
-        atomicAdd(counters.escaped, uint(escaped * pixel_area * 341782637.8 + 0.5));  // 2^30 / pi
+    if (escaped != 0.0 && bundle.weights.y > 0.0) {  // not in special phases
+        atomicAdd(counters.escaped, int(round(clamp(escaped * pixel_area, -64.0, 64.0) * 5340353.7)));  // 2^24 / pi
     }
 }

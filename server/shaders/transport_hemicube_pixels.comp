@@ -5,12 +5,25 @@
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
+#ifdef SHOOTER_GLOSSY
+#include "sending_gloss.glsl"
+#endif
 #include "facets.glsl"
 #include "hemicube.glsl"
 #include "pixel_receiver.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+
+/// Radiance of the shooter towards w_out.
+vec3 sent_radiance(vec3 w_out) {
+    vec3 sent = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+#ifdef SHOOTER_GLOSSY
+    vec3 normal = bundle.axis_z.xyz;
+    sent += difference_radiance(shooter_gloss(vertex_base), normal, w_out);
+#endif
+    return sent;
+}
 
 /// True where the shooter sees x. d: x in bundle coordinates.
 bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
@@ -30,7 +43,7 @@ bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d)
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = receiving_pixel();
     Receiver x;
     if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
         return;
@@ -53,9 +66,8 @@ void main() {
 #endif
         float cos_x = max(-dot(x.normal, offset) / r, 0.0);
         if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
-            value = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb *
-                    (cos_x * cosine_over_density(r, d.z / r, bundle.densities.w));
+            value = sent_radiance(offset / r) * (cos_x * cosine_over_density(r, d.z / r, bundle.densities.w));
         }
     }
-    receive(index, value);
+    receive(index, x, -offset / r, value);
 }

@@ -17,7 +17,7 @@ layout(local_size_x = 64) in;
 #ifdef THIN_WALLS
 #include "crease.glsl"
 #endif
-layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 uniform uint first_column;
 uniform uint first_row;
 uniform uint columns;

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
-layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 layout(std430, binding = BINDING_COUNTERS) readonly buffer CounterBuffer { Counters counters; };
 
 /// What x sees along the axis.
@@ -44,12 +44,13 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = receiving_pixel();
     Receiver x;
     if (index >= view.size.x * view.size.y || counters.layers > layer_capacity() || !load_receiver(index, x)) {
         return;
     }
     vec3 value = vec3(0.0);
+    vec3 w_in = vec3(0.0);
     vec3 offset = x.position - bundle.origin.xyz;
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     ivec2 texel = ivec2(d.xy / bundle.weights.z);
@@ -66,6 +67,7 @@ void main() {
         vec2 lateral = (vec2(texel) + 0.5) * bundle.weights.z - d.xy;
         float footprint = 1.5 * bundle.weights.z / max(cos_x, 0.02);
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
+        w_in = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
         Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
         if (seen.surface == NO_HIT) {
             float density = sky_density(d.z, far);
@@ -82,5 +84,5 @@ void main() {
             }
         }
     }
-    receive(index, value);
+    receive(index, x, w_in, value);
 }

@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 #include "crease.glsl"
 #endif
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
-layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 uniform uint run_columns;  // runs of 8 pixels a row
 uniform uint row_stride;   // rows are sampled: every row_stride-th from row_phase on
 uniform uint row_phase;

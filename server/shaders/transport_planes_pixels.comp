@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "pixel_receiver.glsl"
 #include "parallel.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
-layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 
 /// The line of a window pixel, and the receiver on it.
 struct Line {
@@ -65,7 +65,7 @@ vec3 incoming(Receiver x, Line line, uint surface) {
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = receiving_pixel();
     Receiver x;
     if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
         return;
@@ -91,6 +91,7 @@ void main() {
     uint own_side = texelFetch(surface_ids, line.far ? texel : ahead_of_plane, 0).r;
     uint other_side = texelFetch(surface_ids, line.far ? ahead_of_plane : texel, 0).r;
     if (plane_visible(x, line, own_side)) {
-        receive(index, cos_x * incoming(x, line, other_side));
+        vec3 w_in = line.far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
+        receive(index, x, w_in, cos_x * incoming(x, line, other_side));
     }
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance of a viewer's pixel: confidence-weighted blend of the object-space value and the pixel's own
-// estimate, times the texture's albedo.
+// estimate, times the albedo at the angle of view, and the glossy part.
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(binding = UNIT_PIXEL_IRRADIANCE) uniform samplerBuffer pixel_irradiance_texels;
 layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance_texels;
+#ifdef GLOSSY
+layout(binding = UNIT_PIXEL_GLOSS) uniform samplerBuffer pixel_gloss_texels;
+#endif
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
@@ -54,5 +57,13 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         return (p.facet & PIXEL_SKY) != 0u ? view.sky.rgb : vec3(0.0);
     }
     vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
-    return emitted + pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
+    vec3 reflected = pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
+#ifdef GLOSSY
+    for (bool glossy = (p.facet & PIXEL_GLOSSY) != 0u; glossy; glossy = false) {
+        vec4 own = texelFetch(pixel_gloss_texels, int(index));
+        float weight = pixel_weight(own, view.weights.x);
+        reflected = max(reflected + own.rgb / max(weight + view.display.z, 1e-6), 0.0);
+    }
+#endif
+    return emitted + reflected;
 }

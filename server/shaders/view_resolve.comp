@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Geometry buffer of a viewer: surface point, normal and texture colour of every pixel, from the
-// rasterised surface ids. Accumulated irradiance follows its surface point from the picture before
+// rasterised surface ids; specular surfaces get their base colour here and the rest in
+// view_resolve_specular.comp. Accumulated irradiance follows its surface point from the picture before
 // (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED, SMOOTH (some
 // vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved).
 #include "layouts.glsl"
@@ -23,21 +24,18 @@ layout(binding = UNIT_VERTEX_DATA) uniform usamplerBuffer vertex_data_texels;
 #ifdef TEXTURED
 layout(std430, binding = BINDING_TEXELS) readonly buffer TexelBuffer { uint texels[]; };
 #endif
+#ifdef SPECULAR
+layout(binding = UNIT_REFLECTANCE) uniform samplerBuffer reflectance_texels;
+layout(std430, binding = BINDING_SPECULAR_FLAGS) buffer SpecularFlagBuffer { uint listed[]; };
+#define SPECULAR_GROUPS_ACCESS
+#include "specular_groups.glsl"
+#endif
 #ifdef SMOOTH
 layout(std430, binding = BINDING_OBJECTS) readonly buffer ObjectBuffer { mat4 world_from_object[]; };
 #endif
-uniform uint vertex_count;
 uniform float crease_distance;  // m, see receiving_point()
 #ifdef REPROJECT
-layout(binding = UNIT_OLD_PIXELS) uniform usamplerBuffer old_pixel_texels;
-layout(binding = UNIT_OLD_PIXEL_IRRADIANCE) uniform samplerBuffer old_irradiance_texels;
-uniform mat4 old_clip_from_world;
-uniform uint old_width;
-uniform uint old_height;
-uniform float old_common_weight;
-uniform uint moved_object;    // whose place 1 differs, or NO_PATCH
-uniform float kept_weight;    // share of the old weight that a reprojected value keeps
-uniform float same_distance;  // m, at unit distance: points closer than this (and coplanar) are the same
+#include "reproject.glsl"
 #endif
 
 #ifdef TEXTURED
@@ -81,30 +79,13 @@ vec3 shading_normal(uvec3 triangle, vec3 weights, vec3 plane_normal, uint object
 }
 #endif
 
-#ifdef REPROJECT
-/// Irradiance that this surface point had in the picture before; weight 0 where it was hidden.
-vec4 reproject(vec3 old_position, vec3 position, vec3 normal, uint id, uint object) {
-    vec4 clip = old_clip_from_world * vec4(old_position, 1.0);
-    if (clip.w <= 0.0) {
-        return vec4(0.0);
+#ifdef SPECULAR
+/// Puts the pixel's group on the list of those with specular surfaces. Looking first saves most exchanges.
+void note_specular(uint index, bool specular) {
+    uint group = index / SPECULAR_GROUP;
+    if (specular && listed[group] == 0u && atomicExchange(listed[group], 1u) == 0u) {
+        groups[atomicAdd(group_count, 1u)] = group;
     }
-    ivec2 at = ivec2(floor((clip.xy / clip.w * 0.5 + 0.5) * vec2(old_width, old_height)));
-    if (at.x < 0 || at.y < 0 || at.x >= int(old_width) || at.y >= int(old_height)) {
-        return vec4(0.0);
-    }
-    uint index = uint(at.y) * old_width + uint(at.x);
-    uvec4 old = texelFetch(old_pixel_texels, int(2u * index));
-    bool same = old.w == id;
-    if (!same && old.w != NO_PATCH &&
-        facet_object(texelFetch(old_pixel_texels, int(2u * index + 1u)).w & PIXEL_FACET_MASK) == object) {
-        vec3 offset = uintBitsToFloat(old.xyz) - old_position;
-        same = length(offset) < same_distance * clip.w && abs(dot(offset, normal)) < 0.1 * same_distance * clip.w;
-    }
-    if (!same) {
-        return vec4(0.0);
-    }
-    vec4 sum = texelFetch(old_irradiance_texels, int(index));
-    return kept_weight * vec4(sum.rgb, pixel_weight(sum, old_common_weight));
 }
 #endif
 
@@ -177,23 +158,25 @@ void main() {
         shaded = shading_normal(triangle.xyz, weights, normal, object);
     }
 #endif
+    uint flags = (surface & 1u) != 0u ? PIXEL_BACK : 0u;
+#ifdef SPECULAR
+    vec4 lobe = texelFetch(reflectance_texels, 3 * int(triangle.w & MATERIAL_MASK) + 2);
+    flags |= lobe.w > 0.0 ? PIXEL_GLOSSY : 0u;
+    note_specular(index, int(lobe.z) != LOBE_NONE);
+#endif
     bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
     pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
                                     packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0)),
                                     packUnorm2x16(vec2(v1, v2)),
-                                    surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) |
-                                        ((surface & 1u) != 0u ? PIXEL_BACK : 0u));
+                                    surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) | flags);
 #ifdef REPROJECT
-    vec3 old_position = position;
-#ifdef MOVED
-    if (object == moved_object) {
-        uvec3 before = triangle.xyz + vertex_count;
-        old_position = world_position(before.x) * weights.x + world_position(before.y) * weights.y +
-                       world_position(before.z) * weights.z;
+    uint old_index = old_pixel(position_before(position, object, triangle.xyz, weights), normal, id, object);
+    vec4 old_sum = vec4(0.0);
+    for (bool seen = old_index != hidden; seen; seen = false) {
+        old_sum = carried(texelFetch(old_irradiance_texels, int(old_index)), kept_weight);
     }
-#endif
-    pixel_irradiance[index] = reproject(old_position, position, normal, id, object);
+    pixel_irradiance[index] = old_sum;
 #else
     pixel_irradiance[index] = vec4(0.0);
 #endif

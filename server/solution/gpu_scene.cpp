@@ -79,6 +79,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
       origin_(scene.bounds.centre()),
       radiance_unit_(choose_radiance_unit(mesh, scene.sky_radiance)),
       sky_(scene.sky_radiance / radiance_unit_),
+      reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
       place_vertices_({"scene_place_vertices.comp"}),
@@ -94,6 +95,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
     }
     upload_geometry(scene, mesh);
     upload_materials(scene, mesh);
+    upload_reflectors(mesh);
     upload_vertex_data(mesh);
     create_textures();
     choose_defines(scene, mesh);
@@ -129,9 +131,10 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     std::vector<layout::PatchSurface> surfaces;
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        surfaces.push_back(
-            {glm::vec4(mesh.albedo[i], mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
-             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
+        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(material, mesh.albedo[i]),
+                                      mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
+                            glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> texture_offset;
@@ -165,6 +168,21 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
     materials_ = Buffer::from<layout::MaterialData>("materials", materials);
     texels_ = Buffer::from<std::uint32_t>("texels", texels);
+}
+
+void GpuScene::upload_reflectors(const PatchMesh& mesh) {
+    if (!reflectance_.any_glossy()) {
+        return;
+    }
+    std::vector<glm::vec4> reflectors;
+    reflectors.reserve(mesh.patch_count());
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
+        reflectors.push_back(
+            with_bits(mesh.albedo[i], reflectance_.glossy(material) ? material : NOT_GLOSSY));
+    }
+    reflectors_ = Buffer::from<glm::vec4>("reflectors", reflectors);
+    reflector_texture_ = create_buffer_texture("reflectors", GL_RGBA32F, reflectors_);
 }
 
 void GpuScene::upload_vertex_data(const PatchMesh& mesh) {
@@ -218,6 +236,10 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");
+    define_if(reflectance_.specular(), "SPECULAR");
+    define_if(reflectance_.any_glossy(), "GLOSSY");
+    const std::vector<std::string>& lobes = reflectance_.defines();
+    defines_.insert(defines_.end(), lobes.begin(), lobes.end());
 }
 
 void GpuScene::upload_matrices() {
@@ -286,6 +308,10 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_VERTEX_DATA, vertex_texture_.get());
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
     facets_.bind();
+    reflectance_.bind();
+    if (reflectance_.any_glossy()) {
+        glBindTextureUnit(UNIT_REFLECTORS, reflector_texture_.get());
+    }
 }
 
 std::uint32_t GpuScene::patch_base(Place place) const {
@@ -300,6 +326,22 @@ std::uint32_t GpuScene::vertex_base(Place place) const {
 
 glm::mat4 GpuScene::world_from_object(std::uint32_t object, Place place) const {
     return world_from_object_[static_cast<unsigned>(place) * object_count_ + object];
+}
+
+glm::mat4 GpuScene::now_from_before(std::uint32_t object) const {
+    const glm::mat3 now(world_from_object(object, Place::now));
+    const glm::mat3 before(world_from_object(object, Place::before));
+    constexpr float smallest = 1e-30F;
+    if (std::abs(glm::determinant(now)) < smallest ||
+        std::abs(glm::determinant(before)) < smallest) {
+        return glm::mat4(1.0F);
+    }
+    // Gram-Schmidt on the images of the axes.
+    const glm::mat3 m = now * glm::inverse(before);
+    const glm::vec3 x = glm::normalize(m[0]);
+    const glm::vec3 y = glm::normalize(m[1] - glm::dot(m[1], x) * x);
+    const glm::vec3 z = glm::cross(x, y);
+    return glm::mat4(glm::mat3(x, y, z));
 }
 
 Bounds GpuScene::object_bounds(std::uint32_t object, Place place) const {
@@ -321,7 +363,7 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum = facets_.bytes();
+    std::size_t sum = facets_.bytes() + reflectance_.bytes() + reflectors_.bytes();
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {

@@ -11,6 +11,7 @@
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "solution/facet_raster.h"
+#include "solution/reflectance_tables.h"
 
 namespace raybundle {
 
@@ -35,7 +36,8 @@ class GpuScene {
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
-    /// ALPHA_MASK, SKY, THIN_WALLS. What is absent is not even compiled.
+    /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
+    /// radiance depends on direction), MAX_PHONG. What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -47,9 +49,13 @@ class GpuScene {
     [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
     [[nodiscard]] const glm::vec3& origin() const { return origin_; }
     [[nodiscard]] glm::vec3 sky() const { return sky_; }  ///< radiance units
+    [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// Of an object, shifted world, at a place.
     [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
     [[nodiscard]] glm::mat4 world_from_object(std::uint32_t object, Place place) const;
+    /// Rotation of an object's directions from `before` to `now`, nearest to its change of place
+    /// where that also scales or shears; identity where it has no size.
+    [[nodiscard]] glm::mat4 now_from_before(std::uint32_t object) const;
     [[nodiscard]] Bounds bounds() const;  ///< of everything, both places, shifted world
     [[nodiscard]] float diameter() const { return diameter_; }  ///< R of the densities, m
     [[nodiscard]] std::size_t bytes() const;
@@ -59,6 +65,7 @@ class GpuScene {
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
+    void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
     void upload_matrices();
     void place_geometry(Place place) const;
@@ -72,11 +79,14 @@ class GpuScene {
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
 
+    ReflectanceTables reflectance_;
     Buffer world_positions_;
     FacetRaster facets_;
     Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;
     Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
+    Buffer reflectors_;  // only where some patch is glossy
     Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
+    Texture2D reflector_texture_;
     std::vector<std::string> defines_;
     ShaderProgram place_vertices_, place_patches_;
 };

@@ -30,13 +30,13 @@ RadianceStore::RadianceStore(const GpuScene& scene)
       statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
-      update_({"solution_update.comp"}),
-      correct_({"solution_correct.comp"}),
-      power_sum_({"solution_power_sum.comp"}),
+      update_({"solution_update.comp"}, scene.defines()),
+      correct_({"solution_correct.comp"}, scene.defines()),
+      power_sum_({"solution_power_sum.comp"}, scene.defines()),
       power_scan_({"solution_power_scan.comp"}),
       power_density_({"solution_power_density.comp"}),
-      choose_({"solution_shooters.comp"}),
-      flux_sum_({"solution_flux_sum.comp"}),
+      choose_({"solution_shooters.comp"}, scene.defines()),
+      flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
       checkpoint_({"solution_checkpoint.comp"}),
       statistics_({"solution_statistics.comp"}) {
@@ -44,10 +44,21 @@ RadianceStore::RadianceStore(const GpuScene& scene)
                                  &balance_, &flux_, &checkpoint_buffer_}) {
         buffer->clear();
     }
-    // An update with empty sums and no weight: radiance = emission.
+    if (scene_.reflectance().any_glossy()) {
+        gloss_ = Buffer("gloss", std::size_t{patch_count_} * sizeof(glm::uvec4));
+        chain_ = Buffer("gloss chain", std::size_t{patch_count_} * sizeof(glm::vec2));
+        gloss_.clear();
+        chain_.clear();
+        gloss_texture_ = create_buffer_texture("gloss", GL_RGBA32UI, gloss_);
+        sent_ = Buffer("sent radiance", radiance_.bytes());
+        sent_texture_ = create_buffer_texture("sent radiance", GL_RGBA32F, sent_);
+        send_ = ShaderProgram({"transport_sent_radiance.comp"}, scene_.defines());
+        turn_gloss_ = ShaderProgram({"solution_turn_gloss.comp"});
+    }
     bind();
-    update(false, 1e-30F, 0.0F, 0.0F);
-    irradiance_.clear();
+    const ShaderProgram emit({"solution_emit.comp"});
+    emit.set("patch_count", patch_count_);
+    emit.dispatch(patch_count_);
     refresh_power();
 }
 
@@ -65,16 +76,45 @@ void RadianceStore::bind() const {
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+    if (gloss_.bytes() > 0) {
+        gloss_.bind_storage(BINDING_GLOSS);
+        chain_.bind_storage(BINDING_CHAIN);
+        glBindTextureUnit(UNIT_GLOSS, gloss_texture_.get());
+    }
 }
 
-void RadianceStore::update(bool scalar, float weight, float step, float shooter_density) const {
-    update_.set("shooter_density", shooter_density);
+void RadianceStore::update(const BundleUpdate& bundle) const {
+    update_.set("shooter_density", bundle.shooter_density);
     update_.set("block_count", block_count_);
     update_.set("patch_count", patch_count_);
-    update_.set("scalar", scalar ? 1 : 0);
-    update_.set("weight", weight);
-    update_.set("step", step);
+    update_.set("scalar", bundle.scalar ? 1 : 0);
+    update_.set("weight", bundle.weight);
+    update_.set("step", bundle.step);
+    update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
+    update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
     update_.dispatch(patch_count_);
+}
+
+void RadianceStore::send_along_bundle(Place place) const {
+    if (sent_.bytes() == 0) {
+        return;
+    }
+    sent_.bind_storage(BINDING_SENT);
+    send_.set("patch_count", patch_count_);
+    send_.set("patch_base", scene_.patch_base(place));
+    send_.set("vertex_base", scene_.vertex_base(place));
+    send_.dispatch(patch_count_);
+    glBindTextureUnit(UNIT_RADIANCE, sent_texture_.get());
+}
+
+void RadianceStore::turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const {
+    if (gloss_.bytes() == 0) {
+        return;
+    }
+    turn_gloss_.set("patch_count", patch_count_);
+    turn_gloss_.set("object", object);
+    turn_gloss_.set("now_from_before", now_from_before);
+    turn_gloss_.dispatch(patch_count_);
 }
 
 void RadianceStore::correct(float phase_weight) const {
@@ -172,8 +212,8 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 
 std::size_t RadianceStore::bytes() const {
     std::size_t sum = 0;
-    for (const Buffer* buffer :
-         {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_, &checkpoint_buffer_}) {
+    for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
+                                 &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
         sum += buffer->bytes();
     }
     return sum;

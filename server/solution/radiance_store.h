@@ -18,17 +18,32 @@ struct SolutionStatistics {
     double settled = 0.0;  ///< 1 - remaining correction / size of the correction, 0..1
 };
 
-/// The object-space solution (ch. 7.2, Lambert part): mean irradiance per patch, the iterate that
-/// is transferred, and the selection probabilities that follow from them.
+/// How one bundle joins the solution.
+struct BundleUpdate {
+    bool scalar = false;  ///< the sums are form factors of one Lambert shooter
+    float weight = 1.0F;  ///< of the sample in the mean
+    float step = 1.0F;    ///< of the iterate
+    /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
+    float shooter_density = 0.0F;
+    std::uint64_t iteration = 0;
+};
+
+/// The object-space solution (ch. 7.2): mean irradiance per patch, the iterate that is transferred
+/// (main part, and the random representation of what glossy patches send), and the selection
+/// probabilities that follow from them.
 class RadianceStore {
   public:
     explicit RadianceStore(const GpuScene& scene);
 
     void bind() const;
-    /// Takes the running bundle's sums into the mean (with a weight) and into the iterate (with a
-    /// step). scalar: the sums are form factors of one Lambert shooter.
-    /// shooter_density: p_j / A_j of a perspective bundle, else 0.
-    void update(bool scalar, float weight, float step, float shooter_density) const;
+    /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
+    /// are bound.
+    void update(const BundleUpdate& bundle) const;
+    /// In glossy scenes: what all patches send along the parallel bundle whose parameters are bound
+    /// takes the place of the radiance, UNIT_RADIANCE, until the next bind().
+    void send_along_bundle(Place place) const;
+    /// An object has turned: its glossy patches keep the directions of their light.
+    void turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const;
     /// Ends a special iteration phase of K bundles: adds its increments to the solution.
     /// phase_weight: K times the weight of a sample.
     void correct(float phase_weight) const;
@@ -61,11 +76,12 @@ class RadianceStore {
     std::uint32_t patch_count_, block_count_;
     Buffer radiance_, irradiance_, source_, accumulator_, counters_;
     Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
-    Texture2D radiance_texture_;
+    Buffer gloss_, chain_, sent_;  // only where the scene is glossy
+    Texture2D radiance_texture_, gloss_texture_, sent_texture_;
     Readback shooter_readback_;
     ShaderProgram update_, correct_, power_sum_, power_scan_, power_density_, choose_;
     ShaderProgram flux_sum_, balance_flux_;
-    ShaderProgram checkpoint_, statistics_;
+    ShaderProgram checkpoint_, statistics_, turn_gloss_, send_;
 };
 
 }  // namespace raybundle

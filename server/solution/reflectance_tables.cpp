@@ -47,13 +47,13 @@ Key key_of(const Brdf& b) {
             static_cast<float>(b.lobe.kind)};
 }
 
-layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_texel) {
+layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_texel, bool glossy) {
     const SpecularLobe& lobe = model.lobe;
     const float width = lobe.kind == LobeKind::max_phong ? lobe.exponent : lobe.alpha;
     return {glm::vec4(model.f0, model.f0_share),
             glm::vec4(width, lobe.f90, model.lambert_share, lobe.inverse_mean),
             glm::vec4(grazing_scale(lobe.alpha), static_cast<float>(first_texel),
-                      static_cast<float>(lobe.kind), 0.0F)};
+                      static_cast<float>(lobe.kind), glossy ? 1.0F : 0.0F)};
 }
 
 }  // namespace
@@ -68,7 +68,9 @@ ReflectanceTables::ReflectanceTables(const Scene& scene) {
             tables_.emplace_back(brdf);
         }
         table_of_material_.push_back(it->second);
-        glossy_ |= brdf.lobe.kind != LobeKind::none;
+        models_.push_back(reflectance_model(material));
+        specular_ |= brdf.lobe.kind != LobeKind::none;
+        any_glossy_ |= glossy(models_.size() - 1);
         max_phong |= brdf.lobe.kind == LobeKind::max_phong;
     }
     if (max_phong) {
@@ -90,8 +92,8 @@ void ReflectanceTables::upload(const Scene& scene) {
     }
     std::vector<layout::Reflectance> record;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        record.push_back(record_of(reflectance_model(scene.materials[i]),
-                                   records + reflectance_nodes * table_of_material_[i]));
+        record.push_back(
+            record_of(models_[i], records + reflectance_nodes * table_of_material_[i], glossy(i)));
     }
     buffer_ = Buffer("reflectance", texels * sizeof(glm::vec4));
     buffer_.write<layout::Reflectance>(record, 0);

@@ -23,7 +23,20 @@ class ReflectanceTables {
     /// Macros that brdf.glsl wants for this scene: MAX_PHONG.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     /// Whether any material has a specular lobe.
-    [[nodiscard]] bool glossy() const { return glossy_; }
+    [[nodiscard]] bool specular() const { return specular_; }
+    /// Whether a material's reflection depends on direction so much that the solution follows it
+    /// there: more than gloss_threshold of the incident light goes where a Lambert surface of equal
+    /// albedo would not send it. Below, only its albedo depends on the angle.
+    [[nodiscard]] bool glossy(std::size_t material) const {
+        return table(material).mean_importance() > gloss_threshold;
+    }
+    [[nodiscard]] bool any_glossy() const { return any_glossy_; }
+    static constexpr float gloss_threshold = 0.02F;
+
+    /// Albedo of a material for light from everywhere alike, with this base colour.
+    [[nodiscard]] glm::vec3 mean_albedo(std::size_t material, const glm::vec3& base_colour) const {
+        return table(material).mean_albedo(make_brdf(models_[material], base_colour));
+    }
 
     /// The table that stands for a material.
     [[nodiscard]] const ReflectanceTable& table(std::size_t material) const {
@@ -38,7 +51,8 @@ class ReflectanceTables {
     std::vector<ReflectanceTable> tables_;
     std::vector<std::size_t> table_of_material_;
     std::vector<std::string> defines_;
-    bool glossy_ = false;
+    std::vector<ReflectanceModel> models_;
+    bool specular_ = false, any_glossy_ = false;
     Buffer buffer_;
     Texture2D texture_;
 };

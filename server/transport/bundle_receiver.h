@@ -16,6 +16,7 @@ class BundleReceiver {
         float sample_weight = 1.0F;  ///< of the sample in the means
         bool special = false;        ///< signed increments of a special phase
         std::uint32_t moved_object = NO_PATCH;
+        bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
     };
 
     BundleReceiver() = default;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 #include <utility>
 
 namespace raybundle {
@@ -48,12 +49,30 @@ glm::vec3 uniform_direction(double u, double v) {
 }
 
 IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
-                                     unsigned planes_per_direction)
+                                     bool shuffled, unsigned planes_per_direction)
     : probabilities_(probabilities),
       planes_per_direction_(std::max(planes_per_direction, 1U)),
       seed_(seed),
+      shuffled_(shuffled),
       numbers_(seed),
       plane_numbers_(mix_bits(seed ^ plane_key)) {}
+
+/// Index of the next perspective sample in its sequence.
+std::uint64_t IterationSchedule::next_perspective() {
+    const std::uint64_t k = perspective_++;
+    if (!shuffled_) {
+        return k + 1;
+    }
+    const std::uint64_t at = k % shuffle_length;
+    if (at == 0) {
+        std::iota(order_.begin(), order_.end(), std::uint8_t{0});
+        for (unsigned i = shuffle_length; i-- > 1;) {
+            const std::uint64_t random = mix_bits(mix_bits(seed_ + k) + i);
+            std::swap(order_[i], order_[random % (i + 1)]);
+        }
+    }
+    return k - at + order_[at] + 1;
+}
 
 /// Every BATCHES iterations in a row fall to all batches, in an order drawn anew each time: with a
 /// fixed one a batch would see but a part of the range of a sequence whose base divides its stride.
@@ -79,7 +98,7 @@ IterationSample IterationSchedule::next() {
     } else if (which < layered + static_cast<double>(probabilities_.plane)) {
         sample_plane(sample, planes_++);
     } else {
-        sample_shooter(sample, ++perspective_);
+        sample_shooter(sample, next_perspective());
     }
     return sample;
 }

@@ -38,24 +38,33 @@ struct IterationSample {
 /// much. No clock and no state beyond counters, so a seed always gives the same sequence.
 class IterationSchedule {
   public:
+    /// shuffled: perspective samples come in an order that is random within blocks of
+    /// shuffle_length. What a glossy patch sends depends on what it has received last; in the
+    /// order of a Halton sequence the same shooter would always come after the same other one.
     /// planes_per_direction: plane bundles in a row that share a direction, their planes spread
     /// evenly over the scene.
     IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
-                      unsigned planes_per_direction = 1);
+                      bool shuffled = false, unsigned planes_per_direction = 1);
 
     IterationSample next();
+    void set_probabilities(const StrategyProbabilities& probabilities) {
+        probabilities_ = probabilities;
+    }
+    static constexpr unsigned shuffle_length = 32;
 
   private:
     unsigned next_batch();
+    std::uint64_t next_perspective();
     static void sample_window(IterationSample& sample, const RandomisedHalton& numbers,
                               std::uint64_t k);
     void sample_shooter(IterationSample& sample, std::uint64_t k) const;
-
     void sample_plane(IterationSample& sample, std::uint64_t k) const;
 
     StrategyProbabilities probabilities_;
     unsigned planes_per_direction_;
     std::uint64_t seed_;
+    bool shuffled_;
+    std::array<std::uint8_t, shuffle_length> order_{};
     RandomisedHalton numbers_, plane_numbers_;
     std::array<unsigned, BATCHES> batch_order_ = {0, 1, 2, 3, 4, 5, 6, 7};
     std::uint64_t iterations_ = 0, layered_ = 0, planes_ = 0, perspective_ = 0;

@@ -12,6 +12,7 @@
 #include "solution/radiance_store.h"
 #include "transport/iteration_schedule.h"
 #include "transport/special_phase.h"
+#include "transport/strategy_mix.h"
 #include "transport/transfer.h"
 
 namespace raybundle {
@@ -23,6 +24,7 @@ struct SolverSettings {
     BundleResolution fine{512, 800};
     std::uint64_t coarse_iterations = 768;
     float density_error = 1.0F;         ///< fault injection of tests: factor of the densities
+    bool ageing = false;                ///< probabilities follow ageing_mix() instead
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
 };
@@ -69,6 +71,8 @@ class Solver {
     [[nodiscard]] float iterate_step() const;
 
     SolverSettings settings_;
+    StrategyMix mix_;
+    StrategyProbabilities probabilities_;  // of the running group
     GpuScene scene_;
     RadianceStore store_;
     IterationSchedule schedule_;

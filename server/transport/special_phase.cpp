@@ -47,7 +47,10 @@ TransferSettings SpecialPhase::transfer_settings(Place place) const {
     const float sign = place == Place::now ? 1.0F : -1.0F;
     settings.weight = sign / static_cast<float>(iterations);
     settings.coloured = true;
-    settings.context = {place, 0.0F, true, object_};
+    settings.context.place = place;
+    settings.context.sample_weight = 0.0F;
+    settings.context.special = true;
+    settings.context.moved_object = object_;
     return settings;
 }
 

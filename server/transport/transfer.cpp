@@ -37,7 +37,12 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {}
+      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {
+    if (scene.reflectance().any_glossy()) {
+        hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
+                                                 with(scene.defines(), "SHOOTER_GLOSSY 1"));
+    }
+}
 
 ParallelWindow Transfer::parallel_window(const IterationSample& sample) const {
     ParallelWindow window =
@@ -63,6 +68,10 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
                  static_cast<float>(settings.batch)};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
+    p.moved.x = settings.context.moved_object;
+    if (settings.context.moved_object != NO_PATCH) {
+        p.before_from_now = glm::transpose(scene_.now_from_before(settings.context.moved_object));
+    }
     return p;
 }
 
@@ -90,8 +99,9 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     hemicube_.draw(scene_, frame, p.origin.w, place, rectangles);
     hemicube_.bind_textures();
 
-    const ShaderProgram& patches =
-        settings.coloured ? hemicube_patches_coloured_ : hemicube_patches_;
+    const ShaderProgram& patches = shooter.glossy != 0 ? hemicube_patches_glossy_
+                                   : settings.coloured ? hemicube_patches_coloured_
+                                                       : hemicube_patches_;
     set_bases(patches, place);
     const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
         const auto columns = static_cast<unsigned>(r.width() + run_length - 1) / run_length;
@@ -113,8 +123,10 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
             }
         }
     }
+    BundleReceiver::Context context = settings.context;
+    context.glossy_shooter = shooter.glossy != 0;
     for (BundleReceiver* receiver : receivers) {
-        receiver->receive_hemicube(settings.context);
+        receiver->receive_hemicube(context);
     }
 }
 
@@ -140,6 +152,7 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
     p.resolution.z = layers_.capacity();
     p.scissor[0] = to_vector(rectangle);
     upload(p);
+    store_.send_along_bundle(place);
     layers_.draw(scene_, window, place, rectangle, store_.counters());
 
     layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
@@ -164,6 +177,7 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
     const Place place = settings.context.place;
     store_.bind();
     upload(parallel_parameters(window, settings));
+    store_.send_along_bundle(place);
     planes_->pictures.draw(scene_, window, place);
     planes_->pictures.bind_textures();
     const auto columns = static_cast<unsigned>(window.size + run_length - 1) / run_length;

@@ -73,7 +73,8 @@ class Transfer {
     Hemicube hemicube_;
     LayeredWindow layers_;
     Buffer parameters_;
-    ShaderProgram hemicube_patches_, hemicube_patches_coloured_, layers_patches_;
+    ShaderProgram hemicube_patches_, hemicube_patches_coloured_, hemicube_patches_glossy_;
+    ShaderProgram layers_patches_;
     /// Exists from the first plane bundle on.
     struct Planes {
         PlaneWindow pictures;

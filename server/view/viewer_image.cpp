@@ -24,24 +24,63 @@ std::size_t pixel_count(glm::uvec2 size) {
     return std::size_t{size.x} * size.y;
 }
 
+std::vector<std::string> scene_defines_and(const GpuScene& scene,
+                                           const std::vector<std::string>& more) {
+    std::vector<std::string> defines = scene.defines();
+    defines.insert(defines.end(), more.begin(), more.end());
+    return defines;
+}
+
+ViewPrograms::Resolve make_resolve(const GpuScene& scene, const std::vector<std::string>& variant) {
+    const auto defines = scene_defines_and(scene, variant);
+    ViewPrograms::Resolve programs;
+    programs.all = ShaderProgram({"view_resolve.comp"}, defines);
+    if (scene.reflectance().specular()) {
+        programs.specular = ShaderProgram({"view_resolve_specular.comp"}, defines);
+    }
+    return programs;
+}
+
+ViewPrograms::Receive make_receive(const std::string& shader, const GpuScene& scene,
+                                   const std::vector<std::string>& variant) {
+    const auto defines = scene_defines_and(scene, variant);
+    ViewPrograms::Receive programs;
+    programs.all = ShaderProgram({shader}, defines);
+    if (scene.reflectance().any_glossy()) {
+        programs.glossy = ShaderProgram({shader}, with(defines, "GLOSSY_PIXELS 1"));
+    }
+    return programs;
+}
+
+ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene,
+                                                    std::vector<std::string> variant) {
+    const std::string shader = "transport_hemicube_pixels.comp";
+    ViewPrograms::ReceiveHemicube programs;
+    programs.from_lambert = make_receive(shader, scene, variant);
+    if (scene.reflectance().any_glossy()) {
+        variant.emplace_back("SHOOTER_GLOSSY 1");
+        programs.from_glossy = make_receive(shader, scene, variant);
+    }
+    return programs;
+}
+
 }  // namespace
 
 ViewPrograms::ViewPrograms(const GpuScene& scene)
     : raster({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()),
-      resolve_new({"view_resolve.comp"}, scene.defines()),
-      resolve_reprojected({"view_resolve.comp"}, with(scene.defines(), "REPROJECT 1")),
-      resolve_moved({"view_resolve.comp"}, with(with(scene.defines(), "REPROJECT 1"), "MOVED 1")),
+      resolve_new(make_resolve(scene, {})),
+      resolve_reprojected(make_resolve(scene, {"REPROJECT 1"})),
+      resolve_moved(make_resolve(scene, {"REPROJECT 1", "MOVED 1"})),
       compose_linear({"view_compose.comp"}, with(scene.defines(), "LINEAR 1")),
-      correct({"view_correct.comp"}),
+      correct({"view_correct.comp"}, scene.defines()),
       vertex_irradiance({"view_vertex_irradiance.comp"}),
       statistics({"view_statistics.comp"}, scene.defines()),
       probe({"view_probe.comp"}, scene.defines()),
-      hemicube_pixels({"transport_hemicube_pixels.comp"}, scene.defines()),
-      hemicube_pixels_special({"transport_hemicube_pixels.comp"},
-                              with(scene.defines(), "SPECIAL 1")),
-      layers_pixels({"transport_layers_pixels.comp"}, scene.defines()),
-      layers_pixels_special({"transport_layers_pixels.comp"}, with(scene.defines(), "SPECIAL 1")),
-      planes_pixels({"transport_planes_pixels.comp"}, scene.defines()) {
+      hemicube_pixels(make_receive_hemicube(scene, {})),
+      hemicube_pixels_special(make_receive_hemicube(scene, {"SPECIAL 1"})),
+      layers_pixels(make_receive("transport_layers_pixels.comp", scene, {})),
+      layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})),
+      planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
     for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -87,7 +126,23 @@ void ViewerImage::allocate() {
     delta_.clear();
     batches_.clear();
     create_pixel_textures();
+    if (scene_.reflectance().specular()) {
+        specular_.emplace(pixels);
+    }
+    if (scene_.reflectance().any_glossy()) {
+        allocate_gloss();
+    }
     has_picture_ = false;
+}
+
+void ViewerImage::allocate_gloss() {
+    const std::size_t bytes = pixel_count(size_) * sizeof(glm::vec4);
+    gloss_ = Buffer("pixel gloss", bytes);
+    old_gloss_ = Buffer("old pixel gloss", bytes);
+    gloss_delta_ = Buffer("pixel gloss increments", bytes);
+    gloss_delta_.clear();
+    gloss_texture_ = create_buffer_texture("pixel gloss", GL_RGBA32F, gloss_);
+    old_gloss_texture_ = create_buffer_texture("old pixel gloss", GL_RGBA32F, old_gloss_);
 }
 
 void ViewerImage::create_pixel_textures() {
@@ -119,8 +174,7 @@ void ViewerImage::upload_view() {
 }
 
 void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object) {
-    old_clip_from_world_ = parameters_.clip_from_world;
-    const float old_common_weight = parameters_.weights.x;
+    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x};
     const glm::vec4 display = parameters_.display;
     parameters_ =
         make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
@@ -146,29 +200,49 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     std::swap(irradiance_, old_irradiance_);
     std::swap(pixel_texture_, old_pixel_texture_);
     std::swap(irradiance_texture_, old_irradiance_texture_);
+    std::swap(gloss_, old_gloss_);
+    std::swap(gloss_texture_, old_gloss_texture_);
     store_.bind();
     bind_pixels();
     glBindTextureUnit(UNIT_OLD_PIXELS, old_pixel_texture_.get());
     glBindTextureUnit(UNIT_OLD_PIXEL_IRRADIANCE, old_irradiance_texture_.get());
+    glBindTextureUnit(UNIT_OLD_PIXEL_GLOSS, old_gloss_texture_.get());
     glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
-    const ShaderProgram& resolve = !has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
-                                   : moved_object == NO_PATCH ? programs_.resolve_reprojected
-                                                              : programs_.resolve_moved;
-    resolve.set("vertex_count", scene_.vertex_count());
-    resolve.set("crease_distance", crease_share * scene_.diameter());
-    resolve.set("old_clip_from_world", old_clip_from_world_);
-    resolve.set("old_width", size_.x);
-    resolve.set("old_height", size_.y);
-    resolve.set("kept_weight", kept_weight);
-    resolve.set("old_common_weight", old_common_weight);
-    resolve.set("moved_object", moved_object);
-    // Two pixels' width at unit distance.
-    resolve.set("same_distance",
-                4.0F * std::tan(0.5F * camera_.vertical_fov) / static_cast<float>(size_.y));
-    resolve.dispatch(size_.x, size_.y);
+    resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
+            : moved_object == NO_PATCH           ? programs_.resolve_reprojected
+                                                 : programs_.resolve_moved,
+            kept_weight, moved_object);
     batches_.clear();
     samples_ = 0;
     has_picture_ = true;
+}
+
+void ViewerImage::resolve(const ViewPrograms::Resolve& programs, float kept_weight,
+                          std::uint32_t moved_object) {
+    const auto set_common = [&](const ShaderProgram& program) {
+        program.set("vertex_count", scene_.vertex_count());
+        program.set("old_clip_from_world", old_.clip_from_world);
+        program.set("old_eye", old_.eye);
+        program.set("old_width", size_.x);
+        program.set("old_height", size_.y);
+        program.set("kept_weight", kept_weight);
+        program.set("old_common_weight", old_.common_weight);
+        program.set("moved_object", moved_object);
+        // Two pixels' width at unit distance.
+        program.set("same_distance",
+                    4.0F * std::tan(0.5F * camera_.vertical_fov) / static_cast<float>(size_.y));
+    };
+    set_common(programs.all);
+    programs.all.set("crease_distance", crease_share * scene_.diameter());
+    if (specular_) {
+        specular_->begin();
+    }
+    programs.all.dispatch(size_.x, size_.y);
+    if (specular_) {
+        specular_->end();
+        set_common(programs.specular);
+        specular_->dispatch(programs.specular);
+    }
 }
 
 void ViewerImage::bind_pixels() const {
@@ -183,14 +257,29 @@ void ViewerImage::bind_pixels() const {
     glBindTextureUnit(UNIT_PIXELS, pixel_texture_.get());
     glBindTextureUnit(UNIT_PIXEL_IRRADIANCE, irradiance_texture_.get());
     glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
+    if (specular_) {
+        specular_->bind();
+    }
+    if (gloss_.bytes() > 0) {
+        gloss_.bind_storage(BINDING_PIXEL_GLOSS);
+        gloss_delta_.bind_storage(BINDING_PIXEL_GLOSS_DELTA);
+        glBindTextureUnit(UNIT_PIXEL_GLOSS, gloss_texture_.get());
+    }
 }
 
-void ViewerImage::prepare_receiving(const ShaderProgram& program, const Context& context) {
+void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& context) {
     bind_pixels();
-    program.set("facet_base", scene_.facet_base(context.place));
-    program.set("vertex_base", scene_.vertex_base(context.place));
-    program.set("moved_object", context.moved_object);
-    program.dispatch(pixel_count(size_));
+    const auto set_common = [&](const ShaderProgram& program) {
+        program.set("facet_base", scene_.facet_base(context.place));
+        program.set("vertex_base", scene_.vertex_base(context.place));
+        program.set("moved_object", context.moved_object);
+    };
+    set_common(programs.all);
+    programs.all.dispatch(pixel_count(size_));
+    if (gloss_.bytes() > 0) {
+        set_common(programs.glossy);
+        specular_->dispatch(programs.glossy);
+    }
     if (!context.special) {
         ++samples_;
         parameters_.weights.x += context.sample_weight;
@@ -199,17 +288,17 @@ void ViewerImage::prepare_receiving(const ShaderProgram& program, const Context&
 }
 
 void ViewerImage::receive_hemicube(const Context& context) {
-    prepare_receiving(
-        context.special ? programs_.hemicube_pixels_special : programs_.hemicube_pixels, context);
+    const ViewPrograms::ReceiveHemicube& programs =
+        context.special ? programs_.hemicube_pixels_special : programs_.hemicube_pixels;
+    receive(context.glossy_shooter ? programs.from_glossy : programs.from_lambert, context);
 }
 
 void ViewerImage::receive_layers(const Context& context) {
-    prepare_receiving(context.special ? programs_.layers_pixels_special : programs_.layers_pixels,
-                      context);
+    receive(context.special ? programs_.layers_pixels_special : programs_.layers_pixels, context);
 }
 
 void ViewerImage::receive_planes(const Context& context) {
-    prepare_receiving(programs_.planes_pixels, context);
+    receive(programs_.planes_pixels, context);
 }
 
 void ViewerImage::discard_sample(float sample_weight) {
@@ -221,6 +310,9 @@ void ViewerImage::discard_sample(float sample_weight) {
 void ViewerImage::begin_special(std::uint32_t moved_object) {
     refresh_geometry(1.0F, moved_object);
     delta_.clear();
+    if (gloss_delta_.bytes() > 0) {
+        gloss_delta_.clear();
+    }
 }
 
 void ViewerImage::end_special(float phase_weight) {
@@ -367,8 +459,9 @@ float ViewerImage::automatic_exposure() const {
 
 std::size_t ViewerImage::bytes() const {
     std::size_t sum = pixel_count(size_) * 8;
-    for (const Buffer* buffer : {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_,
-                                 &batches_, &vertex_irradiance_, &frame_}) {
+    for (const Buffer* buffer :
+         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
+          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_}) {
         sum += buffer->bytes();
     }
     return sum;

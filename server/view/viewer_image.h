@@ -14,6 +14,7 @@
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "view/camera_matrices.h"
+#include "view/specular_groups.h"
 
 namespace raybundle {
 
@@ -45,12 +46,24 @@ struct ViewPrograms {
     explicit ViewPrograms(const GpuScene& scene);
 
     ShaderProgram raster;
-    ShaderProgram resolve_new, resolve_reprojected, resolve_moved;
+    /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
+    /// after an object has moved; `specular` goes over specular pixels alone.
+    struct Resolve {
+        ShaderProgram all, specular;
+    };
+    Resolve resolve_new, resolve_reprojected, resolve_moved;
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram correct, vertex_irradiance, statistics, probe;
-    ShaderProgram hemicube_pixels, hemicube_pixels_special, layers_pixels, layers_pixels_special;
-    ShaderProgram planes_pixels;
+    /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
+    struct Receive {
+        ShaderProgram all, glossy;
+    };
+    struct ReceiveHemicube {
+        Receive from_lambert, from_glossy;  ///< kind of the shooter
+    };
+    ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
+    Receive layers_pixels, layers_pixels_special, planes_pixels;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -105,11 +118,14 @@ class ViewerImage : public BundleReceiver {
 
   private:
     void allocate();
+    void resolve(const ViewPrograms::Resolve& programs, float kept_weight,
+                 std::uint32_t moved_object);
     void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
+    void allocate_gloss();
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
-    void prepare_receiving(const ShaderProgram& program, const Context& context);
+    void receive(const ViewPrograms::Receive& programs, const Context& context);
     void interpolate_vertices();
     void evaluate(std::span<const glm::vec4> partial);
 
@@ -119,7 +135,11 @@ class ViewerImage : public BundleReceiver {
     glm::uvec2 size_;
     Camera camera_;
     layout::ViewParameters parameters_{};
-    glm::mat4 old_clip_from_world_{1.0F};
+    struct OldPicture {  ///< what was accumulated in it is reprojected
+        glm::mat4 clip_from_world{1.0F};
+        glm::vec3 eye{0.0F};
+        float common_weight = 0.0F;
+    } old_;
     std::size_t frame_bytes_ = 0;
     bool has_picture_ = false;  // accumulators that can be reprojected
     std::uint64_t samples_ = 0;
@@ -127,6 +147,9 @@ class ViewerImage : public BundleReceiver {
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_, probe_buffer_;
+    std::optional<SpecularGroups> specular_;  // only where the scene is specular
+    Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
+    Texture2D gloss_texture_, old_gloss_texture_;
     Texture2D surface_ids_, depths_;
     Texture2D pixel_texture_, old_pixel_texture_, irradiance_texture_, old_irradiance_texture_;
     Texture2D vertex_irradiance_texture_;

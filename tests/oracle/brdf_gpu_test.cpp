@@ -206,7 +206,7 @@ TEST(ReflectanceTables, LambertScenesShareOneTable) {
     }
     const ReflectanceTables tables(scene);
     EXPECT_EQ(tables.table_count(), 1U);
-    EXPECT_FALSE(tables.glossy());
+    EXPECT_FALSE(tables.specular());
     EXPECT_TRUE(tables.defines().empty());
 }
 
@@ -221,7 +221,7 @@ TEST(ReflectanceTables, EqualGlossyMaterialsShareOneTable) {
     const ReflectanceTables tables(scene);
     EXPECT_EQ(tables.table_count(), 2U);
     EXPECT_EQ(&tables.table(0), &tables.table(1));
-    EXPECT_TRUE(tables.glossy());
+    EXPECT_TRUE(tables.any_glossy());
     EXPECT_EQ(tables.bytes(), 16U * (3U * 3U + 2U * reflectance_nodes));
 }
 

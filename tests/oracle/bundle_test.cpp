@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <vector>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -71,7 +75,7 @@ TEST(IterationSchedule, PlanesCoverDirectionsAndScene) {
 }
 
 TEST(IterationSchedule, SeveralPlanesShareADirection) {
-    IterationSchedule schedule(1, {0.0F, 1.0F, 0.0F}, 4);
+    IterationSchedule schedule(1, {0.0F, 1.0F, 0.0F}, false, 4);
     const IterationSample first = schedule.next();
     for (int i = 1; i < 4; ++i) {
         const IterationSample sample = schedule.next();
@@ -81,6 +85,45 @@ TEST(IterationSchedule, SeveralPlanesShareADirection) {
         EXPECT_NE(sample.plane, first.plane);
     }
     EXPECT_NE(schedule.next().direction, first.direction);
+}
+
+/// Of 8 equal parts of [0, 1): how many hold the shooter number before one that lies in a narrow
+/// interval.
+std::size_t parts_before(bool shuffled) {
+    IterationSchedule schedule(3, {0.0F, 0.0F, 1.0F}, shuffled);
+    std::set<int> parts;
+    float before = 0.0F;
+    for (int i = 0; i < 4096; ++i) {
+        const float now = schedule.next().shooter_numbers.x;
+        if (i > 0 && now > 0.40F && now < 0.41F) {
+            parts.insert(static_cast<int>(8.0F * before));
+        }
+        before = now;
+    }
+    return parts.size();
+}
+
+TEST(IterationSchedule, ShufflingBreaksTheTieBetweenASampleAndTheNext) {
+    EXPECT_LE(parts_before(false), 2U) << "Halton's own order: the reason for shuffling";
+    EXPECT_GE(parts_before(true), 7U);
+}
+
+TEST(IterationSchedule, ShufflingKeepsTheSamplesOfABlock) {
+    constexpr int count = 4 * IterationSchedule::shuffle_length;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        IterationSchedule plain(seed, {0.0F, 0.0F, 1.0F});
+        IterationSchedule shuffled(seed, {0.0F, 0.0F, 1.0F}, true);
+        std::vector<float> a;
+        std::vector<float> b;
+        for (int i = 0; i < count; ++i) {
+            a.push_back(plain.next().shooter_numbers.x);
+            b.push_back(shuffled.next().shooter_numbers.x);
+        }
+        EXPECT_NE(a, b);
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        EXPECT_EQ(a, b);
+    }
 }
 
 TEST(IterationSchedule, DirectionsCoverTheSphereEvenly) {

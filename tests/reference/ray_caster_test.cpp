@@ -33,18 +33,34 @@ Estimate mean_radiance(const Tracing& tracing, const RadianceEstimator& estimato
     return result;
 }
 
-SceneBuilder furnished() {
+/// Number of glossy_materials() whose index a parameter below may be; else the box is Lambert.
+constexpr int material_count = 3;
+
+SceneBuilder furnished(int material) {
     SceneBuilder b = enclosure(0.8F);
-    b.add_box({1, 0, 1}, {2.5F, 1, 2.5F}, false, 1, 0);
+    std::uint32_t box = 0;
+    if (material < material_count) {
+        box = add_material(b, glossy_materials()[static_cast<std::size_t>(material)].material);
+        // The far wall too, so that both sampling techniques matter in most of the picture.
+        for (std::size_t i = 0; i < b.mesh.triangle_count(); ++i) {
+            if (b.cell_centre(i).z > 3.99F) {
+                b.set_triangle_material(i, box);
+            }
+        }
+    }
+    b.add_box({1, 0, 1}, {2.5F, 1, 2.5F}, false, 1, box);
     return b;
 }
 
+class RayCasterMaterials : public testing::TestWithParam<int> {};
+
 /// Emission and one reflection, nothing more: what path tracing finds within one bounce. Pixels are
 /// independent: 4.5 standard errors are passed by chance once in 150 000.
-TEST(RayCaster, IsPathTracingOfOneBounce) {
-    const SceneBuilder room = furnished();
+TEST_P(RayCasterMaterials, IsPathTracingOfOneBounce) {
+    const SceneBuilder room = furnished(GetParam());
     PathSettings one_bounce;
     one_bounce.max_bounces = 1;
+    one_bounce.next_event = false;
     const Tracing t(room, one_bounce);
     const RayCaster caster(t.scene, t.lights);
     const Estimate cast = mean_radiance(
@@ -62,8 +78,11 @@ TEST(RayCaster, IsPathTracingOfOneBounce) {
     EXPECT_NEAR(cast.mean, traced.mean,
                 4.5 * std::hypot(cast.standard_error, traced.standard_error));
     EXPECT_LT(cast.standard_error, 0.01 * cast.mean);
+    EXPECT_LT(traced.standard_error, 0.05 * cast.mean);
     EXPECT_GT(cast.mean, 0.0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Materials, RayCasterMaterials, testing::Range(0, material_count + 1));
 
 /// On black walls nothing but emission is left, exactly.
 TEST(RayCaster, BlackRoomShowsItsLampAlone) {

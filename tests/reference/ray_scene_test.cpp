@@ -96,7 +96,7 @@ TEST(RayScene, BacksAbsorbUnlessDoubleSided) {
     EXPECT_EQ(hit->patch, 2 + hit->triangle);
     EXPECT_NEAR(hit->normal.y, -1.0, 1e-6);
     const RayScene scene(b.scene, b.mesh);
-    EXPECT_NEAR(scene.albedo(*hit).g, 0.25, 1e-6);
+    EXPECT_EQ(scene.brdf(*hit).lambert.g, 0.5F);
     EXPECT_NEAR(scene.emission(*hit).g, 7.0, 1e-6);
     EXPECT_NEAR(scene.point_on_patch(3, {0.2, 0.3}).normal.y, -1.0, 1e-6);
 }
@@ -125,14 +125,33 @@ TEST(RayScene, TextureIsLookedUpInLinearLightAtTheHit) {
     Material m;
     m.base_colour = glm::vec3(0.8F);
     m.metallic = 0.0F;
+    m.specular = 0.0F;
     m.base_colour_texture.texture = 0;
     const SceneBuilder b = textured_square(two_texels(), m);
     const RayScene scene(b.scene, b.mesh);
     // Centres of the texels are at u = 0.25 and 0.75; between them the colour is interpolated.
     constexpr double grey = 0.502886;  // ((188/255 + 0.055)/1.055)^2.4
-    EXPECT_NEAR(scene.albedo(*drop(scene, 0.1, 0.5)).r, 0.8, 1e-5);
-    EXPECT_NEAR(scene.albedo(*drop(scene, 0.9, 0.5)).r, 0.8 * grey, 1e-4);
-    EXPECT_NEAR(scene.albedo(*drop(scene, 0.5, 0.3)).r, 0.8 * 0.5 * (1.0 + grey), 1e-4);
+    const auto lambert = [&](double x, double z) {
+        return scene.brdf(*drop(scene, x, z)).lambert.r;
+    };
+    EXPECT_NEAR(lambert(0.1, 0.5), 0.8, 1e-5);
+    EXPECT_NEAR(lambert(0.9, 0.5), 0.8 * grey, 1e-4);
+    EXPECT_NEAR(lambert(0.5, 0.3), 0.8 * 0.5 * (1.0 + grey), 1e-4);
+}
+
+/// The same texture as the colour of a metal: it is the lobe's.
+TEST(RayScene, TextureColoursAMetalsLobe) {
+    Material m;
+    m.base_colour = glm::vec3(0.8F);
+    m.roughness = 0.5F;
+    m.base_colour_texture.texture = 0;
+    const SceneBuilder b = textured_square(two_texels(), m);
+    const RayScene scene(b.scene, b.mesh);
+    const Brdf brdf = scene.brdf(*drop(scene, 0.9, 0.5));
+    EXPECT_EQ(brdf.lambert, glm::vec3(0.0F));
+    EXPECT_NEAR(brdf.f0.r, 0.8 * 0.502886, 1e-4);
+    EXPECT_EQ(brdf.lobe.kind, LobeKind::ggx);
+    EXPECT_NEAR(brdf.lobe.alpha, 0.25F, 1e-6F);
 }
 
 TEST(RayScene, AlphaMaskLetsRaysThrough) {

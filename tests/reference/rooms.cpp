@@ -76,6 +76,45 @@ TwoRooms two_rooms(float albedo, float thickness) {
     return rooms;
 }
 
+std::vector<NamedMaterial> glossy_materials() {
+    Material plastic;
+    plastic.base_colour = glm::vec3(0.6F, 0.5F, 0.4F);
+    plastic.metallic = 0.0F;
+    plastic.roughness = 0.3F;
+    Material metal;
+    metal.base_colour = glm::vec3(0.9F, 0.8F, 0.6F);
+    metal.roughness = 0.45F;
+    Material phong;
+    phong.base_colour = glm::vec3(0.3F, 0.3F, 0.4F);
+    phong.max_phong = MaxPhong{glm::vec3(0.45F), 28.0F};
+    return {{"plastic", plastic}, {"metal", metal}, {"max_phong", phong}};
+}
+
+std::uint32_t add_material(SceneBuilder& builder, const Material& material) {
+    builder.scene.materials.push_back(material);
+    return static_cast<std::uint32_t>(builder.scene.materials.size()) - 1;
+}
+
+ScreenedLamp screened_lamp(const Material& floor, const glm::vec3& wall_albedo,
+                           const glm::vec3& lamp_emission) {
+    ScreenedLamp s;
+    SceneBuilder& b = s.builder;
+    const auto patches = [&b] { return static_cast<std::uint32_t>(b.mesh.patch_count()); };
+    b.set_transform(odd_rotation());
+    const auto black = b.add_material(glm::vec3(0.0F));
+    s.lamp = patches();
+    b.add_quad({1, 1.5F, 0}, {0.2F, 0, 0}, {0, 0, 1}, 1, 1,
+               b.add_material(glm::vec3(0.0F), lamp_emission));  // faces down
+    s.wall = patches();
+    b.add_quad({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2, 2, b.add_material(wall_albedo));  // faces +x
+    s.floor = patches();
+    b.add_quad({0, 0, 0}, {0, 0, 1}, {2, 0, 0}, 4, 4, add_material(b, floor));
+    // The screen hangs at x = 0.7 from above the lamp down to y = 0.8, wider than the rest.
+    b.add_quad({0.7F, 0.8F, -2}, {0, 0, 5}, {0, 1, 0}, 1, 1, black);
+    b.add_quad({0.7F, 0.8F, -2}, {0, 1, 0}, {0, 0, 5}, 1, 1, black);
+    return s;
+}
+
 Estimate mean_irradiance(const RayScene& scene, const PathTracer& tracer, std::uint32_t first,
                          std::uint32_t last, std::uint32_t paths, std::uint64_t seed) {
     std::vector<double> areas;

@@ -35,6 +35,29 @@ struct TwoRooms {
 };
 TwoRooms two_rooms(float albedo, float thickness);
 
+/// A material of every kind of lobe: plastic (GGX over Lambert), metal (GGX), max-Phong over
+/// Lambert.
+struct NamedMaterial {
+    const char* name;
+    Material material;
+};
+std::vector<NamedMaterial> glossy_materials();
+
+/// Adds a material of any kind; returns its index.
+std::uint32_t add_material(SceneBuilder& builder, const Material& material);
+
+/// A lamp over a floor of this material, and a wall that cannot see it for a black screen: all its
+/// light comes by the floor. Lengths about 1 m.
+struct ScreenedLamp {
+    SceneBuilder builder;
+    std::uint32_t lamp = 0;   ///< its first patch; 2 patches
+    std::uint32_t wall = 0;   ///< first patch; wall_patches
+    std::uint32_t floor = 0;  ///< first patch
+    static constexpr std::uint32_t wall_patches = 8;
+};
+ScreenedLamp screened_lamp(const Material& floor, const glm::vec3& wall_albedo,
+                           const glm::vec3& lamp_emission = glm::vec3(1000.0F));
+
 /// A mean with its standard error.
 struct Estimate {
     double mean = 0.0;

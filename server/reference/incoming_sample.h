@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace raybundle {
+
+/// The random representation of the light that a glossy patch receives (ch. 7.2): of all that came
+/// in, one sample, kept in proportion to its importance s, and the sum of all s. For any function g
+/// of a direction, importance_sum * power/importance * g(direction) has the mean over the kept
+/// sample that summing power * g(direction) over everything that came in would give.
+///
+/// Ch. 7.2 keeps samples by Metropolis acceptance, min(1, s_new/s_kept), which has that mean only
+/// in the long run. Particles are independent of what is kept, so a reservoir (Chao 1982,
+/// "A General Purpose Unequal Probability Sampling Plan": s_new/(sum of all s)) has it at once.
+/// The importance is positive wherever anything but the main part is reflected, as in
+/// scene/reflectance_table.h, so nothing is divided by an albedo that may be 0.
+struct IncomingSample {
+    glm::vec3 power{0.0F};
+    glm::vec3 direction{0.0F};  ///< to where it came from, unit
+    double importance = 0.0;    ///< of the sample kept; 0: nothing came in
+    double importance_sum = 0.0;
+
+    /// u: uniform in (0, 1).
+    void add(const glm::dvec3& new_power, const glm::dvec3& new_direction, double new_importance,
+             double u) {
+        importance_sum += new_importance;
+        if (u * importance_sum < new_importance) {
+            power = glm::vec3(new_power);
+            direction = glm::vec3(new_direction);
+            importance = new_importance;
+        }
+    }
+};
+
+}  // namespace raybundle

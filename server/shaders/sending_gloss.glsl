@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The glossy part of what a patch sends through the running bundle.
+#include "gloss.glsl"
+
+/// Glossy part of a patch at the place of the objects that was drawn, whose vertices begin at vertex_base.
+/// normal: of the patch, unit; middle (its centroid), point: of the patch; all at that place.
+Gloss sending_gloss(uint patch_id, vec3 normal, vec3 middle, vec3 point) {
+    uvec4 packed_gloss = texelFetch(gloss_texels, int(patch_id));
+    LightSource source = gloss_source(packed_gloss);
+    for (bool before = bundle.resolution.w == 1u; before; before = false) {
+        uint object = floatBitsToUint(patch_attributes(patch_id).z);
+        source.direction =
+            object == bundle.moved.x ? mat3(bundle.before_from_now) * source.direction : source.direction;
+    }
+    Gloss g;
+    g.scale = gloss_scale(packed_gloss);
+    g.w_in = direction_to(source, middle, point);
+    g.brdf = patch_brdf(patch_id);
+    g.at_in = brdf_at(g.brdf, dot(normal, g.w_in));
+    return g;
+}
+
+uvec3 triangle_of_patch(uint patch_id) { return load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).xyz; }
+
+/// Of the shooter of a perspective bundle, at its shooting point.
+Gloss shooter_gloss(uint vertex_base) {
+    uint shooter = bundle.resolution.z;
+    return sending_gloss(shooter, bundle.axis_z.xyz, centroid_of(triangle_of_patch(shooter), vertex_base),
+                         bundle.origin.xyz);
+}

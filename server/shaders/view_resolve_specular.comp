@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Second part of a viewer's geometry buffer, for surfaces with a specular lobe: the base colour becomes the
+// directional albedo at the angle of view, and the accumulated glossy part follows its surface point.
+// Variants: GLOSSY, REPROJECT, MOVED as in view_resolve.comp.
+#include "layouts.glsl"
+layout(local_size_x = SPECULAR_GROUP) in;
+#include "scene_geometry.glsl"
+#include "facets.glsl"
+#include "mesh.glsl"
+#include "octahedral.glsl"
+#include "pixel_sum.glsl"
+#include "brdf.glsl"
+#define SPECULAR_GROUPS_ACCESS readonly
+#include "specular_groups.glsl"
+layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+layout(std430, binding = BINDING_PIXELS) buffer PixelBuffer { uvec4 pixels[]; };
+#ifdef GLOSSY
+layout(std430, binding = BINDING_PIXEL_GLOSS) writeonly buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
+#endif
+#ifdef REPROJECT
+#include "reproject.glsl"
+layout(binding = UNIT_OLD_PIXEL_GLOSS) uniform samplerBuffer old_gloss_texels;
+uniform vec3 old_eye;
+
+/// Share of its weight that a glossy part keeps when the point is seen from another direction: what has turned
+/// by less than a lobe's width still looks about the same.
+float kept_gloss(vec3 from_eye, vec3 from_old_eye, Brdf brdf) {
+    float alpha = brdf.kind == LOBE_MAX_PHONG ? sqrt(2.0 / (brdf.width + 2.0)) : brdf.width;
+    vec3 turn = normalize(from_eye) - normalize(from_old_eye);
+    return 1.0 / (1.0 + 16.0 * dot(turn, turn) / (alpha * alpha));
+}
+
+vec4 reprojected_gloss(vec3 position, uvec4 p, uvec4 q, Brdf brdf) {
+    uint object = floatBitsToUint(patch_attributes(p.w).z);
+    uvec3 triangle = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
+    vec2 v = unpackUnorm2x16(q.z);
+    vec3 old_position = position_before(position, object, triangle, vec3(1.0 - v.x - v.y, v));
+    uint index = old_pixel(old_position, patch_plane(p.w).xyz, p.w, object);
+    if (index == hidden) {
+        return vec4(0.0);
+    }
+    float share = kept_weight * kept_gloss(position - view.eye.xyz, position - old_eye, brdf);
+    return carried(texelFetch(old_gloss_texels, int(index)), share);
+}
+#endif
+
+void main() {
+    uint index = specular_pixel();
+    if (index >= view.size.x * view.size.y) {
+        return;
+    }
+    uvec4 p = pixels[2u * index];
+    uvec4 q = pixels[2u * index + 1u];
+    uint material = p.w == NO_PATCH ? 0u : facet_material(q.w & PIXEL_FACET_MASK);
+    if (p.w == NO_PATCH || int(texelFetch(reflectance_texels, 3 * int(material) + 2).z) == LOBE_NONE) {
+        return;
+    }
+    vec3 position = uintBitsToFloat(p.xyz);
+    vec3 root = unpackUnorm4x8(q.y).rgb;
+    Brdf brdf = make_brdf(material, root * root);
+    vec3 w_out = normalize(view.eye.xyz - position);
+    vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
+    vec3 albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_out)));
+    pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0));
+#ifdef GLOSSY
+#ifdef REPROJECT
+    pixel_gloss[index] = reprojected_gloss(position, p, q, brdf);
+#else
+    pixel_gloss[index] = vec4(0.0);
+#endif
+#endif
+}
