@@ -42,6 +42,7 @@ struct MethodRow {
 const MethodRow method_table[] = {
     {"combined", StrategyProbabilities{}},
     {"parallel-layered", StrategyProbabilities{1.0F, 0.0F, 0.0F}},
+    {"parallel-plane", StrategyProbabilities{0.0F, 1.0F, 0.0F}},
     {"perspective", StrategyProbabilities{0.0F, 0.0F, 1.0F}},
     {"path", ReferenceKind::path},
     {"single-ray", ReferenceKind::single_ray},

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/layered_window.h"
 
-#include <algorithm>
-
 #include "gpu/egl_context.h"
 #include "gpu/gl_scope.h"
 
@@ -27,36 +25,7 @@ LayeredWindow::LayeredWindow(int n, const std::vector<std::string>& defines)
     glNamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_HEIGHT, n);
 }
 
-LayeredWindow::Geometry LayeredWindow::geometry(const glm::vec3& direction, float angle,
-                                                const glm::vec2& shift, const glm::vec3& centre,
-                                                float diameter) const {
-    Geometry result;
-    // One pixel more than the sphere needs, for the random shift.
-    result.pixel_size = diameter / static_cast<float>(n_ - 2);
-    result.depth = diameter * 1.001F;
-    result.frame = make_frame(centre, direction, angle);
-    const float half = 0.5F * result.pixel_size * static_cast<float>(n_ - 2);
-    const glm::vec2 corner = -glm::vec2(half) - result.pixel_size * (0.5F + shift * 0.999F);
-    result.frame.origin = centre + result.frame.x * corner.x + result.frame.y * corner.y -
-                          direction * (0.5F * result.depth);
-    return result;
-}
-
-PixelRectangle LayeredWindow::covering(const Geometry& geometry,
-                                       std::span<const Bounds> boxes) const {
-    glm::vec2 low(1e30F);
-    glm::vec2 high(-1e30F);
-    for (const Bounds& box : boxes) {
-        for (const glm::vec3& corner : corners(box)) {
-            const glm::vec2 p = glm::vec2(geometry.frame.to_bundle(corner)) / geometry.pixel_size;
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    }
-    return dilated(low, high, full());
-}
-
-void LayeredWindow::draw(const GpuScene& scene, const Geometry& geometry, Place place,
+void LayeredWindow::draw(const GpuScene& scene, const ParallelWindow& window, Place place,
                          const PixelRectangle& rectangle, const Buffer& counters) const {
     if (rectangle.empty()) {
         return;
@@ -74,14 +43,7 @@ void LayeredWindow::draw(const GpuScene& scene, const Geometry& geometry, Place 
     clear_.set("window_width", static_cast<unsigned>(n_));
     clear_.dispatch(pixels);
 
-    const BundleFrame& f = geometry.frame;
-    const float extent = geometry.pixel_size * static_cast<float>(n_);
-    const auto row = [&](const glm::vec3& v, float scale, float offset) {
-        return glm::vec4(v * scale, offset - scale * glm::dot(v, f.origin));
-    };
-    const glm::mat4 clip_from_world =
-        glm::transpose(glm::mat4(row(f.x, 2.0F / extent, -1.0F), row(f.y, 2.0F / extent, -1.0F),
-                                 row(f.z, 1.0F / geometry.depth, 0.0F), glm::vec4(0, 0, 0, 1)));
+    const glm::mat4 clip_from_world = window.clip_from_world(1.0F / window.depth, 0.0F);
     const GlScope scope("layered raster");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, n_, n_);

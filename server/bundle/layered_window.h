@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "bundle/bundle_frame.h"
+#include "bundle/parallel_window.h"
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
@@ -21,24 +20,11 @@ class LayeredWindow {
     /// n: pixels along the window's side. defines: of the scene to be drawn.
     explicit LayeredWindow(int n, const std::vector<std::string>& defines = {});
 
-    /// The window's geometry for a direction: origin at a corner, square pixels, covering the
-    /// sphere of the given diameter round the scene's centre, shifted by a random share of a pixel.
-    struct Geometry {
-        BundleFrame frame;
-        float pixel_size = 0.0F;  ///< m
-        float depth = 0.0F;       ///< m, along z
-    };
-    [[nodiscard]] Geometry geometry(const glm::vec3& direction, float angle, const glm::vec2& shift,
-                                    const glm::vec3& centre, float diameter) const;
-
     [[nodiscard]] int size() const { return n_; }
-    [[nodiscard]] PixelRectangle full() const { return {0, 0, n_, n_}; }
-    [[nodiscard]] PixelRectangle covering(const Geometry& geometry,
-                                          std::span<const Bounds> boxes) const;
 
     /// Rasterises all surfaces into the lists of a rectangle. The bundle's parameters are bound.
     /// `counters` (bound at BINDING_COUNTERS) tell whether the surfaces were too many.
-    void draw(const GpuScene& scene, const Geometry& geometry, Place place,
+    void draw(const GpuScene& scene, const ParallelWindow& window, Place place,
               const PixelRectangle& rectangle, const Buffer& counters) const;
     void bind() const;
     /// Room for this many surfaces along a line. Throws GpuError where memory ends.

@@ -81,6 +81,7 @@ class SceneBench {
     void run() {
         iterations("perspective iteration, 512-pixel hemicube", {0, 0, 1}, false);
         iterations("layered iteration, 800-pixel window", {1, 0, 0}, false);
+        iterations("plane iteration, 800-pixel window", {0, 1, 0}, false);
         iterations("combined iteration with an 800x800 viewer", {}, true);
         walkthrough();
         moves();

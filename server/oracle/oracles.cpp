@@ -217,8 +217,18 @@ std::vector<Oracle> all_oracles() {
     small_target.iterations = 1536;
     OracleSettings parallel = usual;
     parallel.probabilities = {1.0F, 0.0F, 0.0F};
+    OracleSettings planes = usual;
+    planes.probabilities = {0.0F, 1.0F, 0.0F};
+    // A plane finds few pairs, of much weight: the form factors are within 1 % after so many, and
+    // with an albedo the noise of the iterate would still be felt.
+    planes.iterations = 6144;
+    OracleSettings three = usual;
+    three.probabilities = {0.15F, 0.15F, 0.7F};
+    three.iterations = 3072;
     OracleSettings brief;
     brief.iterations = 256;
+    OracleSettings brief_three = three;
+    brief_three.iterations = brief.iterations;
     std::vector<Oracle> oracles = {
         make_oracle("furnace, albedo 0.5", 1.0, 0.005,
                     [=] { return furnace_mean(0.5F, long_run); }),
@@ -227,6 +237,20 @@ std::vector<Oracle> all_oracles() {
         make_oracle("furnace, albedo 0.99", 1.0, 0.02, [=] { return furnace_mean(0.99F, usual); }),
         make_oracle("furnace, albedo 0.5, parallel", 1.0, 0.005,
                     [=] { return furnace_mean(0.5F, parallel); }),
+        make_oracle("furnace, albedo 0, planes", 1.0, 0.005,
+                    [=] { return furnace_mean(0.0F, planes); }),
+        make_oracle("furnace, albedo 0.5, three strategies", 1.0, 0.005,
+                    [=] { return furnace_mean(0.5F, three); }),
+        make_oracle("cube form factor, opposite, planes", 0.199825, 0.01,
+                    [=] { return cube_form_factor(true, planes); }),
+        make_oracle("cube form factor, adjacent, planes", 0.200044, 0.01,
+                    [=] { return cube_form_factor(false, planes); }),
+        make_oracle("cube form factor, opposite, three strategies", 0.199825, 0.002,
+                    [=] { return cube_form_factor(true, three); }),
+        make_oracle("cube form factor, adjacent, three strategies", 0.200044, 0.002,
+                    [=] { return cube_form_factor(false, three); }),
+        make_oracle("enclosure, albedo 0.8, three strategies", 416.667, 0.005,
+                    [=] { return enclosure_indirect(0.8F, three); }),
         make_oracle("cube form factor, opposite", 0.199825, 0.002,
                     [=] { return cube_form_factor(true, perspective); }),
         make_oracle("cube form factor, adjacent", 0.200044, 0.002,
@@ -242,6 +266,8 @@ std::vector<Oracle> all_oracles() {
                     [=] { return dark_room_irradiance(0.0F, brief); }),
         make_oracle("dark room behind a wall of 1 mm", 0.0, 0.0,
                     [=] { return dark_room_irradiance(0.001F, brief); }),
+        make_oracle("dark room behind a wall of 0 mm, three strategies", 0.0, 0.0,
+                    [=] { return dark_room_irradiance(0.0F, brief_three); }),
         make_oracle("same seed, same bits", 0.0, 0.0,
                     [=] { return static_cast<double>(differing_bits(brief)); }),
     };

@@ -204,8 +204,8 @@ struct PickResult {
 // One random bundle: which strategy found it, from where, with which densities.
 struct BundleParameters {
     vec4 origin;         // perspective: shooting point; parallel: window's origin; w = near distance
-    vec4 axis_x;         // unit; w: perspective: how far from their centres pixels sample, pixels
-    vec4 axis_y;         // the same along y
+    vec4 axis_x;         // unit; w: perspective: how far from their centres pixels sample, pixels; plane: its z, m
+    vec4 axis_y;         // the same along y; w of parallel bundles: R, the depth of the window's slab, m
     vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m

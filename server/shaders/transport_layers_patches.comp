@@ -163,8 +163,9 @@ void exchange(Line line, Hit hit_a, Hit hit_b) {
 void receive_sky(Line line, Hit hit, bool far) {
     Facet facet = load_facet(facet_base + (hit.surface >> 1));
     uint id = patch_of_surface(2u * triangle_of(line, facet, hit.depth) + side_of_surface(hit.surface, far));
-    if (id != NO_PATCH && bundle.densities.x > 0.0) {
-        deposit(id, bundle.sky.rgb * (line.pixel_area / bundle.densities.x));
+    float density = sky_density(hit.depth, far);
+    if (id != NO_PATCH && density > 0.0) {
+        deposit(id, bundle.sky.rgb * (line.pixel_area / density));
     }
 }
 #endif
@@ -244,8 +245,7 @@ void main() {
     if (count == 0u) {
         return;
     }
-    vec2 window_point = (vec2(at) + 0.5) * bundle.weights.z;
-    line.point = bundle.origin.xyz + window_point.x * bundle.axis_x.xyz + window_point.y * bundle.axis_y.xyz;
+    line.point = window_point(at);
     line.pixel_area = bundle.weights.z * bundle.weights.z * float(row_stride);
     transfer(line, count);
 }

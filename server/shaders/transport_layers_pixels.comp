@@ -63,14 +63,15 @@ void main() {
     bool far = dot(x.geometric, bundle.axis_z.xyz) > 0.0;
     float cos_x = far ? along : -along;
     if (inside && cos_x > 0.0) {
-        vec2 window_point = (vec2(texel) + 0.5) * bundle.weights.z;
-        vec3 line = bundle.origin.xyz + window_point.x * bundle.axis_x.xyz + window_point.y * bundle.axis_y.xyz;
+        vec3 line = window_point(uvec2(texel));
+        vec2 lateral = (vec2(texel) + 0.5) * bundle.weights.z - d.xy;
         float footprint = 1.5 * bundle.weights.z / max(cos_x, 0.02);
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
         w_in = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
-        Seen seen = look(pixel, x, far, d.z, line, window_point - d.xy, footprint);
+        Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
         if (seen.surface == NO_HIT) {
-            value = bundle.densities.x > 0.0 ? bundle.sky.rgb * (cos_x / bundle.densities.x) : vec3(0.0);
+            float density = sky_density(d.z, far);
+            value = density > 0.0 ? bundle.sky.rgb * (cos_x / density) : vec3(0.0);
         } else {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));
             float depth = plane_depth(facet.plane, line);

@@ -26,6 +26,8 @@ class BundleReceiver {
 
     virtual void receive_hemicube(const Context& context) = 0;
     virtual void receive_layers(const Context& context) = 0;
+    /// Of normal iterations only.
+    virtual void receive_planes(const Context& context) = 0;
     /// The last sample of this weight was not taken after all: its bundle had no room for all hits.
     virtual void discard_sample(float sample_weight) = 0;
     /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().

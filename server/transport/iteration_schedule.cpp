@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/iteration_schedule.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <numeric>
@@ -18,8 +19,8 @@ std::pair<float, float> split(double u) {
             static_cast<float>(std::floor((u * bits - leading) * bits) / bits)};
 }
 
-// Dimensions of the Halton sequences; perspective and layered iterations count separately.
-constexpr unsigned rows = 5;  // of both kinds
+// Dimensions of the Halton sequences; every strategy counts its own iterations.
+constexpr unsigned rows = 5;  // of all kinds
 enum Dimension : unsigned {
     choose_patch = 0,
     point_u = 1,
@@ -28,13 +29,15 @@ enum Dimension : unsigned {
     point_x = 4,
     point_y = 6
 };
-enum LayeredDimension : unsigned {
+enum ParallelDimension : unsigned {
     polar = 0,
     azimuth = 1,
     window_turn = 2,
     shift_x = 3,
     shift_y = 4
 };
+constexpr double turn_range = 2.0 * glm::pi<double>();
+constexpr std::uint64_t plane_key = 0x9d2c5680U;  // tells the sequence of plane bundles apart
 
 }  // namespace
 
@@ -46,8 +49,13 @@ glm::vec3 uniform_direction(double u, double v) {
 }
 
 IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
-                                     bool shuffled)
-    : probabilities_(probabilities), seed_(seed), shuffled_(shuffled), numbers_(seed) {}
+                                     bool shuffled, unsigned planes_per_direction)
+    : probabilities_(probabilities),
+      planes_per_direction_(std::max(planes_per_direction, 1U)),
+      seed_(seed),
+      shuffled_(shuffled),
+      numbers_(seed),
+      plane_numbers_(mix_bits(seed ^ plane_key)) {}
 
 /// Index of the next perspective sample in its sequence.
 std::uint64_t IterationSchedule::next_perspective() {
@@ -83,19 +91,40 @@ IterationSample IterationSchedule::next() {
     IterationSample sample;
     sample.batch = next_batch();
     const double which = numbers_.golden(iterations_++);
-    constexpr double turn_range = 2.0 * 3.14159265358979323846;
-    if (which < static_cast<double>(probabilities_.layered)) {
-        const std::uint64_t k = ++layered_;
+    const auto layered = static_cast<double>(probabilities_.layered);
+    if (which < layered) {
         sample.strategy = Strategy::layered;
-        sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
-        sample.direction =
-            uniform_direction(numbers_.sample(polar, k), numbers_.sample(azimuth, k));
-        sample.angle = turn_range * numbers_.sample(window_turn, k);
-        sample.shift = {static_cast<float>(numbers_.sample(shift_x, k)),
-                        static_cast<float>(numbers_.sample(shift_y, k))};
-        return sample;
+        sample_window(sample, numbers_, ++layered_);
+    } else if (which < layered + static_cast<double>(probabilities_.plane)) {
+        sample_plane(sample, planes_++);
+    } else {
+        sample_shooter(sample, next_perspective());
     }
-    const std::uint64_t k = next_perspective();
+    return sample;
+}
+
+void IterationSchedule::sample_window(IterationSample& sample, const RandomisedHalton& numbers,
+                                      std::uint64_t k) {
+    sample.row_phase = numbers.sample(rows, k) < 0.5 ? 0 : 1;
+    sample.direction = uniform_direction(numbers.sample(polar, k), numbers.sample(azimuth, k));
+    sample.angle = turn_range * numbers.sample(window_turn, k);
+    sample.shift = {static_cast<float>(numbers.sample(shift_x, k)),
+                    static_cast<float>(numbers.sample(shift_y, k))};
+}
+
+void IterationSchedule::sample_plane(IterationSample& sample, std::uint64_t k) const {
+    const std::uint64_t k_direction = k / planes_per_direction_;
+    const auto in_row = static_cast<double>(k % planes_per_direction_) / planes_per_direction_;
+    sample.strategy = Strategy::plane;
+    sample_window(sample, plane_numbers_, k_direction + 1);
+    sample.direction = uniform_direction(plane_numbers_.recurrence(0, k_direction),
+                                         plane_numbers_.recurrence(1, k_direction));
+    const double plane = plane_numbers_.recurrence(2, k_direction) + in_row;
+    sample.plane = plane - std::floor(plane);
+}
+
+void IterationSchedule::sample_shooter(IterationSample& sample, std::uint64_t k) const {
+    sample.strategy = Strategy::perspective;
     // A dimension of its own: the parity of k would go hand in hand with the choice of the patch.
     sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
     const auto [leading, trailing] = split(numbers_.sample(choose_patch, k));
@@ -104,7 +133,6 @@ IterationSample IterationSchedule::next() {
     sample.angle = turn_range * numbers_.sample(turn, k);
     sample.shift = {static_cast<float>(numbers_.sample(point_x, k)),
                     static_cast<float>(numbers_.sample(point_y, k))};
-    return sample;
 }
 
 }  // namespace raybundle

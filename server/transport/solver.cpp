@@ -14,17 +14,6 @@ constexpr float transient_iterations =
 constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
 constexpr std::uint64_t statistics_interval = 16;
 
-/// Only parallel bundles see the sky, so a scene that it lights needs more of them.
-StrategyProbabilities choose_probabilities(const SolverSettings& settings, const Scene& scene) {
-    StrategyProbabilities p = settings.probabilities;
-    const bool sky = luminance(scene.sky_radiance) > 0.0F;
-    if (settings.adapt_to_sky && sky && p.layered > 0.0F && p.perspective > 0.0F) {
-        p.layered = std::max(p.layered, scene.lights.empty() ? 0.75F : 0.4F);
-        p.perspective = 1.0F - p.layered - p.plane;
-    }
-    return p;
-}
-
 /// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
 float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
     std::vector<glm::mat3> world_from_object;
@@ -46,18 +35,21 @@ float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
     return total > 0.0 ? static_cast<float>(sum / total) : 0.0F;
 }
 
-SolverSettings prepared(SolverSettings settings, const Scene& scene) {
-    settings.probabilities = choose_probabilities(settings, scene);
-    return settings;
+StrategyMix choose_mix(const SolverSettings& settings, const Scene& scene) {
+    const StrategyMix mix = settings.ageing ? ageing_mix() : StrategyMix(settings.probabilities);
+    return settings.adapt_to_sky ? with_sky(mix, scene) : mix;
 }
 
 }  // namespace
 
 Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& settings)
-    : settings_(prepared(settings, scene)),
+    : settings_(settings),
+      mix_(choose_mix(settings, scene)),
+      probabilities_(mix_.at(0)),
       scene_(scene, mesh),
       store_(scene_),
-      schedule_(settings_.seed, settings_.probabilities, scene_.reflectance().any_glossy()),
+      schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
+                settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
       transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
 
@@ -79,6 +71,8 @@ void Solver::plan_group() {
     }
     group_.clear();
     group_next_ = 0;
+    probabilities_ = mix_.at(iterations_);
+    schedule_.set_probabilities(probabilities_);
     std::vector<glm::vec4> numbers;
     for (std::size_t i = 0; i < group_size; ++i) {
         group_.push_back({schedule_.next(), {}});
@@ -137,7 +131,7 @@ float Solver::iterate_step() const {
 void Solver::run(const Planned& planned, unsigned slot,
                  std::span<BundleReceiver* const> receivers) {
     TransferSettings settings;
-    settings.probabilities = settings_.probabilities;
+    settings.probabilities = probabilities_;
     settings.density_error = settings_.density_error;
     settings.context.sample_weight = sample_weight();
     settings.batch = planned.sample.batch;
@@ -156,8 +150,12 @@ void Solver::run(const Planned& planned, unsigned slot,
                        .shooter_density = planned.shooter.density,
                        .iteration = iterations_});
     } else {
-        transfer().layered(transfer().window_geometry(planned.sample), transfer().window().full(),
-                           settings, receivers);
+        const ParallelWindow window = transfer().parallel_window(planned.sample);
+        if (planned.sample.strategy == Strategy::plane) {
+            transfer().plane(window, settings, receivers);
+        } else {
+            transfer().layered(window, window.full(), settings, receivers);
+        }
         store_.update({.weight = settings.context.sample_weight,
                        .step = iterate_step(),
                        .iteration = iterations_});

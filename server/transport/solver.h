@@ -12,6 +12,7 @@
 #include "solution/radiance_store.h"
 #include "transport/iteration_schedule.h"
 #include "transport/special_phase.h"
+#include "transport/strategy_mix.h"
 #include "transport/transfer.h"
 
 namespace raybundle {
@@ -22,8 +23,10 @@ struct SolverSettings {
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
     std::uint64_t coarse_iterations = 768;
-    float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
-    bool adapt_to_sky = true;    ///< more parallel bundles where a sky lights the scene
+    float density_error = 1.0F;         ///< fault injection of tests: factor of the densities
+    bool ageing = false;                ///< probabilities follow ageing_mix() instead
+    bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
+    unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
 };
 
 /// Stochastic iteration of the object-space solution: one bundle at a time to patches and
@@ -73,6 +76,8 @@ class Solver {
     [[nodiscard]] float iterate_step() const;
 
     SolverSettings settings_;
+    StrategyMix mix_;
+    StrategyProbabilities probabilities_;  // of the running group
     GpuScene scene_;
     RadianceStore store_;
     IterationSchedule schedule_;

@@ -108,12 +108,12 @@ void SpecialPhase::layered(const RandomisedHalton& numbers, unsigned index,
     sample.angle = numbers.sample(turn, index + iterations) * glm::two_pi<double>();
     sample.shift = {static_cast<float>(numbers.sample(point_u, index + iterations)),
                     static_cast<float>(numbers.sample(point_v, index + iterations))};
-    const LayeredWindow::Geometry geometry = transfer_.window_geometry(sample);
-    const PixelRectangle rectangle = transfer_.window().covering(geometry, boxes_);
+    const ParallelWindow window = transfer_.parallel_window(sample);
+    const PixelRectangle rectangle = window.covering(boxes_);
     transfer_.take_overflow();
     for (const Place place : {Place::before, Place::now}) {
         do {
-            transfer_.layered(geometry, rectangle, transfer_settings(place), receivers);
+            transfer_.layered(window, rectangle, transfer_settings(place), receivers);
         } while (transfer_.take_overflow() != 0);
     }
 }

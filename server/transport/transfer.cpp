@@ -18,6 +18,13 @@ glm::ivec4 to_vector(const PixelRectangle& r) {
     return {r.x0, r.y0, r.x1, r.y1};
 }
 
+/// Which of so many pixel rows a transfer samples. Returns how many.
+unsigned set_rows(const ShaderProgram& program, int rows, unsigned row_phase) {
+    program.set("row_stride", row_stride);
+    program.set("row_phase", row_phase % row_stride);
+    return (static_cast<unsigned>(rows) + row_stride - 1) / row_stride;
+}
+
 }  // namespace
 
 Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
@@ -25,7 +32,7 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
     : scene_(scene),
       store_(store),
       hemicube_(resolution.hemicube, scene.defines()),
-      window_(resolution.window, scene.defines()),
+      layers_(resolution.window, scene.defines()),
       parameters_("bundle parameters", sizeof(layout::BundleParameters)),
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
@@ -37,9 +44,12 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
     }
 }
 
-LayeredWindow::Geometry Transfer::window_geometry(const IterationSample& sample) const {
-    return window_.geometry(sample.direction, static_cast<float>(sample.angle), sample.shift,
-                            scene_.bounds().centre(), scene_.diameter());
+ParallelWindow Transfer::parallel_window(const IterationSample& sample) const {
+    ParallelWindow window =
+        make_parallel_window(layers_.size(), sample.direction, static_cast<float>(sample.angle),
+                             sample.shift, scene_.bounds().centre(), scene_.diameter());
+    window.plane_depth = static_cast<float>(sample.plane) * window.depth;
+    return window;
 }
 
 layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
@@ -51,7 +61,7 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.axis_y = glm::vec4(frame.y, 0.0F);
     p.axis_z = glm::vec4(frame.z, 0.0F);
     p.densities = {settings.probabilities.layered / two_pi,
-                   settings.probabilities.plane / (two_pi * scene_.diameter()),
+                   settings.probabilities.plane / (two_pi * parallel_depth(scene_.diameter())),
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
     p.sky = glm::vec4(scene_.sky(), tie_share * scene_.diameter());
@@ -92,9 +102,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     const ShaderProgram& patches = shooter.glossy != 0 ? hemicube_patches_glossy_
                                    : settings.coloured ? hemicube_patches_coloured_
                                                        : hemicube_patches_;
-    patches.set("patch_base", scene_.patch_base(place));
-    patches.set("facet_base", scene_.facet_base(place));
-    patches.set("vertex_base", scene_.vertex_base(place));
+    set_bases(patches, place);
     const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
         const auto columns = static_cast<unsigned>(r.width() + run_length - 1) / run_length;
         patches.set("first_column", static_cast<unsigned>(r.x0));
@@ -102,9 +110,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
         patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
         patches.set("run_columns", columns);
         patches.set("rows", static_cast<unsigned>(r.height()));
-        const auto sampled = (static_cast<unsigned>(r.height()) + row_stride - 1) / row_stride;
-        patches.set("row_stride", row_stride);
-        patches.set("row_phase", settings.row_phase % row_stride);
+        const unsigned sampled = set_rows(patches, r.height(), settings.row_phase);
         patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
     };
     if (!settings.context.special) {  // all faces are one stacked picture
@@ -124,7 +130,17 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     }
 }
 
-void Transfer::layered(const LayeredWindow::Geometry& geometry, const PixelRectangle& rectangle,
+layout::BundleParameters Transfer::parallel_parameters(const ParallelWindow& window,
+                                                       const TransferSettings& settings) const {
+    layout::BundleParameters p = common_parameters(window.frame, settings);
+    p.axis_x.w = window.plane_depth;
+    p.axis_y.w = window.depth;
+    p.weights.z = window.pixel_size;
+    p.resolution.x = p.resolution.y = static_cast<unsigned>(window.size);
+    return p;
+}
+
+void Transfer::layered(const ParallelWindow& window, const PixelRectangle& rectangle,
                        const TransferSettings& settings,
                        std::span<BundleReceiver* const> receivers) {
     if (rectangle.empty()) {
@@ -132,37 +148,63 @@ void Transfer::layered(const LayeredWindow::Geometry& geometry, const PixelRecta
     }
     const Place place = settings.context.place;
     store_.bind();
-    layout::BundleParameters p = common_parameters(geometry.frame, settings);
-    p.weights.z = geometry.pixel_size;
-    p.resolution.x = p.resolution.y = static_cast<unsigned>(window_.size());
-    p.resolution.z = window_.capacity();
+    layout::BundleParameters p = parallel_parameters(window, settings);
+    p.resolution.z = layers_.capacity();
     p.scissor[0] = to_vector(rectangle);
     upload(p);
     store_.send_along_bundle(place);
-    window_.draw(scene_, geometry, place, rectangle, store_.counters());
+    layers_.draw(scene_, window, place, rectangle, store_.counters());
 
     layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
     layers_patches_.set("first_row", static_cast<unsigned>(rectangle.y0));
     layers_patches_.set("columns", static_cast<unsigned>(rectangle.width()));
     layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
-    layers_patches_.set("patch_base", scene_.patch_base(place));
-    layers_patches_.set("facet_base", scene_.facet_base(place));
-    layers_patches_.set("vertex_base", scene_.vertex_base(place));
     layers_patches_.set("slot", settings.slot);
-    layers_patches_.set("row_stride", row_stride);
-    layers_patches_.set("row_phase", settings.row_phase % row_stride);
-    const auto sampled = (static_cast<unsigned>(rectangle.height()) + row_stride - 1) / row_stride;
-    layers_patches_.dispatch(static_cast<std::size_t>(rectangle.width()) * sampled);
+    set_bases(layers_patches_, place);
+    const unsigned rows = set_rows(layers_patches_, rectangle.height(), settings.row_phase);
+    layers_patches_.dispatch(static_cast<std::size_t>(rectangle.width()) * rows);
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_layers(settings.context);
     }
+}
+
+void Transfer::plane(const ParallelWindow& window, const TransferSettings& settings,
+                     std::span<BundleReceiver* const> receivers) {
+    if (!planes_) {
+        planes_.emplace(PlaneWindow(layers_.size(), scene_.defines()),
+                        ShaderProgram({"transport_planes_patches.comp"}, scene_.defines()));
+    }
+    const Place place = settings.context.place;
+    store_.bind();
+    upload(parallel_parameters(window, settings));
+    store_.send_along_bundle(place);
+    planes_->pictures.draw(scene_, window, place);
+    planes_->pictures.bind_textures();
+    const auto columns = static_cast<unsigned>(window.size + run_length - 1) / run_length;
+    planes_->patches.set("run_columns", columns);
+    set_bases(planes_->patches, place);
+    const unsigned rows = set_rows(planes_->patches, window.size, settings.row_phase);
+    planes_->patches.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
+    for (BundleReceiver* receiver : receivers) {
+        receiver->receive_planes(settings.context);
+    }
+}
+
+void Transfer::set_bases(const ShaderProgram& program, Place place) const {
+    program.set("patch_base", scene_.patch_base(place));
+    program.set("facet_base", scene_.facet_base(place));
+    program.set("vertex_base", scene_.vertex_base(place));
+}
+
+std::size_t Transfer::bytes() const {
+    return hemicube_.bytes() + layers_.bytes() + (planes_ ? planes_->pictures.bytes() : 0);
 }
 
 std::uint32_t Transfer::take_overflow() {
     const layout::Counters counters = store_.take_counters();
     non_finite_ += counters.non_finite;
     if (counters.overflow_mask != 0) {
-        window_.grow(counters.wanted + counters.wanted / 4);
+        layers_.grow(counters.wanted + counters.wanted / 4);
     }
     return counters.overflow_mask;
 }

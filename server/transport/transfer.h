@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "bundle/hemicube.h"
 #include "bundle/layered_window.h"
+#include "bundle/plane_window.h"
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "transport/iteration_schedule.h"
@@ -43,31 +45,42 @@ class Transfer {
                      std::span<BundleReceiver* const> receivers);
     /// Layered parallel bundle (ch. 4.3). Does nothing where the lists overflow; see
     /// take_overflow().
-    void layered(const LayeredWindow::Geometry& geometry, const PixelRectangle& rectangle,
+    void layered(const ParallelWindow& window, const PixelRectangle& rectangle,
                  const TransferSettings& settings, std::span<BundleReceiver* const> receivers);
+    /// Parallel bundle split by the window's plane (ch. 4.3.1).
+    void plane(const ParallelWindow& window, const TransferSettings& settings,
+               std::span<BundleReceiver* const> receivers);
 
     /// Reads and clears the counters. Bit s is set where the layered transfer in slot s found too
     /// little room: nothing of it was transferred; the lists are larger now, do it again.
     std::uint32_t take_overflow();
 
-    [[nodiscard]] LayeredWindow::Geometry window_geometry(const IterationSample& sample) const;
+    [[nodiscard]] ParallelWindow parallel_window(const IterationSample& sample) const;
     [[nodiscard]] const Hemicube& hemicube() const { return hemicube_; }
-    [[nodiscard]] const LayeredWindow& window() const { return window_; }
     [[nodiscard]] std::uint64_t non_finite() const { return non_finite_; }
-    [[nodiscard]] std::size_t bytes() const { return hemicube_.bytes() + window_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const;
 
   private:
     layout::BundleParameters common_parameters(const BundleFrame& frame,
                                                const TransferSettings& settings) const;
+    layout::BundleParameters parallel_parameters(const ParallelWindow& window,
+                                                 const TransferSettings& settings) const;
+    void set_bases(const ShaderProgram& program, Place place) const;
     void upload(const layout::BundleParameters& parameters);
 
     const GpuScene& scene_;
     const RadianceStore& store_;
     Hemicube hemicube_;
-    LayeredWindow window_;
+    LayeredWindow layers_;
     Buffer parameters_;
     ShaderProgram hemicube_patches_, hemicube_patches_coloured_, hemicube_patches_glossy_;
     ShaderProgram layers_patches_;
+    /// Exists from the first plane bundle on.
+    struct Planes {
+        PlaneWindow pictures;
+        ShaderProgram patches;
+    };
+    std::optional<Planes> planes_;
     std::uint64_t non_finite_ = 0;
 };
 

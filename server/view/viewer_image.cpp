@@ -79,7 +79,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       hemicube_pixels(make_receive_hemicube(scene, {})),
       hemicube_pixels_special(make_receive_hemicube(scene, {"SPECIAL 1"})),
       layers_pixels(make_receive("transport_layers_pixels.comp", scene, {})),
-      layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})) {
+      layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})),
+      planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
     for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -294,6 +295,10 @@ void ViewerImage::receive_hemicube(const Context& context) {
 
 void ViewerImage::receive_layers(const Context& context) {
     receive(context.special ? programs_.layers_pixels_special : programs_.layers_pixels, context);
+}
+
+void ViewerImage::receive_planes(const Context& context) {
+    receive(programs_.planes_pixels, context);
 }
 
 void ViewerImage::discard_sample(float sample_weight) {

@@ -63,7 +63,7 @@ struct ViewPrograms {
         Receive from_lambert, from_glossy;  ///< kind of the shooter
     };
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
-    Receive layers_pixels, layers_pixels_special;
+    Receive layers_pixels, layers_pixels_special, planes_pixels;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -84,6 +84,7 @@ class ViewerImage : public BundleReceiver {
     // BundleReceiver
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
+    void receive_planes(const Context& context) override;
     void discard_sample(float sample_weight) override;
     void begin_special(std::uint32_t moved_object) override;
     void end_special(float phase_weight) override;

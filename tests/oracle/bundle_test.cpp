@@ -50,6 +50,43 @@ TEST(IterationSchedule, StrategiesComeInTheirProbabilities) {
     EXPECT_NEAR(layered, 2400, 16);
 }
 
+/// Boxes of direction and plane get their share of plane bundles, however few there are of the
+/// others.
+TEST(IterationSchedule, PlanesCoverDirectionsAndScene) {
+    IterationSchedule schedule(1, {0.1F, 0.5F, 0.4F});
+    std::array<int, 64> counts{};
+    int planes = 0;
+    for (int i = 0; i < 8192; ++i) {
+        const IterationSample sample = schedule.next();
+        if (sample.strategy != Strategy::plane) {
+            continue;
+        }
+        ++planes;
+        const glm::vec3 d = sample.direction;
+        const int z = std::min(static_cast<int>(2.0F * (d.z + 1.0F)), 3);
+        const int quadrant = (d.x > 0.0F ? 1 : 0) + (d.y > 0.0F ? 2 : 0);
+        ++counts[static_cast<std::size_t>(16 * z + 4 * quadrant +
+                                          static_cast<int>(sample.plane * 4.0))];
+    }
+    EXPECT_NEAR(planes, 4096, 4);
+    for (const int count : counts) {
+        EXPECT_NEAR(count, 64, 8);
+    }
+}
+
+TEST(IterationSchedule, SeveralPlanesShareADirection) {
+    IterationSchedule schedule(1, {0.0F, 1.0F, 0.0F}, false, 4);
+    const IterationSample first = schedule.next();
+    for (int i = 1; i < 4; ++i) {
+        const IterationSample sample = schedule.next();
+        EXPECT_EQ(sample.direction, first.direction);
+        EXPECT_NEAR(std::abs(sample.plane - first.plane) * 4.0,
+                    std::round(std::abs(sample.plane - first.plane) * 4.0), 1e-9);
+        EXPECT_NE(sample.plane, first.plane);
+    }
+    EXPECT_NE(schedule.next().direction, first.direction);
+}
+
 /// Of 8 equal parts of [0, 1): how many hold the shooter number before one that lies in a narrow
 /// interval.
 std::size_t parts_before(bool shuffled) {

@@ -36,6 +36,22 @@ TEST(ClosedFormSensitivity, DensityWrongByTwoPercentIsCaught) {
     EXPECT_GT(furnace_mean(0.5F, settings), 1.0 + 0.005);
 }
 
+/// The same for bundles split by a plane, alone and among all strategies.
+TEST(ClosedFormSensitivity, DensityWrongByTwoPercentIsCaughtWithPlanes) {
+    for (const StrategyProbabilities& p :
+         {StrategyProbabilities{0.0F, 1.0F, 0.0F}, StrategyProbabilities{0.15F, 0.15F, 0.7F}}) {
+        OracleSettings settings;
+        settings.probabilities = p;
+        const bool alone = p.plane == 1.0F;
+        const float albedo = alone ? 0.0F : 0.5F;  // as in the oracles that catch it
+        settings.iterations = alone ? 6144 : 3072;
+        settings.density_error = 1.02F;
+        EXPECT_LT(furnace_mean(albedo, settings), 1.0 - 0.005);
+        settings.density_error = 0.98F;
+        EXPECT_GT(furnace_mean(albedo, settings), 1.0 + 0.005);
+    }
+}
+
 struct ThinWallCase {
     StrategyProbabilities probabilities;
     float thickness;  // m
@@ -52,11 +68,17 @@ TEST_P(ThinWall, KeepsTheDarkRoomExactlyDark) {
 }
 
 constexpr StrategyProbabilities only_parallel{1.0F, 0.0F, 0.0F};
+constexpr StrategyProbabilities only_planes{0.0F, 1.0F, 0.0F};
 constexpr StrategyProbabilities only_perspective{0.0F, 0.0F, 1.0F};
+constexpr StrategyProbabilities all_three{0.15F, 0.15F, 0.7F};
 INSTANTIATE_TEST_SUITE_P(
     Strategies, ThinWall,
     testing::Values(ThinWallCase{only_parallel, 0.0F}, ThinWallCase{only_parallel, 1e-6F},
                     ThinWallCase{only_parallel, 1e-3F}, ThinWallCase{only_parallel, 0.1F},
+                    ThinWallCase{only_planes, 0.0F}, ThinWallCase{only_planes, 1e-6F},
+                    ThinWallCase{only_planes, 1e-3F}, ThinWallCase{only_planes, 0.1F},
+                    ThinWallCase{all_three, 0.0F}, ThinWallCase{all_three, 1e-6F},
+                    ThinWallCase{all_three, 1e-3F}, ThinWallCase{all_three, 0.1F},
                     ThinWallCase{only_perspective, 0.0F}, ThinWallCase{only_perspective, 1e-6F},
                     ThinWallCase{only_perspective, 1e-3F}, ThinWallCase{only_perspective, 0.1F}));
 

@@ -16,11 +16,13 @@ constexpr float emission = 100.0F;
 
 /// A closed room that emits everywhere: the picture is one constant, Le/(1 - albedo).
 struct FurnaceView {
-    explicit FurnaceView(float albedo, glm::uvec2 size = {64, 48}) {
+    explicit FurnaceView(float albedo, const StrategyProbabilities& probabilities = {},
+                         int window = 800, glm::uvec2 size = {64, 48}) {
         const auto m = builder.add_material(glm::vec3(albedo), glm::vec3(emission));
         builder.add_box({0, 0, 0}, {4, 3, 5}, true, 6, m);
         SolverSettings settings;
-        settings.coarse = {256, 800};
+        settings.probabilities = probabilities;
+        settings.coarse = {256, window};
         settings.coarse_iterations = 1'000'000;
         solver.emplace(builder.scene, builder.mesh, settings);
         programs.emplace(solver->scene());
@@ -55,6 +57,28 @@ TEST(ViewerImage, FurnaceIsAConstantPicture) {
         EXPECT_NEAR(static_cast<double>(pixel.g), exact, 0.08 * exact);
     }
     EXPECT_NEAR(mean, exact, 0.01 * exact);
+}
+
+/// Pixels that a plane bundle serves, alone and among all strategies: light within 1 % in the mean.
+TEST(ViewerImage, FurnaceIsAConstantPictureWithPlanes) {
+    for (const StrategyProbabilities& p :
+         {StrategyProbabilities{0.0F, 1.0F, 0.0F}, StrategyProbabilities{0.15F, 0.15F, 0.7F}}) {
+        // Planes alone are noisy: a pixel's sample is 0 or large.
+        const bool alone = p.plane == 1.0F;
+        FurnaceView view(0.5F, p, 400);
+        view.iterate(alone ? 3072 : 768);
+        const double exact = static_cast<double>(emission) / 0.5;
+        double mean = 0.0;
+        double square = 0.0;
+        for (const glm::vec4& pixel : view.image->read_radiance()) {
+            const double error = static_cast<double>(pixel.g) / exact - 1.0;
+            mean += error / (64.0 * 48.0);
+            square += error * error / (64.0 * 48.0);
+            EXPECT_LT(std::abs(error), alone ? 0.4 : 0.08);
+        }
+        EXPECT_LT(std::abs(mean), 0.01);
+        EXPECT_LT(std::sqrt(square), alone ? 0.06 : 0.03);
+    }
 }
 
 TEST(ViewerImage, EstimatedErrorIsOfTheSizeOfTheError) {

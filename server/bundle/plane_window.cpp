@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/plane_window.h"
+
+#include <algorithm>
+
+#include "gpu/gl_scope.h"
+
+namespace raybundle {
+
+namespace {
+
+bool has_thin_walls(const std::vector<std::string>& defines) {
+    return std::find(defines.begin(), defines.end(), "THIN_WALLS 1") != defines.end();
+}
+
+}  // namespace
+
+PlaneWindow::PlaneWindow(int n, const std::vector<std::string>& defines)
+    : n_(n),
+      exact_depths_(has_thin_walls(defines)),
+      surface_ids_(create_texture_2d("plane surface ids", GL_R32UI, n, 2 * n)),
+      depths_(create_texture_2d("plane depths", GL_DEPTH_COMPONENT32F, n, 2 * n)),
+      framebuffer_(create_framebuffer("plane window", surface_ids_.get(), depths_.get())),
+      raster_({"bundle_raster.vert", exact_depths_ ? "bundle_planes.frag" : "bundle_nearest.frag"},
+              defines) {}
+
+void PlaneWindow::draw(const GpuScene& scene, const ParallelWindow& window, Place place) const {
+    const GlScope scope("plane raster");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
+    const float farthest = 0.0F;
+    glClearBufferuiv(GL_COLOR, 0, no_hit);
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glEnable(GL_SCISSOR_TEST);
+    raster_.use();
+    raster_.set("facet_base", scene.facet_base(place));
+    for (const bool ahead : {false, true}) {
+        glViewport(0, ahead ? n_ : 0, n_, n_);
+        glScissor(0, ahead ? n_ : 0, n_, n_);
+        // Depth 1 at the plane, less away from it. Exact depths come from the fragments, which then
+        // tell the sides of the plane apart too: nothing is clipped.
+        const float scale = (ahead ? -1.0F : 1.0F) / window.depth;
+        const glm::mat4 clip =
+            exact_depths_ ? window.clip_from_world(1.0F / window.depth, 0.0F)
+                          : window.clip_from_world(scale, 1.0F - scale * window.plane_depth);
+        raster_.set("clip_from_world", clip);
+        raster_.set("ahead", ahead ? 1 : 0);
+        scene.draw(place, clip, true, raster_);
+    }
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void PlaneWindow::bind_textures() const {
+    glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
+}
+
+std::size_t PlaneWindow::bytes() const {
+    return static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) * 2 * 8;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bundle/parallel_window.h"
+#include "gpu/gl_objects.h"
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+/// A parallel bundle split by a plane (ch. 4.3.1, "hardware z-buffer"): along every line the
+/// nearest surfaces on both sides of a plane perpendicular to the direction, as two depth-buffered
+/// pictures. They see each other; the chance that the plane falls between two surfaces at distance
+/// r is r/R.
+class PlaneWindow {
+  public:
+    /// n: pixels along the window's side. defines: of the scene to be drawn.
+    explicit PlaneWindow(int n, const std::vector<std::string>& defines = {});
+
+    /// Rasterises the scene at a place. The bundle's parameters are bound.
+    void draw(const GpuScene& scene, const ParallelWindow& window, Place place) const;
+    /// Unit 0: surface ids, the picture behind the plane (towards -z) in rows [0, n), the one ahead
+    /// of it in rows [n, 2n).
+    void bind_textures() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    int n_;
+    bool exact_depths_;
+    Texture2D surface_ids_, depths_;
+    Framebuffer framebuffer_;
+    ShaderProgram raster_;
+};
+
+}  // namespace raybundle

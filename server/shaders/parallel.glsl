@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Geometry of parallel bundles. The axis z points away from the window's origin, and the scene lies
+// between z = 0 and z = R; "far-facing" surfaces have their front towards +z.
+
+/// Point in the window's plane that a pixel samples.
+vec3 window_point(uvec2 pixel) {
+    vec2 at = (vec2(pixel) + 0.5) * bundle.weights.z;
+    return bundle.origin.xyz + at.x * bundle.axis_x.xyz + at.y * bundle.axis_y.xyz;
+}
+
+/// The window's x, y, z are right-handed with z away from it, which shows the scene mirrored: a triangle
+/// that is counter-clockwise in the window has its front towards +z.
+bool faces_far(uint surface) { return (surface & 1u) == 0u; }
+
+/// Where a line along the axis meets a facet's plane: distance from `point` along the axis. A plane seen
+/// edge-on has no projected area, so that what its depth is does not matter.
+float plane_depth(vec4 plane, vec3 point) {
+    float along = dot(plane.xyz, bundle.axis_z.xyz);
+    return (plane.w - dot(plane.xyz, point)) / (abs(along) > 1e-7 ? along : 1e-7);
+}
+
+/// Surface on the side of a triangle that looks towards +z (far = true) or -z, as seen of `surface`.
+uint side_of_surface(uint surface, bool far) { return far == faces_far(surface) ? 0u : 1u; }
+
+/// d(omega) of a line that meets nothing beyond a depth: as if the sky were where the window's slab ends,
+/// since that is the farthest that a plane can lie.
+float sky_density(float depth, bool far) {
+    return bundle.densities.x + bundle.densities.y * (far ? bundle.axis_y.w - depth : depth);
+}
