@@ -52,22 +52,22 @@ struct Options {
     std::uint64_t seed = 1;
 
     // serve; option_table.cpp says what each means
-    std::string config;  // file
-    bool print_config = false;
+    std::string config;                     // file
     std::set<std::string> on_command_line;  // keys that the configuration file does not override
     std::string listen = "127.0.0.1:8080";
-    bool allow_remote = false;
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
-    int max_viewers = 64;
+    std::vector<AccessToken> tokens;  // from the file only
+    std::string journal;              // file
+    std::string log_format = "text";
     double min_frames_per_second = 1.0;
-    std::string journal;  // file
-    bool watch = false;
+    double max_messages_per_second = 1000.0;
+    int max_viewers = 64;
     int max_connections = 256;
     int max_connections_per_address = 32;
-    double max_messages_per_second = 1000.0;
-    std::string log_format = "text";
-    std::vector<AccessToken> tokens;  // from the file only
+    bool print_config = false;
+    bool allow_remote = false;
+    bool watch = false;
 
     // token
     std::string token_name;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 #include "option_table.h"
 
@@ -249,7 +250,7 @@ void apply_config_text(const std::string& name, const std::string& text, Options
             apply_key(key, value, changed);
         } catch (const BadValue& bad) {
             const bool indexed = bad.what()[0] == '[';
-            throw UsageError(name + ": " + key + (indexed ? "" : ": ") + bad.what());
+            throw UsageError(fmt::format("{}: {}{}{}", name, key, indexed ? "" : ": ", bad.what()));
         }
     }
     options = std::move(changed);

@@ -106,7 +106,7 @@ std::string value_problem(const ServeOption& option, const std::string& value) {
 
 std::string value_problem(const ServeOption& option, const std::vector<std::string>& values) {
     for (const std::string& value : values) {
-        if (const std::string problem = value_problem(option, value); !problem.empty()) {
+        if (std::string problem = value_problem(option, value); !problem.empty()) {
             return problem;
         }
     }

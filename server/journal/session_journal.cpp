@@ -35,7 +35,7 @@ std::string move_aside(const std::string& file) {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
                              std::chrono::system_clock::now().time_since_epoch())
                              .count();
-    const std::string name = file + ".damaged-" + std::to_string(seconds);
+    std::string name = file + ".damaged-" + std::to_string(seconds);
     std::filesystem::rename(file, name);
     for (const char* companion : {"-wal", "-shm"}) {
         std::error_code absent;

@@ -50,6 +50,7 @@ void Daemon::start(const std::vector<std::string>& arguments) {
         throw std::runtime_error("no pipe");
     }
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
     }

@@ -38,10 +38,11 @@ std::string difference(const Json& expected, const Json& actual, const std::stri
     }
     if (expected.is_object()) {
         for (const auto& [key, value] : expected.items()) {
+            const std::string inner = std::string(path).append(".").append(key);
             if (!actual.is_object() || !actual.contains(key)) {
-                return path + "." + key + ": is missing";
+                return inner + ": is missing";
             }
-            const std::string found = difference(value, actual.at(key), path + "." + key);
+            std::string found = difference(value, actual.at(key), inner);
             if (!found.empty()) {
                 return found;
             }
@@ -50,7 +51,7 @@ std::string difference(const Json& expected, const Json& actual, const std::stri
     }
     if (expected.is_array() && actual.is_array() && expected.size() == actual.size()) {
         for (std::size_t i = 0; i < expected.size(); ++i) {
-            const std::string found =
+            std::string found =
                 difference(expected[i], actual[i], path + "[" + std::to_string(i) + "]");
             if (!found.empty()) {
                 return found;

@@ -40,6 +40,7 @@ std::vector<std::string> read_corpus(int count, char** folders) {
     }
     std::sort(files.begin(), files.end());
     std::vector<std::string> inputs;
+    inputs.reserve(files.size());
     for (const fs::path& file : files) {
         inputs.push_back(read_file(file));
     }
