@@ -74,13 +74,18 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
         return 0;
     }
     glm::dvec3 direction = particle.direction;
-    std::optional<SurfacePoint> hit = particle.emitter
-                                          ? scene_.trace_from(*particle.emitter, direction)
-                                          : scene_.trace(particle.origin, direction);
+    std::optional<SurfacePoint> source = particle.emitter;  // nothing: the sky
+    std::optional<SurfacePoint> hit =
+        source ? scene_.trace_from(*source, direction) : scene_.trace(particle.origin, direction);
     std::uint64_t rays = 1;
     for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
         const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
-        receive(*hit, scattering, batch, power, -direction, sampler);
+        const auto inverse_distance =
+            static_cast<float>(source ? 1.0 / glm::distance(source->position, hit->position) : 0.0);
+        receive(
+            *hit, scattering, batch, power,
+            {glm::vec3(power), glm::vec3(hit->position), glm::vec3(-direction), inverse_distance},
+            sampler);
         const glm::dvec2 u = sampler.next_pair();
         const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         const double roulette = sampler.next();
@@ -88,19 +93,20 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
             break;
         }
         direction = next->direction;
-        hit = scene_.trace_from(*hit, direction);
+        source = hit;
+        hit = scene_.trace_from(*source, direction);
     }
     return rays;
 }
 
 void SingleRay::receive(const SurfacePoint& point, const Scattering& scattering,
-                        std::uint32_t batch, const glm::dvec3& power, const glm::dvec3& from,
+                        std::uint32_t batch, const glm::dvec3& power, const IncomingLight& light,
                         PixelSampler& sampler) {
     power_[index(point.patch, batch)] += power;
     if (!scattering.is_lambert()) {
         const std::uint32_t material = scene_.mesh().triangle_material[point.triangle];
         const double importance = largest(power) * tables_.importance(material, scattering);
-        incoming_[index(point.patch, batch)].add(power, from, importance, sampler.next());
+        incoming_[index(point.patch, batch)].add(light, importance, sampler.next());
     }
 }
 

@@ -74,7 +74,7 @@ class SingleRay {
         return std::size_t{batch} * scene_.mesh().patch_count() + patch;
     }
     void receive(const SurfacePoint& point, const Scattering& scattering, std::uint32_t batch,
-                 const glm::dvec3& power, const glm::dvec3& from, PixelSampler& sampler);
+                 const glm::dvec3& power, const IncomingLight& light, PixelSampler& sampler);
     std::uint64_t follow_batch(std::uint32_t batch);
     std::uint64_t follow_particle(std::uint32_t batch, PixelSampler& sampler);
 

@@ -78,10 +78,10 @@ glm::dvec3 SingleRayPicture::beyond_main_part(const SingleRay& solution, std::ui
         return glm::dvec3(0.0);
     }
     const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
-    const glm::dvec3 irradiance =
-        in.importance_sum / in.importance / scene_.patch_area(hit->patch) * glm::dvec3(in.power);
+    const glm::dvec3 irradiance = in.importance_sum / in.importance /
+                                  scene_.patch_area(hit->patch) * glm::dvec3(in.light.power);
     const std::uint32_t material = scene_.mesh().triangle_material[hit->triangle];
-    return irradiance * scattering.reflectance(glm::dvec3(in.direction)) -
+    return irradiance * scattering.reflectance(in.direction_from(hit->position)) -
            main_part(solution.tables(), material, scattering, irradiance);
 }
 

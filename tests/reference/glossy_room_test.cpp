@@ -94,8 +94,7 @@ TEST_P(GlossyRoom, SingleRayAgreesWithPathTracing) {
 }
 
 /// The picture of a single-ray solution, main part and random representation, shows the floor as
-/// path tracing does: 3 % for its mean. Pixels may differ by more, since the light that a patch
-/// reflects is that of its whole area: the sharpest highlight is some five patches wide.
+/// path tracing does: 3 % for its mean. Pixels differ by noise, most where the lobe is sharp.
 TEST_P(GlossyRoom, SingleRayPictureAgreesWithPathTracing) {
     SceneBuilder b = enclosure(0.5F);
     const auto floor = add_material(b, material().material);

@@ -126,6 +126,27 @@ TEST(GlossyFurnace, SphereHasTheIrradianceOfItsIntegralEquation) {
     }
 }
 
+/// A white dielectric coat over white Lambert reflects the same share of all light at every angle:
+/// scaled down it makes a glossy furnace with the closed form pi Le/(1 - albedo) of a Lambert one.
+/// 0.5 % for what of the share still depends on the angle.
+TEST(GlossyFurnace, ConstantAlbedoHasTheClosedForm) {
+    for (const float roughness : {0.1F, 0.3F, 0.7F}) {
+        SceneBuilder b = furnace_room(1.0F, 100.0F);
+        Material& coat = b.scene.materials[0];
+        coat.specular = 1.0F;
+        coat.roughness = roughness;
+        coat.reflectance = 0.75F;
+        const double albedo = test::albedo_by_quadrature(make_brdf(coat, coat.base_colour), 0.6F).g;
+        ASSERT_NEAR(albedo, 0.75, 0.005);
+        const double exact = pi * 100.0 / (1.0 - albedo);
+        const Tracing t(b);
+        const Estimate e = mean_irradiance(
+            t.scene, t.tracer, 0, static_cast<std::uint32_t>(b.mesh.patch_count()), 100'000);
+        EXPECT_NEAR(e.mean, exact, sigmas * e.standard_error + 0.005 * exact) << roughness;
+        EXPECT_LT(e.standard_error, 0.003 * exact) << roughness;
+    }
+}
+
 /// White surfaces in a furnace, N reflections: no more than (N + 1) Le, and for a dielectric, whose
 /// Lambert part takes what the lobe leaves, hardly less (scene/brdf.h: 0.4 % each time). Rough
 /// metal loses what its facets would reflect to each other.

@@ -9,7 +9,7 @@ namespace {
 
 using namespace raybundle;
 
-constexpr std::uint32_t walks = 20'000;
+constexpr std::uint32_t walks = 8'000;
 constexpr int bounces = 7;  // of eq. 3.16, as far as its figures go
 
 nlohmann::ordered_json curve(const char* name, const WalkScene& walk_scene) {
