@@ -171,8 +171,8 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
 void Transfer::plane(const ParallelWindow& window, const TransferSettings& settings,
                      std::span<BundleReceiver* const> receivers) {
     if (!planes_) {
-        planes_.emplace(PlaneWindow(layers_.size(), scene_.defines()),
-                        ShaderProgram({"transport_planes_patches.comp"}, scene_.defines()));
+        planes_ = Planes{PlaneWindow(layers_.size(), scene_.defines()),
+                         ShaderProgram({"transport_planes_patches.comp"}, scene_.defines())};
     }
     const Place place = settings.context.place;
     store_.bind();
