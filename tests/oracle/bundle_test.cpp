@@ -65,8 +65,8 @@ TEST(IterationSchedule, PlanesCoverDirectionsAndScene) {
         const glm::vec3 d = sample.direction;
         const int z = std::min(static_cast<int>(2.0F * (d.z + 1.0F)), 3);
         const int quadrant = (d.x > 0.0F ? 1 : 0) + (d.y > 0.0F ? 2 : 0);
-        ++counts[static_cast<std::size_t>(16 * z + 4 * quadrant +
-                                          static_cast<int>(sample.plane * 4.0))];
+        const int cell = 16 * z + 4 * quadrant + static_cast<int>(sample.plane * 4.0);
+        ++counts[static_cast<std::size_t>(cell)];
     }
     EXPECT_NEAR(planes, 4096, 4);
     for (const int count : counts) {
