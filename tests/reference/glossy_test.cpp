@@ -88,7 +88,7 @@ double sphere_irradiance(const Brdf& brdf) {
                 const glm::vec3 in(sine * std::cos(phi), sine * std::sin(phi), cosine(j));
                 sum += evaluate(brdf, in, out).g;
             }
-            kernel[static_cast<std::size_t>(i * cosines + j)] =
+            kernel[static_cast<std::size_t>(i) * cosines + static_cast<std::size_t>(j)] =
                 sum * 2.0 * pi / azimuths * cosine(j) / cosines;
         }
     }
