@@ -38,6 +38,12 @@ class CameraRays {
         return glm::normalize(forward_ + edge.x * right_ - edge.y * up_);
     }
 
+    /// Top left corner of a pixel, numbered row by row from the top.
+    [[nodiscard]] glm::dvec2 corner(std::size_t pixel) const {
+        const std::size_t row = pixel / size_.x;
+        const std::size_t column = pixel % size_.x;
+        return {static_cast<double>(column), static_cast<double>(row)};
+    }
     /// Nothing outside the picture. direction: unit.
     [[nodiscard]] std::optional<FilmPoint> project(const glm::dvec3& direction) const {
         const double along = glm::dot(direction, forward_);

@@ -69,10 +69,8 @@ ImageEstimate::PixelRay ImageEstimate::next_ray(std::size_t pixel, const CameraR
     const auto batch = static_cast<std::uint32_t>(passes_ % batches);
     PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch,
                          static_cast<std::uint32_t>(passes_ / batches));
-    const glm::dvec2 corner(static_cast<double>(pixel % size_.x),
-                            static_cast<double>(pixel / size_.x));
     const glm::dvec2 within = filter_ == PixelFilter::box ? sampler.next_pair() : glm::dvec2(0.5);
-    return {camera.direction(corner + within), sampler};
+    return {camera.direction(camera.corner(pixel) + within), sampler};
 }
 
 bool ImageEstimate::add(std::size_t pixel, const glm::dvec3& value) {

@@ -36,8 +36,7 @@ WalkSums measure_pixel(const RayScene& scene, const AlbedoTables& tables, const 
                        std::size_t pixel, std::uint32_t samples, std::uint64_t seed) {
     WalkSums sums;
     double sum = 0.0;
-    const glm::dvec2 corner(static_cast<double>(pixel % camera.size().x),
-                            static_cast<double>(pixel / camera.size().x));
+    const glm::dvec2 corner = camera.corner(pixel);
     for (std::uint32_t i = 0; i < samples; ++i) {
         PixelSampler sampler(seed, static_cast<std::uint32_t>(pixel), 0, i);
         const glm::dvec3 direction = camera.direction(corner + sampler.next_pair());

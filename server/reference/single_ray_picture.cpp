@@ -53,10 +53,8 @@ void SingleRayPicture::follow(SingleRay& solution) {
 }
 
 void SingleRayPicture::look(const SingleRay& solution, std::vector<glm::vec3>& sums) const {
-    const std::size_t width = camera_.size().x;
     tbb::parallel_for(std::size_t{0}, centres_.size(), [&](std::size_t pixel) {
-        const std::size_t row = pixel / width;
-        const glm::dvec2 corner(static_cast<double>(pixel - row * width), static_cast<double>(row));
+        const glm::dvec2 corner = camera_.corner(pixel);
         for (std::uint32_t batch = 0; batch < batches; ++batch) {
             PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch, look_count_);
             const glm::dvec3 direction = camera_.direction(corner + sampler.next_pair());

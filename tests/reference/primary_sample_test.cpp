@@ -10,6 +10,7 @@ namespace {
 
 std::vector<double> draw(PrimarySample& sample, int count) {
     std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         values.push_back(sample.next());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints the data of the dissertation's figures 3.6 to 3.8 as JSON, and what eq. 3.16 expects.
 #include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "roulette_study.h"
@@ -9,7 +10,7 @@ namespace {
 
 using namespace raybundle;
 
-constexpr std::uint32_t walks = 8'000;
+constexpr std::uint32_t walks = 2'000;
 constexpr int bounces = 7;  // of eq. 3.16, as far as its figures go
 
 nlohmann::ordered_json curve(const char* name, const WalkScene& walk_scene) {
@@ -38,11 +39,16 @@ nlohmann::ordered_json curve(const char* name, const WalkScene& walk_scene) {
 }  // namespace
 
 int main() {
-    const nlohmann::ordered_json figures = {
-        curve("3.6", constant_scene()),
-        curve("3.7, albedo 0.314", lamp_scene(0.1F * glm::pi<float>())),
-        curve("3.7, albedo 0.471", lamp_scene(0.15F * glm::pi<float>())),
-        curve("3.8", room_scene())};
-    std::puts(figures.dump(2).c_str());
+    try {
+        const nlohmann::ordered_json figures = {
+            curve("3.6", constant_scene()),
+            curve("3.7, albedo 0.314", lamp_scene(0.1F * glm::pi<float>())),
+            curve("3.7, albedo 0.471", lamp_scene(0.15F * glm::pi<float>())),
+            curve("3.8", room_scene())};
+        std::puts(figures.dump(2).c_str());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
     return 0;
 }

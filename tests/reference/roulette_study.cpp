@@ -70,8 +70,7 @@ WalkVariance measure_variance(const WalkScene& walk_scene, double survival, std:
     const CameraRays camera(tracing.scene, walk_scene.camera, study_size);
     std::vector<double> variances(std::size_t{study_size.x} * study_size.y);
     tbb::parallel_for(std::size_t{0}, variances.size(), [&](std::size_t pixel) {
-        const glm::dvec2 centre(static_cast<double>(pixel % study_size.x) + 0.5,
-                                static_cast<double>(pixel / study_size.x) + 0.5);
+        const glm::dvec2 centre = camera.corner(pixel) + 0.5;
         double sum = 0.0;
         double squares = 0.0;
         for (std::uint32_t i = 0; i < walks; ++i) {
