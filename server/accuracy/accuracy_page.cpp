@@ -290,9 +290,9 @@ std::string accuracy_page(const AccuracyReport& report) {
     html += "<h2>Error over iterations</h2>\n" + svg_of(plots[1].plot);
     if (has_unresolved(report)) {
         html +=
-            "<p class=\"faint\">Points marked ≈ in the table are less than 4 times as far off "
-            "as the reference itself; they are not plotted. Running again refines the "
-            "reference.</p>\n";
+            "<p class=\"faint\">Open markers, and ≈ in the table: the reference is less than 4 "
+            "times as accurate as these points, so that they rest on its noise being subtracted. "
+            "Running again refines it.</p>\n";
     }
     html += pictures(report) + own_estimates(plots) + knobs(report, plots) + what_was_run(report);
     return html + "</body>\n</html>\n";

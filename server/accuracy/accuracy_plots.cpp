@@ -15,7 +15,7 @@ enum class Abscissa { seconds, iterations };
 PlotPoint plot_point(const CurvePoint& point, Abscissa abscissa) {
     PlotPoint result{
         abscissa == Abscissa::seconds ? point.seconds : static_cast<double>(point.iterations),
-        percent * point.relative_rmse, std::nullopt};
+        percent * point.relative_rmse, std::nullopt, point.resolved};
     if (point.interval) {
         result.band = {percent * point.interval->first, percent * point.interval->second};
     }
@@ -25,9 +25,7 @@ PlotPoint plot_point(const CurvePoint& point, Abscissa abscissa) {
 PlotSeries series_of(const ErrorCurve& curve, std::size_t style, Abscissa abscissa) {
     PlotSeries series{curve.name, {}, style >= 8, style};
     for (const CurvePoint& point : curve.points) {
-        if (point.resolved) {
-            series.points.push_back(plot_point(point, abscissa));
-        }
+        series.points.push_back(plot_point(point, abscissa));
     }
     return series;
 }
@@ -101,10 +99,10 @@ NamedPlot estimate_plot(const ErrorCurve& curve, std::size_t style) {
     }
     PlotSeries estimated{"estimated", {}, true, 6};
     for (const CurvePoint& point : curve.points) {
-        if (point.resolved && point.estimated_low > 0.0) {
+        if (point.estimated_low > 0.0) {
             estimated.points.push_back(
                 {point.seconds, percent * point.estimated_error,
-                 std::pair{percent * point.estimated_low, percent * point.estimated_high}});
+                 std::pair{percent * point.estimated_low, percent * point.estimated_high}, true});
         }
     }
     plot.series = {measured, estimated};
@@ -131,9 +129,8 @@ NamedPlot knob_plot(const AccuracyReport& report, const std::string& knob) {
 }
 
 bool has_estimate(const ErrorCurve& curve) {
-    return std::any_of(curve.points.begin(), curve.points.end(), [](const CurvePoint& point) {
-        return point.resolved && point.estimated_low > 0.0;
-    });
+    return std::any_of(curve.points.begin(), curve.points.end(),
+                       [](const CurvePoint& point) { return point.estimated_low > 0.0; });
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ struct NamedPlot {
 };
 
 /// Error over time and over iterations, each method's own estimate against what was measured, and
-/// error over time for every knob. Points that the reference does not resolve are not shown.
+/// error over time for every knob. Points that the reference does not resolve have open
+/// markers.
 std::vector<NamedPlot> accuracy_plots(const AccuracyReport& report);
 
 /// One HTML page with everything in it, nothing loaded from elsewhere.

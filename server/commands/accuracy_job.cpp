@@ -76,11 +76,15 @@ void add_resolutions(std::vector<PlannedCurve>& curves, const PlannedCurve& base
 }
 
 void add_probabilities(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
-    for (const float layered : {0.05F, 0.15F, 0.3F, 0.6F}) {
+    for (const StrategyProbabilities p : {StrategyProbabilities{0.05F, 0.0F, 0.95F},
+                                          {0.15F, 0.0F, 0.85F},
+                                          {0.3F, 0.0F, 0.7F},
+                                          {0.6F, 0.0F, 0.4F},
+                                          {0.15F, 0.15F, 0.7F}}) {
         PlannedCurve curve = base;
         curve.knob = "strategy probabilities";
-        curve.name = fmt::format("P1 {:.2f}, P3 {:.2f}", layered, 1.0F - layered);
-        curve.solver.probabilities = {layered, 0.0F, 1.0F - layered};
+        curve.name = fmt::format("P {:.2f}, {:.2f}, {:.2f}", p.layered, p.plane, p.perspective);
+        curve.solver.probabilities = p;
         curve.solver.adapt_to_sky = false;
         curves.push_back(curve);
     }

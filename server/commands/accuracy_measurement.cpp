@@ -250,8 +250,11 @@ AccuracyReport AccuracyMeasurement::report(const std::string& device) const {
     report.seed = options_.seed;
     report.repeats = job_.repeats;
     for (const auto& [filter, reference] : references_) {
-        report.references.push_back({filter, reference_files_.at(filter), reference.noise,
-                                     reference.samples, reference.seconds});
+        // In the report's own folder a name is enough, and stays right where that is moved.
+        const fs::path file = reference_files_.at(filter);
+        const bool beside = file == fs::path(reference_file(filter));
+        report.references.push_back({filter, (beside ? file.filename() : file).string(),
+                                     reference.noise, reference.samples, reference.seconds});
     }
     std::stable_sort(report.references.begin(), report.references.end(),
                      [](const ReferenceReport& a, const ReferenceReport&) {

@@ -82,7 +82,8 @@ class Refinement {
         if (noise * reference_margin > best) {
             spdlog::warn(
                 "{}: after {:.0f} s the reference is less than {} times as accurate as the best "
-                "picture; what it does not resolve is not plotted. Run again to refine it further.",
+                "picture; what it does not resolve has open markers. Run again to refine it "
+                "further.",
                 job_.file, clock_.seconds(), reference_margin);
         }
         return reference;

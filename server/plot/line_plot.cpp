@@ -131,6 +131,10 @@ std::string rule(const PlotRule& rule, const PlotAxis& axis, const Frame& frame)
            text("tick", left + 8.0, y - 5.0, "start", rule.name);
 }
 
+std::string place(const PlotPoint& point, const Frame& frame) {
+    return svg_number(frame.at_x(point.x)) + "," + svg_number(frame.at_y(point.y));
+}
+
 /// The areas between the ends of the bands, one for each run of neighbours that have one.
 std::string bands(const PlotSeries& series, const Frame& frame) {
     std::string svg;
@@ -153,23 +157,38 @@ std::string bands(const PlotSeries& series, const Frame& frame) {
     return svg;
 }
 
-std::string curve(const PlotSeries& series, const LinePlot& plot, const Frame& frame) {
-    const std::size_t style = series.style % plot_style_count;
-    std::string points;
-    std::string markers;
-    for (const PlotPoint& point : series.points) {
-        const double x = frame.at_x(point.x);
-        const double y = frame.at_y(point.y);
-        points += svg_number(x) + "," + svg_number(y) + " ";
-        markers +=
-            fmt::format("<path class=\"marker f{}\" d=\"{}\"><title>{}</title></path>\n", style,
-                        plot_marker(series.style, x, y),
-                        xml_escaped(series.name + ": " + readable_number(point.y) + plot.y.unit +
-                                    " at " + readable_number(point.x) + plot.x.unit));
+/// The line through the points, in stretches that are drawn alike: one to a point that is not firm
+/// is dotted.
+std::string lines(const PlotSeries& series, const Frame& frame) {
+    std::string svg;
+    const std::vector<PlotPoint>& points = series.points;
+    for (std::size_t begin = 0; begin + 1 < points.size();) {
+        const auto firm = [&](std::size_t i) { return points[i].firm && points[i + 1].firm; };
+        std::size_t end = begin;
+        std::string places = place(points[begin], frame);
+        while (end + 1 < points.size() && firm(end) == firm(begin)) {
+            places += " " + place(points[++end], frame);
+        }
+        const char* kind = !firm(begin) ? " dotted" : series.dashed ? " dashed" : "";
+        svg += fmt::format("<polyline class=\"line s{}{}\" points=\"{}\"/>\n",
+                           series.style % plot_style_count, kind, places);
+        begin = end;
     }
-    return fmt::format("<polyline class=\"line s{}{}\" points=\"{}\"/>\n", style,
-                       series.dashed ? " dashed" : "", points) +
-           markers;
+    return svg;
+}
+
+std::string markers(const PlotSeries& series, const LinePlot& plot, const Frame& frame) {
+    const std::size_t style = series.style % plot_style_count;
+    std::string svg;
+    for (const PlotPoint& point : series.points) {
+        const std::string kind =
+            point.firm ? fmt::format("marker f{}", style) : fmt::format("open s{}", style);
+        svg += fmt::format("<path class=\"{}\" d=\"{}\"><title>{}</title></path>\n", kind,
+                           plot_marker(series.style, frame.at_x(point.x), frame.at_y(point.y)),
+                           xml_escaped(series.name + ": " + readable_number(point.y) + plot.y.unit +
+                                       " at " + readable_number(point.x) + plot.x.unit));
+    }
+    return svg;
 }
 
 /// Every line's name at its end, moved apart and tied to the line where that was needed.
@@ -210,7 +229,7 @@ std::string svg_of(const LinePlot& plot) {
         svg += bands(s, frame);
     }
     for (const PlotSeries& s : series) {
-        svg += curve(s, plot, frame);
+        svg += lines(s, frame) + markers(s, plot, frame);
     }
     return svg + names(series, frame) + "</svg>\n";
 }

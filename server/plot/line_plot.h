@@ -14,6 +14,7 @@ struct PlotPoint {
     double x = 0.0;
     double y = 0.0;
     std::optional<std::pair<double, double>> band;  ///< lower and upper end at this x
+    bool firm = true;  ///< else with an open marker, the line to it dotted
 };
 
 /// One line with its name at its end.

@@ -39,6 +39,8 @@ constexpr const char* parts = R"css(
 .plot .leader { stroke-width: 0.75; opacity: 0.6; }
 .plot .line { fill: none; stroke-width: 2; stroke-linejoin: round; }
 .plot .dashed { stroke-dasharray: 7 4; }
+.plot .dotted { stroke-width: 1.5; stroke-dasharray: 1.5 3.5; }
+.plot .open { fill: var(--ground); stroke-width: 1.5; }
 .plot .band { stroke: none; opacity: 0.16; }
 .plot .marker { stroke: var(--ground); stroke-width: 1; }
 )css";

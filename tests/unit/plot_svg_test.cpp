@@ -89,6 +89,17 @@ TEST(LinePlotSvg, NeverHasANumberThatIsNone) {
     EXPECT_THROW(svg_number(nan), std::invalid_argument);
 }
 
+TEST(LinePlotSvg, DotsTheLineToWhatIsNotFirm) {
+    LinePlot plot = two_lines();
+    plot.series[0].points[2].firm = false;
+    const std::string svg = svg_of(plot);
+    EXPECT_EQ(xml_fault(svg), "");
+    EXPECT_EQ(count_of(svg, "class=\"line s0\""), 1U);
+    EXPECT_EQ(count_of(svg, "class=\"line s0 dotted\""), 1U);
+    EXPECT_EQ(count_of(svg, "class=\"marker f0\""), 2U);
+    EXPECT_EQ(count_of(svg, "class=\"open s0\""), 1U);
+}
+
 TEST(LinePlotSvg, DrawsAPlotWithNothingInIt) {
     LinePlot plot = two_lines();
     plot.series.clear();
