@@ -58,4 +58,33 @@ bool ChangeLog::record(v1::SceneChanged& change) {
     return true;
 }
 
+bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (required_ && !journal_) {
+        ++failures_;
+        return false;
+    }
+    try {
+        if (journal_ && body.empty()) {
+            journal_->drop_note(kind, number);
+        } else if (journal_) {
+            journal_->keep_note(kind, number, body);
+        }
+    } catch (const JournalError& error) {
+        ++failures_;
+        working_ = false;
+        spdlog::error("a note was refused, since it could not be saved: {}", error.what());
+        return false;
+    }
+    return true;
+}
+
+std::vector<std::string> ChangeLog::notes(NoteKind kind) {
+    try {
+        return journal_ ? journal_->notes(kind) : std::vector<std::string>();
+    } catch (const JournalError& error) {
+        spdlog::error("notes are missing: {}", error.what());
+        return {};
+    }
+}
+
 }  // namespace raybundle

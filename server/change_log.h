@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "journal/session_journal.h"
@@ -29,6 +30,12 @@ class ChangeLog {
 
     /// Numbers the change and stores it. False: it could not be stored and must not be made.
     [[nodiscard]] bool record(v1::SceneChanged& change);
+
+    /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
+    /// be stored.
+    [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
+    /// Bodies of the notes that the journal holds, by number.
+    [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
 
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
     /// Whether the next change is expected to be stored.

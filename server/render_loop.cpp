@@ -45,11 +45,13 @@ RenderLoop::RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSetti
       log_(log),
       solver_(scene_, mesh, settings.solver),
       programs_(solver_.scene()),
-      encoder_(encoder_threads, [this](const EncodedFrame& frame) {
-          metrics_.count_frame(frame.bytes.size());
-          server_.send_frame(frame.viewer, frame.header, frame.bytes);
-          server_.inbox().interrupt();
-      }) {
+      encoder_(encoder_threads,
+               [this](const EncodedFrame& frame) {
+                   metrics_.count_frame(frame.bytes.size());
+                   server_.send_frame(frame.viewer, frame.header, frame.bytes);
+                   server_.inbox().interrupt();
+               }),
+      review_(log, solver_.scene().patch_count()) {
     epoch_ = log_.epoch();
 }
 
@@ -63,6 +65,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;
         send_solutions();
+        send_presence(Clock::now());
         const bool solved = solve();
         if (!sent && !solved) {
             server_.inbox().wait_for(idle_wait);
@@ -97,6 +100,7 @@ void RenderLoop::handle(const ClientEvent& event) {
         scheduler_.forget(event.viewer);
         std::erase(receivers_, &found->second->image());
         sessions_.erase(found);
+        forget_leader(event.viewer);
         return;
     }
     handle_message(*found->second, event);
@@ -133,6 +137,11 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->mutable_limits()->set_max_width(max_width);
     welcome->mutable_limits()->set_max_height(max_height);
     welcome->mutable_limits()->set_max_message_bytes(65536);
+    welcome->set_renderer(settings_.renderer);
+    welcome->set_software_rendering(settings_.software_rendering);
+    review_.fill_welcome(welcome);
+    sessions_[event.viewer]->set_role(event.role);
+    presence_changed_ = true;
     server_.reply(event, message);
     if (!event.message.has_id()) {
         server_.send(event.viewer, message);
@@ -145,7 +154,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
     try {
         switch (message.body_case()) {
             case v1::ClientMessage::kSetCamera:
+                session.follow(0);
                 session.set_camera(message.set_camera(), message.id());
+                lead(session);
                 break;
             case v1::ClientMessage::kSetViewport:
                 if (!set_viewport(session, event)) {
@@ -165,6 +176,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 answer_probe(session, event);
                 return;
             default:
+                if (handle_review(session, event)) {
+                    return;
+                }
                 server_.reply_error(event, v1::Error::UNIMPLEMENTED,
                                     "this version of the server does not support this message");
                 return;
@@ -279,6 +293,7 @@ void RenderLoop::send_solutions() {
         return;
     }
     last_solution_ = now;
+    check_pin();
     for (const auto& [id, session] : sessions_) {
         v1::ServerMessage message;
         v1::Solution* solution = message.mutable_solution();

@@ -12,6 +12,7 @@
 #include "change_log.h"
 #include "loop_metrics.h"
 #include "net/server.h"
+#include "review_board.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "stream/cost_model.h"
@@ -29,6 +30,8 @@ struct RenderLoopSettings {
     std::uint64_t idle_iterations = 4096;
     /// A viewer is refused where the others would fall below this.
     double min_frames_per_second = 1.0;
+    std::string renderer;             ///< what viewers are told that draws
+    bool software_rendering = false;  ///< and that it is no GPU
 };
 
 /// The one place that sees both the network's messages and the GPU: owns the solution and the
@@ -64,6 +67,19 @@ class RenderLoop {
     void start_pending_move();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    bool handle_review(ViewerSession& session, const ClientEvent& event);
+    void announce(const ClientEvent& event, const v1::ServerMessage& message);
+    void follow(ViewerSession& session, const ClientEvent& event);
+    void lead(const ViewerSession& leader);
+    void forget_leader(ViewerId viewer);
+    void add_pin(ViewerSession& session, const ClientEvent& event);
+    void remove_pin(const ClientEvent& event);
+    void save_viewpoint(const ClientEvent& event);
+    void remove_viewpoint(const ClientEvent& event);
+    void point_at(const ClientEvent& event);
+    void probe_grid(ViewerSession& session, const ClientEvent& event);
+    void send_presence(Clock::time_point now);
+    void check_pin();
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     bool collect_frames();
     bool send_frames();
@@ -91,6 +107,9 @@ class RenderLoop {
     CostModel cost_;
     LoopMetrics metrics_;
     FrameEncoder encoder_;
+    ReviewBoard review_;
+    bool presence_changed_ = false;
+    Clock::time_point last_presence_;
     Clock::time_point last_solution_, rate_since_;
     std::uint64_t rate_iterations_ = 0;
     double iterations_per_second_ = 0.0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "net/server.h"
 #include "scene_messages.h"
@@ -23,6 +24,13 @@ double seconds(ViewerSession::Clock::duration d) {
 /// Frames of a refining picture: often at first, when it changes much, then less and less.
 double refining_interval(double since_change) {
     return std::clamp(0.1 * since_change, 0.1, 1.0);
+}
+
+/// The next 1, 2 or 5 times a power of ten, so that a scale that follows the exposure keeps still.
+float round_up_125(float value) {
+    const float power = std::pow(10.0F, std::floor(std::log10(std::max(value, 1e-6F))));
+    const float lead = value / power;
+    return power * (lead <= 1.0F ? 1.0F : lead <= 2.0F ? 2.0F : lead <= 5.0F ? 5.0F : 10.0F);
 }
 
 }  // namespace
@@ -66,6 +74,15 @@ void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t reque
     note_change();
 }
 
+void ViewerSession::adopt_camera(const Camera& camera) {
+    wanted_camera_ = camera;
+    note_change();
+}
+
+const Camera& ViewerSession::camera() const {
+    return wanted_camera_ ? *wanted_camera_ : image_.camera();
+}
+
 void ViewerSession::apply_camera() {
     if (wanted_camera_) {
         image_.set_camera(*wanted_camera_);
@@ -96,6 +113,12 @@ void ViewerSession::set_display(const v1::SetDisplay& message) {
     }
     if (message.has_auto_exposure()) {
         auto_exposure_ = message.auto_exposure();
+    }
+    if (message.has_scale_maximum()) {
+        scale_maximum_ = message.scale_maximum();
+    }
+    if (message.has_isolines()) {
+        isolines_ = message.isolines();
     }
     shown_exposure_.reset();
     changed_ = true;
@@ -144,6 +167,16 @@ float ViewerSession::exposure() {
     return *shown_exposure_;
 }
 
+ColourScale ViewerSession::colour_scale(float exposure) const {
+    if (scale_maximum_ > 0.0F) {
+        return {scale_maximum_, isolines_};
+    }
+    // Display white, in lx on a surface of albedo 0.5 where illuminance is shown.
+    const float white = 1.0F / ViewerImage::display_factor(exposure);
+    const bool lux = mode_ == DisplayMode::false_illuminance;
+    return {round_up_125(lux ? 2.0F * std::numbers::pi_v<float> * white : white), isolines_};
+}
+
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
                            Clock::time_point now) {
     apply_camera();
@@ -167,7 +200,11 @@ void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& fig
     }
     header_.set_exposure(exposure());
     header_.set_server_time_ms(Server::now_ms());
-    image_.compose(mode_, header_.exposure(), frame_size);
+    const ColourScale scale = colour_scale(header_.exposure());
+    if (mode_ != DisplayMode::photo) {
+        header_.set_scale_maximum(scale.maximum);
+    }
+    image_.compose(mode_, header_.exposure(), frame_size, scale);
     rendering_ = true;
     changed_ = false;
     last_frame_ = now;

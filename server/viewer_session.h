@@ -28,6 +28,10 @@ class ViewerSession {
     /// which every viewer gets his share.
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void apply_camera();
+    /// Shows what another viewer sees.
+    void adopt_camera(const Camera& camera);
+    /// What it looks at, or will with its next frame.
+    [[nodiscard]] const Camera& camera() const;
     void set_viewport(glm::uvec2 size);
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
@@ -60,20 +64,30 @@ class ViewerSession {
     [[nodiscard]] double pixels() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// Viewer whose camera it follows, 0: none.
+    [[nodiscard]] ViewerId following() const { return following_; }
+    void follow(ViewerId leader) { following_ = leader; }
+    [[nodiscard]] v1::Role role() const { return role_; }
+    void set_role(v1::Role role) { role_ = role; }
     [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
 
   private:
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
     [[nodiscard]] float exposure();
+    [[nodiscard]] ColourScale colour_scale(float exposure) const;
 
     ViewerId viewer_;
     std::string name_;
+    v1::Role role_ = v1::EDITOR;
+    ViewerId following_ = 0;
     bool lossless_ = false;  // the client decodes PNG
     ViewerImage image_;
     std::optional<Camera> wanted_camera_;
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;
     bool auto_exposure_ = true;
+    float scale_maximum_ = 0.0F;  // 0: follows the exposure
+    bool isolines_ = false;
     std::optional<float> shown_exposure_;
     double target_error_ = 0.0;
     double target_seconds_ = 0.0;

@@ -68,13 +68,15 @@ struct Control {
 };
 
 /// Serves one scene; returns the one to serve next, or nothing where the program is to end.
-std::optional<LoadedScene> serve_scene(const Options& options, LoadedScene loaded, Server& server,
-                                       Control& control) {
+std::optional<LoadedScene> serve_scene(const Options& options, const EglContext& context,
+                                       LoadedScene loaded, Server& server, Control& control) {
     ChangeLog log = open_change_log(options, loaded);
     log.restore(loaded.scene);
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
     settings.min_frames_per_second = options.min_frames_per_second;
+    settings.renderer = context.renderer();
+    settings.software_rendering = context.is_software();
     RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server, log);
     const MetricsSource source(server, loop);
     if (server.port() == 0) {
@@ -121,7 +123,7 @@ int run_serve(const Options& options) {
         control.watch.emplace(options, leave);
     }
     while (loaded && !control.stop) {
-        loaded = serve_scene(options, std::move(*loaded), server, control);
+        loaded = serve_scene(options, context, std::move(*loaded), server, control);
     }
     spdlog::info("stopping");
     server.stop();

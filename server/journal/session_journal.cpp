@@ -77,6 +77,11 @@ void SessionJournal::open(const JournalSettings& settings) {
         throw SqliteError("the database is damaged", true);
     }
     create_tables();
+    // An addition that servers of the same version can do without.
+    database_->execute(
+        "CREATE TABLE IF NOT EXISTS note(session INTEGER NOT NULL REFERENCES session(id),"
+        " kind INTEGER NOT NULL, number INTEGER NOT NULL, body BLOB NOT NULL,"
+        " PRIMARY KEY(session, kind, number)) WITHOUT ROWID");
     find_session(settings);
 }
 
@@ -177,6 +182,48 @@ void SessionJournal::append(const v1::SceneChanged& change) {
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());
     }
+}
+
+void SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    try {
+        auto insert = database_->prepare("INSERT OR REPLACE INTO note VALUES(?, ?, ?, ?)");
+        insert.bind(1, session_);
+        insert.bind(2, static_cast<std::int64_t>(kind));
+        insert.bind(3, std::int64_t{number});
+        insert.bind_blob(4, body);
+        insert.run();
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+void SessionJournal::drop_note(NoteKind kind, std::uint32_t number) {
+    try {
+        auto remove =
+            database_->prepare("DELETE FROM note WHERE session=? AND kind=? AND number=?");
+        remove.bind(1, session_);
+        remove.bind(2, static_cast<std::int64_t>(kind));
+        remove.bind(3, std::int64_t{number});
+        remove.run();
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+std::vector<std::string> SessionJournal::notes(NoteKind kind) {
+    std::vector<std::string> result;
+    try {
+        auto select =
+            database_->prepare("SELECT body FROM note WHERE session=? AND kind=? ORDER BY number");
+        select.bind(1, session_);
+        select.bind(2, static_cast<std::int64_t>(kind));
+        while (select.step()) {
+            result.push_back(select.bytes(0));
+        }
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+    return result;
 }
 
 std::optional<std::string> file_digest(const std::string& file) {

@@ -17,6 +17,9 @@ class JournalError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What viewers leave in a session besides changes; the numbers are stored.
+enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2 };
+
 struct JournalSettings {
     std::string file;
     std::string scene_name;    ///< for people who look into the file
@@ -44,6 +47,14 @@ class SessionJournal {
     /// Writes a change, whose epoch must be epoch() + 1. Throws JournalError: nothing is written
     /// then, and a later attempt may succeed.
     void append(const v1::SceneChanged& change);
+
+    /// Keeps a note, in place of an earlier one of its number. Survives as a change does. Throws
+    /// JournalError: nothing is written then.
+    void keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
+    /// Forgets a note; no error where there is none.
+    void drop_note(NoteKind kind, std::uint32_t number);
+    /// Bodies of all notes of a kind, by number. Throws JournalError.
+    [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
 
     [[nodiscard]] const std::optional<std::string>& set_aside() const { return set_aside_; }
 

@@ -99,6 +99,10 @@ v1::Role required_role(v1::ClientMessage::BodyCase body) {
         case Body::kSetMaterial:
             return v1::EDITOR;
         case Body::kAddPin:
+        case Body::kRemovePin:
+        case Body::kSaveViewpoint:
+        case Body::kRemoveViewpoint:
+        case Body::kPointAt:
             return v1::REVIEWER;
         default:
             return v1::VIEWER;

@@ -25,6 +25,7 @@ constexpr std::size_t kMaxText = 500;  ///< characters of a pin
 constexpr std::size_t kMaxToken = 1024;
 constexpr float kMaxExposure = 30.0F;  ///< EV
 constexpr float kMaxSeconds = 86400.0F;
+constexpr std::uint64_t kMaxGridPoints = 1024;
 
 /// Collects the first violation; later checks are skipped.
 class Checker {
@@ -114,19 +115,27 @@ void check_body(const v1::Hello& hello, Checker& check) {
     }
 }
 
-void check_body(const v1::SetCamera& camera, Checker& check) {
-    check.require(camera.has_eye(), "setCamera.eye", "is missing");
-    check.require(camera.has_target(), "setCamera.target", "is missing");
-    const glm::dvec3 sight = to_vector(camera.target()) - to_vector(camera.eye());
-    check.require(glm::length(sight) >= kMinLength, "setCamera.target", "must differ from eye");
-    const glm::dvec3 up = camera.has_up() ? to_vector(camera.up()) : glm::dvec3(0, 1, 0);
-    check.require(glm::length(up) >= kMinLength, "setCamera.up", "must not be zero");
+/// Where a camera stands: SetCamera or SaveViewpoint, called `name` in complaints.
+template <typename View>
+void check_view(const View& view, const std::string& name, Checker& check) {
+    check.require(view.has_eye(), name + ".eye", "is missing");
+    check.require(view.has_target(), name + ".target", "is missing");
+    const glm::dvec3 sight = to_vector(view.target()) - to_vector(view.eye());
+    check.require(glm::length(sight) >= kMinLength, name + ".target", "must differ from eye");
+    const glm::dvec3 up = view.has_up() ? to_vector(view.up()) : glm::dvec3(0, 1, 0);
+    check.require(glm::length(up) >= kMinLength, name + ".up", "must not be zero");
     const double sine = glm::length(glm::cross(glm::normalize(sight), glm::normalize(up)));
-    check.require(sine >= kMinLength, "setCamera.up", "must not lie along the line of sight");
+    check.require(sine >= kMinLength, name + ".up", "must not lie along the line of sight");
+}
+
+void check_fov(float fov, const std::string& field, Checker& check) {
+    check.require(fov >= kMinFov && fov <= kMaxFov, field, "must be 0.001..3.14 radians");
+}
+
+void check_body(const v1::SetCamera& camera, Checker& check) {
+    check_view(camera, "setCamera", check);
     if (camera.has_vertical_fov()) {
-        const float fov = camera.vertical_fov();
-        check.require(fov >= kMinFov && fov <= kMaxFov, "setCamera.verticalFov",
-                      "must be 0.001..3.14 radians");
+        check_fov(camera.vertical_fov(), "setCamera.verticalFov", check);
     }
 }
 
@@ -155,6 +164,8 @@ void check_body(const v1::SetDisplay& display, Checker& check) {
     }
     check.require(std::abs(display.exposure()) <= kMaxExposure, "setDisplay.exposure",
                   "must be -30..30");
+    check.require(display.scale_maximum() >= 0.0F, "setDisplay.scaleMaximum",
+                  "must not be negative");
 }
 
 void check_body(const v1::MoveObject& move, Checker& check) {
@@ -211,6 +222,39 @@ void check_body(const v1::AddPin& pin, Checker& check) {
     check.require(pin.has_position(), "addPin.position", "is missing");
 }
 
+void check_body(const v1::RemovePin& pin, Checker& check) {
+    check.require(pin.pin() >= 1, "removePin.pin", "is missing");
+}
+
+void check_body(const v1::SaveViewpoint& viewpoint, Checker& check) {
+    const std::size_t length = characters(viewpoint.name());
+    check.require(length >= 1 && length <= kMaxName, "saveViewpoint.name",
+                  "must be 1..64 characters");
+    check_view(viewpoint, "saveViewpoint", check);
+    check_fov(viewpoint.vertical_fov(), "saveViewpoint.verticalFov", check);
+}
+
+void check_body(const v1::RemoveViewpoint& viewpoint, Checker& check) {
+    check.require(viewpoint.viewpoint() >= 1, "removeViewpoint.viewpoint", "is missing");
+}
+
+void check_body(const v1::PointAt& point, Checker& check) {
+    check.require(point.has_position(), "pointAt.position", "is missing");
+}
+
+void check_body(const v1::ProbeGrid& grid, Checker& check) {
+    check.require(grid.has_origin(), "probeGrid.origin", "is missing");
+    const glm::dvec3 x = to_vector(grid.step_x());
+    const glm::dvec3 y = to_vector(grid.step_y());
+    check.require(glm::length(x) >= kMinLength, "probeGrid.stepX", "must not be zero");
+    check.require(glm::length(y) >= kMinLength, "probeGrid.stepY", "must not be zero");
+    const double sine = glm::length(glm::cross(glm::normalize(x), glm::normalize(y)));
+    check.require(sine >= kMinLength, "probeGrid.stepY", "must not lie along stepX");
+    const std::uint64_t points = std::uint64_t{grid.columns()} * grid.rows();
+    check.require(points >= 1 && points <= kMaxGridPoints, "probeGrid.columns",
+                  "columns times rows must be 1..1024");
+}
+
 void check_body(const v1::Ack& ack, Checker& check) {
     check.require(ack.decode_ms() >= 0.0, "ack.decodeMs", "must not be negative");
 }
@@ -250,6 +294,16 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
             return check_body(message.ack(), check);
         case Body::kSnapshot:
             return check_body(message.snapshot(), check);
+        case Body::kRemovePin:
+            return check_body(message.remove_pin(), check);
+        case Body::kSaveViewpoint:
+            return check_body(message.save_viewpoint(), check);
+        case Body::kRemoveViewpoint:
+            return check_body(message.remove_viewpoint(), check);
+        case Body::kPointAt:
+            return check_body(message.point_at(), check);
+        case Body::kProbeGrid:
+            return check_body(message.probe_grid(), check);
         case Body::kFollow:
         case Body::kPing:
         case Body::BODY_NOT_SET:

@@ -12,3 +12,11 @@ vec3 false_colour(float value, float maximum) {
                       dot(v4, vec4(0.10667330, 12.64194608, -60.58204836, 110.36276771)) + dot(v2, vec2(-89.90310912, 27.34824973))),
                  0.0, 1.0);
 }
+
+/// Which of the bands between 1, 2 and 5 times the powers of ten a value lies in, within the three
+/// decades below `maximum`.
+float isoline_band(float value, float maximum) {
+    float decades = log(clamp(value, 1e-3 * maximum, maximum)) / log(10.0);
+    float part = fract(decades);
+    return 3.0 * floor(decades) + (part < 0.30103 ? 0.0 : part < 0.69897 ? 1.0 : 2.0);
+}

@@ -36,7 +36,7 @@
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
 #define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
 #define BINDING_CHECKPOINT 28      // vec2[]: luminance of the mean before the change, weight after it
-#define BINDING_PICK 29            // PickResult
+#define BINDING_PICK 29            // PickResult[]
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
 #define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
 #define BINDING_FACET_INDICES 32  // uint[3 * facets]: vertices
@@ -195,7 +195,7 @@ struct PixelSurface {
 #define PIXEL_FACET_MASK 0x0fffffffu
 
 struct PickResult {
-    vec4 position;     // w = 1: hit
+    vec4 position;     // w = 1: hit; before the dispatch x = index of the pixel (bits)
     vec4 normal;       // w = object (bits)
     vec4 irradiance;   // radiance units; w = patch (bits)
     vec4 radiance;     // radiance units; w = relative standard error, negative: not known
@@ -223,7 +223,7 @@ struct ViewParameters {
     vec4 up;            // scaled by tan(fov/2)
     vec4 forward;       // unit
     uvec4 size;         // width, height, probe columns, probe rows
-    vec4 display;       // radiance unit (cd/m^2), exposure factor, confidence weight, mode
+    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, isolines
     vec4 sky;           // background radiance, radiance units
     vec4 weights;       // x: weight of all samples since the last resolve, y: of a batch in it
 };

@@ -23,25 +23,51 @@ vec3 shoulder(vec3 x) {
 
 /// sRGB encoding by square roots (I. Chilliant 2012), within 0.2 % of the exact curve.
 vec3 srgb_encoded(vec3 c) {
-    vec3 s1 = sqrt(clamp(c, 0.0, 1.0));
+    c = clamp(c, 0.0, 1.0);
+    vec3 s1 = sqrt(c);
     vec3 s2 = sqrt(s1);
     vec3 s3 = sqrt(s2);
     return 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
 }
 
+#if defined(FALSE_LUMINANCE) || defined(FALSE_ILLUMINANCE)
+/// What false colour shows of a pixel, cd/m² or lx.
+float quantity(uvec2 at) {
+    uint index = at.y * view.size.x + at.x;
+    PixelSurface p = load_pixel(index);
+#ifdef FALSE_LUMINANCE
+    return luminance(pixel_radiance(index, p)) * view.display.x;
+#else
+    return p.patch_id == NO_PATCH ? 0.0 : luminance(blended_irradiance(index, p)) * view.display.x;
+#endif
+}
+
+/// Whether an isoline runs between two neighbours. Where the value jumps, as at the edge of an object,
+/// there is none.
+bool isoline_between(float a, float b) {
+    return isoline_band(a, view.display.y) != isoline_band(b, view.display.y) && max(a, b) < 1.5 * min(a, b);
+}
+
+/// Displayed colour of a pixel, 0..1; dark where an isoline begins.
+vec3 shown(uvec2 at) {
+    float value = quantity(at);
+    vec3 colour = false_colour(value, view.display.y);
+    if (view.display.w > 0.0) {
+        uvec2 last = view.size.xy - 1u;
+        if (isoline_between(value, quantity(min(at + uvec2(1u, 0u), last))) ||
+            isoline_between(value, quantity(min(at + uvec2(0u, 1u), last)))) {
+            colour *= 0.15;
+        }
+    }
+    return colour;
+}
+#else
 /// Displayed colour of a pixel, 0..1.
 vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
-    PixelSurface p = load_pixel(index);
-#if defined(FALSE_LUMINANCE)
-    return false_colour(luminance(pixel_radiance(index, p)) * view.display.x, view.display.y);
-#elif defined(FALSE_ILLUMINANCE)
-    vec3 e = p.patch_id == NO_PATCH ? vec3(0.0) : blended_irradiance(index, p);
-    return false_colour(luminance(e) * view.display.x, view.display.y);
-#else
-    return srgb_encoded(shoulder(pixel_radiance(index, p) * view.display.y));
-#endif
+    return srgb_encoded(shoulder(pixel_radiance(index, load_pixel(index)) * view.display.y));
 }
+#endif
 
 void main() {
     uint index = gl_GlobalInvocationID.x;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one pixel shows: surface point, light, and the error of its batch means.
+// What single pixels show: surface point, light, and the error of their batch means. One group each.
 #include "layouts.glsl"
 layout(local_size_x = 1) in;
 #include "view_radiance.glsl"
 #include "octahedral.glsl"
 #include "false_colour.glsl"
 layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
-layout(std430, binding = BINDING_PICK) writeonly buffer PickBuffer { PickResult pick; };
-uniform uint pixel_index;
+layout(std430, binding = BINDING_PICK) buffer PickBuffer { PickResult picks[]; };
 
 /// Standard error of the nearest probe pixel's mean irradiance, relative; negative where unknown.
-float relative_error() {
+float relative_error(uint pixel_index) {
     uvec2 at = uvec2(pixel_index % view.size.x, pixel_index / view.size.x) / 4u;
     uint slot = BATCHES * (at.y * view.size.z + at.x);
     float batch_weight = view.weights.y;
@@ -28,16 +27,18 @@ float relative_error() {
 }
 
 void main() {
+    uint slot = gl_WorkGroupID.x;
+    uint pixel_index = floatBitsToUint(picks[slot].position.x);
     PixelSurface p = load_pixel(pixel_index);
     if (p.patch_id == NO_PATCH) {
-        pick.position = vec4(0.0);
+        picks[slot].position = vec4(0.0);
         return;
     }
     uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.patch_id).w)).xyz;
     vec2 v = unpackUnorm2x16(p.barycentric);
     vec3 position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
-    pick.position = vec4(position, 1.0);
-    pick.normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), patch_attributes(p.patch_id).z);
-    pick.irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.patch_id));
-    pick.radiance = vec4(pixel_radiance(pixel_index, p), relative_error());
+    picks[slot].position = vec4(position, 1.0);
+    picks[slot].normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), patch_attributes(p.patch_id).z);
+    picks[slot].irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.patch_id));
+    picks[slot].radiance = vec4(pixel_radiance(pixel_index, p), relative_error(pixel_index));
 }

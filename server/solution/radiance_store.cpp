@@ -195,6 +195,12 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
     return values;
 }
 
+glm::vec4 RadianceStore::read_irradiance(std::uint32_t patch) const {
+    glm::vec4 value(0.0F);
+    irradiance_.read(std::span(&value, 1), sizeof(glm::vec4) * std::min(patch, patch_count_ - 1));
+    return {glm::vec3(value) * scene_.radiance_unit(), value.w};
+}
+
 std::vector<glm::vec3> RadianceStore::read_radiance() const {
     std::vector<glm::vec4> values(patch_count_);
     radiance_.read<glm::vec4>(values);

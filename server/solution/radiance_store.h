@@ -65,6 +65,8 @@ class RadianceStore {
 
     /// Mean irradiance per patch, lx, w = weight; for tests, results and files. Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
+    /// The same of one patch; small, synchronous.
+    [[nodiscard]] glm::vec4 read_irradiance(std::uint32_t patch) const;
     /// Radiance per patch as it is transferred, cd/m². Synchronous.
     [[nodiscard]] std::vector<glm::vec3> read_radiance() const;
     [[nodiscard]] std::size_t bytes() const;

@@ -99,8 +99,7 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
       view_("view parameters", sizeof(layout::ViewParameters)),
       vertex_irradiance_("vertex irradiance",
                          2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
-      statistics_buffer_("view statistics", statistics_groups * sizeof(glm::vec4)),
-      probe_buffer_("probe", sizeof(layout::PickResult)) {
+      statistics_buffer_("view statistics", statistics_groups * sizeof(glm::vec4)) {
     statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
     vertex_irradiance_texture_ =
         create_buffer_texture("vertex irradiance", GL_RGBA16F, vertex_irradiance_);
@@ -335,13 +334,14 @@ float ViewerImage::display_factor(float exposure) {
     return mid_grey * std::exp2(exposure);
 }
 
-void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_size) {
+void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_size,
+                          const ColourScale& scale) {
     interpolate_vertices();
     const float factor = mode == DisplayMode::photo
                              ? display_factor(exposure) * scene_.radiance_unit()
-                             : 1.0F / display_factor(exposure);
+                             : scale.maximum;
     parameters_.display = {scene_.radiance_unit(), factor, confidence_weight,
-                           static_cast<float>(mode)};
+                           scale.isolines ? 1.0F : 0.0F};
     upload_view();
     frame_size = glm::clamp(frame_size, glm::uvec2(1), size_);
     const auto index = static_cast<std::size_t>(mode);
@@ -375,28 +375,42 @@ std::vector<glm::vec4> ViewerImage::read_radiance() {
 }
 
 std::optional<PixelProbe> ViewerImage::probe(glm::uvec2 pixel) {
-    pixel = glm::min(pixel, size_ - 1U);
+    return probe(std::span(&pixel, 1)).front();
+}
+
+std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::uvec2> pixels) {
+    std::vector<layout::PickResult> picks(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const glm::uvec2 pixel = glm::min(pixels[i], size_ - 1U);
+        picks[i].position.x = std::bit_cast<float>((size_.y - 1 - pixel.y) * size_.x + pixel.x);
+    }
     interpolate_vertices();
     parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
     upload_view();
-    probe_buffer_.bind_storage(BINDING_PICK);
+    auto buffer = Buffer::from<layout::PickResult>("probes", picks);
+    buffer.bind_storage(BINDING_PICK);
     programs_.probe.set("triangle_count", scene_.triangle_count());
-    programs_.probe.set("pixel_index", (size_.y - 1 - pixel.y) * size_.x + pixel.x);
-    programs_.probe.dispatch(1);
-    layout::PickResult found{};
-    probe_buffer_.read(std::span(&found, 1));
-    if (found.position.w == 0.0F) {
-        return std::nullopt;
+    programs_.probe.dispatch(pixels.size());
+    buffer.read<layout::PickResult>(picks);
+    std::vector<std::optional<PixelProbe>> found(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (picks[i].position.w > 0.0F) {
+            found[i] = from_pick(picks[i]);
+        }
     }
+    return found;
+}
+
+PixelProbe ViewerImage::from_pick(const layout::PickResult& pick) const {
     PixelProbe result;
-    result.position = glm::vec3(found.position) + scene_.origin();
-    result.normal = glm::vec3(found.normal);
-    result.object = std::bit_cast<std::uint32_t>(found.normal.w);
-    result.patch = std::bit_cast<std::uint32_t>(found.irradiance.w);
-    result.irradiance = glm::vec3(found.irradiance) * scene_.radiance_unit();
-    result.radiance = glm::vec3(found.radiance) * scene_.radiance_unit();
-    if (found.radiance.w >= 0.0F) {
-        result.relative_error = static_cast<double>(found.radiance.w);
+    result.position = glm::vec3(pick.position) + scene_.origin();
+    result.normal = glm::vec3(pick.normal);
+    result.object = std::bit_cast<std::uint32_t>(pick.normal.w);
+    result.patch = std::bit_cast<std::uint32_t>(pick.irradiance.w);
+    result.irradiance = glm::vec3(pick.irradiance) * scene_.radiance_unit();
+    result.radiance = glm::vec3(pick.radiance) * scene_.radiance_unit();
+    if (pick.radiance.w >= 0.0F) {
+        result.relative_error = static_cast<double>(pick.radiance.w);
     }
     return result;
 }

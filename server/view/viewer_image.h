@@ -20,6 +20,12 @@ namespace raybundle {
 
 enum class DisplayMode { photo = 0, false_luminance = 1, false_illuminance = 2 };
 
+/// How false colour shows a quantity: three decades below `maximum`, with lines or without.
+struct ColourScale {
+    float maximum = 1000.0F;  ///< cd/m² or lx
+    bool isolines = false;
+};
+
 /// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).
 struct ImageStatistics {
     bool known = false;           ///< enough samples for an estimate
@@ -93,7 +99,11 @@ class ViewerImage : public BundleReceiver {
     /// see display_factor()) and queues its readback. finished() and take() deliver it.
     void compose(DisplayMode mode, float exposure) { compose(mode, exposure, size_); }
     /// The same, averaged down to a smaller frame.
-    void compose(DisplayMode mode, float exposure, glm::uvec2 frame_size);
+    void compose(DisplayMode mode, float exposure, glm::uvec2 frame_size) {
+        compose(mode, exposure, frame_size, {1.0F / display_factor(exposure), false});
+    }
+    /// The same, with the scale of false colour.
+    void compose(DisplayMode mode, float exposure, glm::uvec2 frame_size, const ColourScale& scale);
     [[nodiscard]] bool finished() const { return frame_readback_->ready(); }
     /// RGBA bytes, row 0 at the top; valid until the next compose().
     std::span<const std::uint8_t> take();
@@ -105,6 +115,8 @@ class ViewerImage : public BundleReceiver {
 
     /// What a pixel (row 0 at the top) shows; nothing where it meets no patch. Small, synchronous.
     [[nodiscard]] std::optional<PixelProbe> probe(glm::uvec2 pixel);
+    /// The same of many pixels, in one dispatch.
+    [[nodiscard]] std::vector<std::optional<PixelProbe>> probe(std::span<const glm::uvec2> pixels);
 
     /// Queues the statistics; statistics() returns the newest that has arrived.
     void request_statistics();
@@ -128,6 +140,7 @@ class ViewerImage : public BundleReceiver {
     void receive(const ViewPrograms::Receive& programs, const Context& context);
     void interpolate_vertices();
     void evaluate(std::span<const glm::vec4> partial);
+    [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 
     const GpuScene& scene_;
     const RadianceStore& store_;
@@ -146,7 +159,7 @@ class ViewerImage : public BundleReceiver {
     ImageStatistics statistics_;
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
-    Buffer vertex_irradiance_, statistics_buffer_, frame_, probe_buffer_;
+    Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<SpecularGroups> specular_;  // only where the scene is specular
     Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
     Texture2D gloss_texture_, old_gloss_texture_;

@@ -18,13 +18,30 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Fields whose values depend on time, machine or build; recorded by type only.
-const std::set<std::string> kVolatile{"server",          "iterations",      "iterationsPerSecond",
-                                      "settled",         "relativeError",   "errorLow",
-                                      "errorHigh",       "secondsToTarget", "exposure",
-                                      "serverTimeMs",    "illuminance",     "luminance",
-                                      "patch",           "frame",           "quality",
-                                      "position",        "normal",          "effects",
-                                      "worldFromParent", "bounds"};
+const std::set<std::string> kVolatile{"server",
+                                      "iterations",
+                                      "iterationsPerSecond",
+                                      "settled",
+                                      "relativeError",
+                                      "errorLow",
+                                      "errorHigh",
+                                      "secondsToTarget",
+                                      "exposure",
+                                      "serverTimeMs",
+                                      "illuminance",
+                                      "luminance",
+                                      "patch",
+                                      "frame",
+                                      "quality",
+                                      "localPosition",
+                                      "position",
+                                      "normal",
+                                      "effects",
+                                      "worldFromParent",
+                                      "bounds",
+                                      "renderer",
+                                      "softwareRendering",
+                                      "setAtMs"};
 
 std::string type_mark(const Json& value) {
     return "<" + std::string(value.type_name()) + ">";
@@ -129,7 +146,7 @@ TEST_P(TranscriptTest, IsStillTrue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Protocol10, TranscriptTest,
-                         testing::Values("hello", "camera", "move", "errors", "version"),
+                         testing::Values("hello", "camera", "move", "errors", "version", "review"),
                          [](const auto& test) { return test.param; });
 
 TEST(TranscriptDifference, FindsWhatIsMissingOrOther) {

@@ -53,6 +53,17 @@ TEST(AccessTokens, EachTokenGivesItsRoleAndNoOtherTokenAny) {
     EXPECT_FALSE(access.tokens.role_of(token_digest(std::string(63, 'e') + "f")));
 }
 
+TEST(RequiredRole, ReviewersLeaveNotesAndViewersLookAndMeasure) {
+    using Body = v1::ClientMessage::BodyCase;
+    for (const Body body : {Body::kAddPin, Body::kRemovePin, Body::kSaveViewpoint,
+                            Body::kRemoveViewpoint, Body::kPointAt}) {
+        EXPECT_EQ(required_role(body), v1::REVIEWER) << body;
+    }
+    for (const Body body : {Body::kFollow, Body::kProbe, Body::kProbeGrid, Body::kSetDisplay}) {
+        EXPECT_EQ(required_role(body), v1::VIEWER) << body;
+    }
+}
+
 TEST(Gate, CountsWhoIsThere) {
     Gate gate(1, three_tokens());
     ASSERT_TRUE(std::holds_alternative<Pass>(gate.enter(hello_with(kViewer))));

@@ -80,19 +80,38 @@ TEST(MessageValidation, SceneChanges) {
 
 TEST(MessageValidation, Requests) {
     const std::string long_text(501, 'a');
-    for (const Case& c :
-         {Case{R"({"setTarget":{}})", nullptr},
-          Case{R"({"setTarget":{"relativeError":0}})", "setTarget.relativeError"},
-          Case{R"({"setTarget":{"seconds":-1}})", "setTarget.seconds"},
-          Case{R"({"setDisplay":{"exposure":31}})", "setDisplay.exposure"},
-          Case{R"({"setDisplay":{"mode":"MODE_UNSPECIFIED"}})", "setDisplay.mode"},
-          Case{R"({"probe":{}})", "probe"}, Case{R"({"probe":{"pixel":{"x":-1}}})", "probe.pixel"},
-          Case{R"({"probe":{"ray":{"origin":{},"direction":{}}}})", "probe.ray.direction"},
-          Case{R"({"ack":{"frame":1,"decodeMs":-1}})", "ack.decodeMs"},
-          Case{R"({"addPin":{"text":"","position":{}}})", "addPin.text"},
-          Case{R"({"addPin":{"text":"a"}})", "addPin.position"},
-          Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1}})", "snapshot.format"},
-          Case{R"({"hello":{}})", "hello.protocol"}}) {
+    for (
+        const Case& c :
+        {Case{R"({"setTarget":{}})", nullptr},
+         Case{R"({"setTarget":{"relativeError":0}})", "setTarget.relativeError"},
+         Case{R"({"setTarget":{"seconds":-1}})", "setTarget.seconds"},
+         Case{R"({"setDisplay":{"exposure":31}})", "setDisplay.exposure"},
+         Case{R"({"setDisplay":{"mode":"MODE_UNSPECIFIED"}})", "setDisplay.mode"},
+         Case{R"({"probe":{}})", "probe"},
+         Case{R"({"probe":{"pixel":{"x":-1}}})", "probe.pixel"},
+         Case{R"({"probe":{"ray":{"origin":{},"direction":{}}}})", "probe.ray.direction"},
+         Case{R"({"ack":{"frame":1,"decodeMs":-1}})", "ack.decodeMs"},
+         Case{R"({"addPin":{"text":"","position":{}}})", "addPin.text"},
+         Case{R"({"addPin":{"text":"a"}})", "addPin.position"},
+         Case{R"({"removePin":{}})", "removePin.pin"},
+         Case{R"({"removeViewpoint":{}})", "removeViewpoint.viewpoint"},
+         Case{R"({"pointAt":{}})", "pointAt.position"},
+         Case{R"({"setDisplay":{"scaleMaximum":-1}})", "setDisplay.scaleMaximum"},
+         Case{R"({"saveViewpoint":{"name":"","eye":{},"target":{"z":1},"verticalFov":1}})",
+              "saveViewpoint.name"},
+         Case{R"({"saveViewpoint":{"name":"a","eye":{},"target":{},"verticalFov":1}})",
+              "saveViewpoint.target"},
+         Case{R"({"saveViewpoint":{"name":"a","eye":{},"target":{"z":1}}})",
+              "saveViewpoint.verticalFov"},
+         Case{R"({"probeGrid":{"stepX":{"x":1},"stepY":{"z":1},"columns":1,"rows":1}})",
+              "probeGrid.origin"},
+         Case{R"({"probeGrid":{"origin":{},"stepX":{"x":1},"stepY":{"x":2},"columns":1,"rows":1}})",
+              "probeGrid.stepY"},
+         Case{
+             R"({"probeGrid":{"origin":{},"stepX":{"x":1},"stepY":{"z":1},"columns":33,"rows":32}})",
+             "probeGrid.columns"},
+         Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1}})", "snapshot.format"},
+         Case{R"({"hello":{}})", "hello.protocol"}}) {
         expect_case(c.text, c.field);
     }
     expect_case(R"({"addPin":{"position":{},"text":")" + long_text + "\"}}", "addPin.text");

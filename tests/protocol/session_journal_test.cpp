@@ -219,5 +219,35 @@ TEST(FileDigest, IsSha256) {
     EXPECT_FALSE(file_digest(file));
 }
 
+TEST_F(SessionJournalTest, KeepsNotesUntilTheyAreDropped) {
+    {
+        SessionJournal journal(settings_);
+        EXPECT_TRUE(journal.notes(NoteKind::pin).empty());
+        journal.keep_note(NoteKind::pin, 1, "glare");
+        journal.keep_note(NoteKind::pin, 2, std::string("zero \0 inside", 13));
+        journal.keep_note(NoteKind::pin, 1, "glare here");
+        journal.keep_note(NoteKind::viewpoint, 1, "from the door");
+        journal.append(move(1, 2, 0.5F));
+    }
+    SessionJournal journal(settings_);
+    EXPECT_EQ(journal.notes(NoteKind::pin),
+              (std::vector<std::string>{"glare here", std::string("zero \0 inside", 13)}));
+    EXPECT_EQ(journal.epoch(), 1U);
+    journal.drop_note(NoteKind::pin, 1);
+    journal.drop_note(NoteKind::pin, 99);
+    EXPECT_EQ(journal.notes(NoteKind::pin).size(), 1U);
+    EXPECT_EQ(journal.notes(NoteKind::viewpoint), std::vector<std::string>{"from the door"});
+}
+
+TEST_F(SessionJournalTest, NotesOfAnotherSceneAreNotThisOnes) {
+    {
+        SessionJournal journal(settings_);
+        journal.keep_note(NoteKind::pin, 1, "glare");
+    }
+    settings_.scene_digest = "digest of another room";
+    SessionJournal journal(settings_);
+    EXPECT_TRUE(journal.notes(NoteKind::pin).empty());
+}
+
 }  // namespace
 }  // namespace raybundle

@@ -181,7 +181,8 @@ TEST(WireCodec, PrintsDefaultsButNotAbsentFields) {
     message.mutable_pin_changed()->set_text("glare here");
     EXPECT_PRED_FORMAT2(SameJson, to_json(message),
                         R"({"pinChanged":{"pin":1,"by":0,"text":"glare here",)"
-                        R"("illuminance":0,"epoch":0,"removed":false}})");
+                        R"("illuminance":0,"epoch":0,"removed":false,)"
+                        R"("byName":"","setAtMs":0,"object":0}})");
 }
 
 TEST(WireCodec, PrintsWelcomeAsPublished) {
@@ -203,7 +204,8 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
         R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true}],"cameras":[],)"
-        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":""}]}}})");
+        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":""}]},)"
+        R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false}})");
 }
 
 TEST(WireCodec, PrintsErrorsAndOneofChanges) {
