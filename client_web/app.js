@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's application: holds the parts together. `window.raybundle` is the one instance.
+// The page's application: connection, camera, picture, scene and selection. Everything else in the
+// page (tools, panels, review) is built on it by main.js. `window.raybundle` is the one instance.
 
 import {framedFov, project, rayThrough} from './camera.js';
 import {CameraControl} from './camera_control.js';
@@ -7,15 +8,13 @@ import {CameraLink} from './camera_link.js';
 import {ObjectMover} from './drag.js';
 import {byId} from './elements.js';
 import {Overlay} from './overlay.js';
-import {Picker, pickByBounds} from './picking.js';
+import {Picker} from './picking.js';
 import {Picture} from './picture.js';
 import {ServerError} from './protocol.js';
 import {RaybundleClient} from './raybundle_client.js';
 import {Readouts} from './readouts.js';
 import {SceneModel} from './scene_model.js';
-import {ScenePanel} from './scene_panel.js';
 import {Status} from './status.js';
-import {intersectBounds} from './vector.js';
 
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
@@ -23,13 +22,12 @@ import {intersectBounds} from './vector.js';
  * @typedef {import('./protocol.js').Transform} Transform
  * @typedef {import('./protocol.js').Welcome} Welcome
  * @typedef {import('./protocol.js').FrameHeader} FrameHeader
+ * @typedef {import('./protocol.js').ProbeResult} ProbeResult
+ * @typedef {import('./protocol.js').ServerMessage} ServerMessage
  * @typedef {import('./frame_receiver.js').Frame} Frame
  * @typedef {import('./pointer_control.js').Point} Point
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  */
-
-/** Step of a keyboard move, metres. */
-const NUDGE_M = 0.1;
 
 /** @type {View} */
 const NO_VIEW = {
@@ -39,7 +37,12 @@ const NO_VIEW = {
     verticalFov: 0.7,
 };
 
-export class RaybundleApp {
+/**
+ * Events: `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
+ * `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
+ * message of the server).
+ */
+export class RaybundleApp extends EventTarget {
     /**
      * Header of the newest frame.
      *
@@ -50,15 +53,19 @@ export class RaybundleApp {
     scene = null;
     /** @type {PlacedObject | null} */
     selected = null;
-    /** @type {PlacedObject | null} */
-    #hovered = null;
+    /** What a click does. */
+    tool = 'select';
     /** Size of the pictures that the server has been asked for. */
     #viewport = {width: 1, height: 1};
     /** Vertical field of view of the chosen camera, before it is fitted to the screen. */
     #authorFov = NO_VIEW.verticalFov;
+    /** View to start with instead of the first camera, as a shared link has it. */
+    #firstView = /** @type {View | null} */ (null);
 
-    /** @param {{url: string, name: string, token: string}} settings */
+    /** @param {{url: string, name: string, token: string, view?: View | null}} settings */
     constructor(settings) {
+        super();
+        this.#firstView = settings.view ?? null;
         this.picture = new Picture(byId('picture', HTMLElement), byId('canvas', HTMLCanvasElement));
         this.client = new RaybundleClient({...settings, viewport: () => this.#askViewport()});
         this.camera = new CameraControl(NO_VIEW);
@@ -67,8 +74,7 @@ export class RaybundleApp {
         this.mover = new ObjectMover(this.client);
         this.overlay = new Overlay(byId('overlay', SVGSVGElement));
         this.readouts = new Readouts();
-        this.panel = new ScenePanel();
-        this.status = new Status(() => this.client.connect());
+        this.status = new Status(this.client);
         this.#listenToServer();
         this.#listenToUser();
     }
@@ -95,6 +101,38 @@ export class RaybundleApp {
     /** Whether this viewer may change the scene. */
     get mayEdit() {
         return this.client.welcome?.role === 'EDITOR';
+    }
+
+    /** Whether this viewer may leave pins and viewpoints. */
+    get mayReview() {
+        return this.mayEdit || this.client.welcome?.role === 'REVIEWER';
+    }
+
+    /**
+     * Listens to one of this application's events.
+     *
+     * @param {string} type
+     * @param {(detail: any) => void} listener
+     */
+    on(type, listener) {
+        this.addEventListener(type, (event) => {
+            listener(/** @type {CustomEvent} */ (event).detail);
+        });
+    }
+
+    /**
+     * Sends a request; a refusal is shown to the user.
+     *
+     * @param {object} body
+     * @returns {Promise<ServerMessage | null>} null: refused, or the connection is lost
+     */
+    async ask(body) {
+        try {
+            return await this.client.request(body).answer;
+        } catch (error) {
+            this.#problem(error);
+            return null;
+        }
     }
 
     /**
@@ -126,10 +164,19 @@ export class RaybundleApp {
      * @returns {Promise<PlacedObject | null>}
      */
     async pickAt(x, y) {
-        const {clientWidth, clientHeight} = this.picture.element;
-        const {width, height} = this.#viewport;
-        const pixel = {x: (x / clientWidth) * width, y: (y / clientHeight) * height};
+        const pixel = this.#pixelAt({x, y});
         return this.scene ? this.picker.pick(this.scene, this.rayAt({x, y}), pixel) : null;
+    }
+
+    /**
+     * What the picture shows at a point, measured.
+     *
+     * @param {Point} at  CSS pixels
+     * @returns {Promise<ProbeResult | null>} null: nothing is there, or no answer
+     */
+    async probeAt(at) {
+        const answer = await this.ask({probe: {pixel: this.#pixelAt(at)}});
+        return answer?.probeResult?.hit ? answer.probeResult : null;
     }
 
     /**
@@ -139,7 +186,15 @@ export class RaybundleApp {
      */
     select(id) {
         this.selected = this.scene?.object(id) ?? null;
-        this.panel.showSelection(this.selected, this.mayEdit);
+        this.#emit('selection', this.selected);
+        this.drawOverlay();
+    }
+
+    /** @param {string} tool  what a click does from now on */
+    setTool(tool) {
+        this.tool = tool;
+        this.picture.element.dataset.tool = tool;
+        this.#emit('tool', tool);
         this.drawOverlay();
     }
 
@@ -153,8 +208,30 @@ export class RaybundleApp {
         const camera =
             typeof which === 'number' ? cameras[which] : cameras.find(({name}) => name === which);
         if (camera) {
-            this.camera.flyTo(this.#framed(camera));
+            this.camera.flyTo(this.framed(camera));
         }
+    }
+
+    /**
+     * Shows a view that the server knows of already, because another viewer leads.
+     *
+     * @param {View} view
+     */
+    adopt(view) {
+        this.link.adopt(view);
+        this.camera.set(view);
+        this.drawOverlay();
+    }
+
+    /**
+     * View of a camera of the scene on this screen.
+     *
+     * @param {View} camera
+     * @returns {View}
+     */
+    framed({eye, target, up, verticalFov}) {
+        this.#authorFov = verticalFov;
+        return {eye, target, up, verticalFov: framedFov(verticalFov, this.picture.aspect)};
     }
 
     /**
@@ -170,87 +247,13 @@ export class RaybundleApp {
         }
     }
 
-    /**
-     * Shifts the selected object over the floor.
-     *
-     * @param {number} right  steps of 10 cm, as seen from the camera
-     * @param {number} forwards  steps of 10 cm
-     */
-    nudge(right, forwards) {
-        if (this.selected?.movable && this.mayEdit && this.scene) {
-            const step = [right * NUDGE_M, forwards * NUDGE_M];
-            this.mover.nudge(this.selected, this.view, step[0], step[1], this.scene.bounds);
-        }
-    }
-
-    /** Draws the outlines for the picture that is on screen. */
+    /** Draws what lies over the picture, and puts the picture where the camera has it. */
     drawOverlay() {
         const {shown} = this.link;
-        const aspect = shown ? this.picture.shownAspect : this.picture.aspect;
-        this.overlay.draw(shown ?? this.view, aspect, {
-            selected: this.selected?.bounds ?? null,
-            hovered: this.#hovered && this.#hovered !== this.selected ? this.#hovered.bounds : null,
-        });
-    }
-
-    /**
-     * Whether a press here takes hold of the selected object.
-     *
-     * @param {Point} at
-     */
-    canGrab(at) {
-        const object = this.selected;
-        const movable = object?.movable && this.mayEdit;
-        return movable ? intersectBounds(this.rayAt(at), object.bounds) !== null : false;
-    }
-
-    /**
-     * Takes hold of the selected object, if it is there.
-     *
-     * @param {Point} at
-     * @returns {boolean}
-     */
-    grab(at) {
-        return this.selected && this.canGrab(at)
-            ? this.mover.begin(this.selected, this.rayAt(at))
-            : false;
-    }
-
-    /**
-     * Moves what is in the user's hand.
-     *
-     * @param {Point} at
-     */
-    drag(at) {
-        if (this.scene) {
-            this.picture.element.classList.add('dragging');
-            this.mover.drag(this.rayAt(at), this.view, this.scene.bounds);
+        if (shown && this.frame) {
+            this.picture.warp(shown, this.view);
         }
-    }
-
-    /**
-     * Lets go of it.
-     *
-     * @param {boolean} keep  false: it goes back
-     */
-    release(keep) {
-        this.picture.element.classList.remove('dragging');
-        this.mover.end(keep);
-    }
-
-    /**
-     * Marks what the pointer is over.
-     *
-     * @param {Point | null} at
-     */
-    hover(at) {
-        const over = at && this.scene ? pickByBounds(this.scene.objects, this.rayAt(at)) : null;
-        const before = this.#hovered;
-        this.#hovered = over?.movable ? over : null;
-        this.picture.element.classList.toggle('can-grab', at !== null && this.canGrab(at));
-        if (this.#hovered !== before) {
-            this.drawOverlay();
-        }
+        this.overlay.draw(this.view, this.picture.aspect);
     }
 
     #listenToServer() {
@@ -263,31 +266,32 @@ export class RaybundleApp {
         on('state', (change) => this.status.show(change, this.frame !== null));
         on('welcome', (welcome) => this.#welcomed(welcome));
         on('frame', (frame) => this.#arrived(frame));
-        on('solution', (solution) => this.readouts.solution(solution));
+        on('solution', (solution) => {
+            this.readouts.solution(solution);
+            this.#emit('solution', solution);
+        });
         on('roundTrip', (ms) => this.readouts.roundTrip(ms));
         on('problem', (error) => this.#problem(error));
+        on('message', (message) => this.#emit('message', message));
         on('sceneChanged', (change) => {
             this.scene?.apply(change, this.mover.held);
+            this.#emit('sceneChanged', change);
             this.#objectsMoved();
         });
     }
 
     #listenToUser() {
-        this.camera.addEventListener('change', () => this.link.show(this.view));
+        this.camera.addEventListener('change', () => {
+            this.link.show(this.view);
+            this.#emit('view', this.view);
+            this.drawOverlay();
+        });
         this.picture.addEventListener('resize', () => this.#resized());
         this.picture.addEventListener('viewport', () => this.#viewportChanged());
         this.mover.addEventListener('moved', () => this.#objectsMoved());
         this.mover.addEventListener('rejected', (event) =>
             this.#problem(/** @type {CustomEvent} */ (event).detail),
         );
-        /** @type {(type: string, listener: (detail: any) => void) => void} */
-        const on = (type, listener) =>
-            this.panel.addEventListener(type, (event) => {
-                listener(/** @type {CustomEvent} */ (event).detail);
-            });
-        on('camera', (index) => this.flyTo(index));
-        on('select', (id) => this.select(id));
-        on('nudge', ({right, forwards}) => this.nudge(right, forwards));
     }
 
     /** @param {Welcome} welcome */
@@ -300,15 +304,14 @@ export class RaybundleApp {
         this.link.reset();
         this.readouts.reset();
         this.camera.fit(welcome.scene.bounds);
-        this.panel.showScene(this.scene);
-        this.status.showServer(welcome.server);
-        document.title = `${welcome.scene.name} – Raybundle`;
-        byId('scene-name', HTMLElement).textContent = welcome.scene.name;
-        this.#hovered = null;
-        this.select(sameScene ? (this.selected?.id ?? null) : null);
-        if (!sameScene && this.scene.cameras.length > 0) {
-            this.camera.set(this.#framed(this.scene.cameras[0]));
+        this.status.showWelcome(welcome, this.scene.title, this.frame !== null);
+        if (!sameScene && this.#firstView) {
+            this.camera.set(this.#firstView);
+        } else if (!sameScene && this.scene.cameras.length > 0) {
+            this.camera.set(this.framed(this.scene.cameras[0]));
         }
+        this.#emit('welcome', welcome);
+        this.select(sameScene ? (this.selected?.id ?? null) : null);
         this.link.show(this.view);
     }
 
@@ -317,18 +320,16 @@ export class RaybundleApp {
         this.picture.draw(image);
         this.frame = header;
         this.readouts.frame(header, decodeMs, this.link.answered(header.cameraId));
+        this.status.showPicture();
+        this.#emit('picture', header);
         this.drawOverlay();
     }
 
-    /**
-     * View of a camera of the scene on this screen.
-     *
-     * @param {View} camera
-     * @returns {View}
-     */
-    #framed({eye, target, up, verticalFov}) {
-        this.#authorFov = verticalFov;
-        return {eye, target, up, verticalFov: framedFov(verticalFov, this.picture.aspect)};
+    /** @param {Point} at  CSS pixels */
+    #pixelAt({x, y}) {
+        const {clientWidth, clientHeight} = this.picture.element;
+        const {width, height} = this.#viewport;
+        return {x: (x / clientWidth) * width, y: (y / clientHeight) * height};
     }
 
     #askViewport() {
@@ -346,16 +347,14 @@ export class RaybundleApp {
 
     #resized() {
         const verticalFov = framedFov(this.#authorFov, this.picture.aspect);
-        if (verticalFov !== this.view.verticalFov) {
+        if (verticalFov !== this.view.verticalFov && !this.link.led) {
             this.camera.set({...this.view, verticalFov});
         }
         this.drawOverlay();
     }
 
     #objectsMoved() {
-        if (this.selected) {
-            this.panel.showPlace(this.selected);
-        }
+        this.#emit('moved', null);
         this.drawOverlay();
     }
 
@@ -364,5 +363,13 @@ export class RaybundleApp {
         if (error instanceof ServerError) {
             this.status.notify(error.message, 'problem');
         }
+    }
+
+    /**
+     * @param {string} type
+     * @param {unknown} detail
+     */
+    #emit(type, detail) {
+        this.dispatchEvent(new CustomEvent(type, {detail}));
     }
 }

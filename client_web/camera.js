@@ -203,6 +203,46 @@ export function walk(view, forwards, rightwards, upwards) {
     return {...view, eye: add(view.eye, shift), target: add(view.target, shift)};
 }
 
+/** Height of the eyes of somebody who stands, metres. */
+export const EYE_HEIGHT = 1.6;
+
+/** As near does a view go to what it is sent to, and no nearer than a third of the way, metres. */
+const ARRIVAL = 2;
+
+/**
+ * Where a double click on a surface takes the viewer. On a floor, to stand there, looking the same
+ * way; before anything else, to look at it from nearby.
+ *
+ * @param {View} view
+ * @param {Vec3} point  that was clicked
+ * @param {Vec3} normal  of its surface
+ * @param {boolean} walking  otherwise the view is to circle around the point
+ * @returns {View}
+ */
+export function goTo(view, point, normal, walking) {
+    const sight = normalise(sub(point, view.eye));
+    const away = length(sub(point, view.eye));
+    if (walking && normal.y > 0.9) {
+        const {heading} = angles(view);
+        const eye = vec3(point.x, point.y + EYE_HEIGHT, point.z);
+        return {...view, eye, target: add(eye, direction(heading, 0)), up: UP};
+    }
+    const eye = sub(point, scale(sight, Math.max(Math.min(ARRIVAL, away), away / 3)));
+    const steep = Math.abs(sight.y) > Math.cos(POLE_MARGIN);
+    return {...view, eye: steep ? add(eye, vec3(0, 0, POLE_MARGIN * away)) : eye, target: point, up: UP};
+}
+
+/**
+ * The same view from another height.
+ *
+ * @param {View} view
+ * @param {number} y  of the eye, metres
+ * @returns {View}
+ */
+export function atHeight(view, y) {
+    return walk(view, 0, 0, y - view.eye.y);
+}
+
 /**
  * View on the way from one to another.
  *

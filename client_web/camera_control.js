@@ -13,6 +13,10 @@ import {clamp, diagonal} from './vector.js';
 /** Of turning with keys, radians per second. */
 const TURN_SPEED = 1.2;
 const FLIGHT_MS = 700;
+/** How soon walking reaches its speed, and ends, seconds. */
+const EASING_S = 0.07;
+/** Slower than this share of the full speed is standing. */
+const STANDING = 0.004;
 /** Motion that a key press is worth at once, seconds. */
 const FIRST_STEP_S = 0.05;
 
@@ -43,13 +47,25 @@ const ARROW_KEYS = {
 };
 
 /**
+ * What moves the camera, each -1..1.
+ *
+ * @typedef {{forwards: number, rightwards: number, upwards: number, left: number, tilt: number}} Motion
+ */
+
+/** @type {() => Motion} */
+export const noMotion = () => ({forwards: 0, rightwards: 0, upwards: 0, left: 0, tilt: 0});
+
+/** @type {(motion: Motion) => number} */
+const strength = (motion) => Math.max(...Object.values(motion).map(Math.abs));
+
+/**
  * Sum of what held keys ask for, each -1..1.
  *
  * @param {Iterable<string>} codes  KeyboardEvent.code
  * @param {Mode} mode
  */
 export function motionOf(codes, mode) {
-    const motion = {forwards: 0, rightwards: 0, upwards: 0, left: 0, tilt: 0};
+    const motion = noMotion();
     for (const code of codes) {
         const part = WALK_KEYS.get(code) ?? ARROW_KEYS[mode].get(code) ?? {};
         for (const [name, amount] of Object.entries(part)) {
@@ -79,6 +95,10 @@ export class CameraControl extends EventTarget {
     #ticking = 0;
     /** @type {{from: View, to: View, start: number} | null} */
     #flight = null;
+    /** What sticks ask for, by the name of the source. @type {Map<string, Motion>} */
+    #sticks = new Map();
+    /** What moves now, on its way to what is asked for. */
+    #motion = noMotion();
 
     /** @param {View} view */
     constructor(view) {
@@ -88,6 +108,11 @@ export class CameraControl extends EventTarget {
         this.mode = 'orbit';
         this.speed = 1.5;
         this.farthest = 1000;
+    }
+
+    /** Whether the camera is on its way. */
+    get moving() {
+        return this.#ticking !== 0;
     }
 
     /**
@@ -137,6 +162,30 @@ export class CameraControl extends EventTarget {
         } else {
             const scale = this.view.verticalFov;
             this.set(look(this.view, x * scale, y * scale));
+        }
+    }
+
+    /**
+     * Turns the head by angles.
+     *
+     * @param {number} left  radians
+     * @param {number} upwards  radians
+     */
+    look(left, upwards) {
+        this.set(look(this.view, left, upwards));
+    }
+
+    /**
+     * What a stick asks for, of the touch screen or of a game controller.
+     *
+     * @param {string} source
+     * @param {Motion} motion
+     */
+    stick(source, motion) {
+        this.#sticks.set(source, motion);
+        if (strength(motion) > 0) {
+            this.#flight = null;
+            this.#tickSoon();
         }
     }
 
@@ -211,15 +260,46 @@ export class CameraControl extends EventTarget {
             this.#show(between(from, to, Math.max(time, 0)));
             this.#flight = time >= 1 ? null : this.#flight;
         } else {
-            this.#moveByKeys(seconds);
+            this.#ease(seconds);
+            this.#moveBy(this.#motion, seconds);
         }
-        const busy = this.#flight || this.#keys.size > 0;
+        const busy = this.#flight || strength(this.#asked()) > 0 || strength(this.#motion) > 0;
         this.#ticking = busy ? requestAnimationFrame((next) => this.#tick(next)) : 0;
+    }
+
+    /** @returns {Motion} sum of keys and sticks */
+    #asked() {
+        const sum = motionOf(this.#keys, this.mode);
+        for (const motion of this.#sticks.values()) {
+            for (const name of /** @type {(keyof Motion)[]} */ (Object.keys(sum))) {
+                sum[name] = clamp(sum[name] + motion[name], -1, 1);
+            }
+        }
+        return sum;
+    }
+
+    /** @param {number} seconds */
+    #ease(seconds) {
+        const asked = this.#asked();
+        const part = 1 - Math.exp(-seconds / EASING_S);
+        for (const name of /** @type {(keyof Motion)[]} */ (Object.keys(asked))) {
+            this.#motion[name] += part * (asked[name] - this.#motion[name]);
+        }
+        if (strength(asked) === 0 && strength(this.#motion) < STANDING) {
+            this.#motion = noMotion();
+        }
     }
 
     /** @param {number} seconds */
     #moveByKeys(seconds) {
-        const motion = motionOf(this.#keys, this.mode);
+        this.#moveBy(motionOf(this.#keys, this.mode), seconds);
+    }
+
+    /**
+     * @param {Motion} motion
+     * @param {number} seconds
+     */
+    #moveBy(motion, seconds) {
         const metres = seconds * this.speed * (this.#hurry ? 3 : 1);
         let view = walk(
             this.view,

@@ -31,6 +31,19 @@ export class CameraLink {
          * @type {View | null}
          */
         this.shown = null;
+        /** Whether another viewer leads, so that the server knows the view before this page. */
+        this.led = false;
+    }
+
+    /**
+     * Takes over a view that the server shows already, since another viewer leads.
+     *
+     * @param {View} view
+     */
+    adopt(view) {
+        this.led = true;
+        this.#wanted = this.#sent = this.shown = view;
+        this.#pending.clear();
     }
 
     /** Starts anew, with a new connection. */
@@ -38,6 +51,7 @@ export class CameraLink {
         this.#pending.clear();
         this.#sent = null;
         this.shown = null;
+        this.led = false;
     }
 
     /** @param {View} view */
@@ -74,6 +88,7 @@ export class CameraLink {
             return;
         }
         this.#sent = view;
+        this.led = false;
         const {eye, target, up, verticalFov} = view;
         const {id, answer} = this.client.request({setCamera: {eye, target, up, verticalFov}});
         this.#pending.set(id, {view, sent: performance.now()});

@@ -6,7 +6,18 @@ import {axes} from './camera.js';
 import {FrameThrottle} from './frame_throttle.js';
 import {ServerError} from './protocol.js';
 import {shifted} from './scene_model.js';
-import {add, clamp, dot, intersectBounds, length, normalise, scale, sub, vec3} from './vector.js';
+import {
+    UP,
+    add,
+    clamp,
+    dot,
+    intersectBounds,
+    length,
+    normalise,
+    scale,
+    sub,
+    vec3,
+} from './vector.js';
 
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
@@ -95,7 +106,10 @@ export function keptInside(shift, object, scene) {
     return vec3(along('x'), shift.y, along('z'));
 }
 
-/** Events: `moved`, after an object's place has changed here; `rejected` (detail Error). */
+/**
+ * Events: `moved`, after an object's place has changed here; `rejected` (detail Error); `done`
+ * (detail {object, from, to}), after the server has carried out a move that begins and ends.
+ */
 export class ObjectMover extends EventTarget {
     /**
      * @type {{object: PlacedObject, grip: Grip, from: Required<Transform>, bounds: Bounds} | null}
@@ -162,7 +176,8 @@ export class ObjectMover extends EventTarget {
         const drag = this.#drag;
         this.forget();
         if (drag && drag.object.transform !== drag.from) {
-            await this.move(drag.object, keep ? drag.object.transform : drag.from);
+            const {object, from} = drag;
+            await this.move(object, keep ? object.transform : from, keep ? from : null);
         }
     }
 
@@ -171,13 +186,18 @@ export class ObjectMover extends EventTarget {
      *
      * @param {PlacedObject} object
      * @param {Transform} transform
+     * @param {Required<Transform> | null} from  where it was before; null: not to be undone
      */
-    async move(object, transform) {
+    async move(object, transform, from = object.transform) {
         object.place(transform);
         this.dispatchEvent(new Event('moved'));
         const moveObject = {object: object.id, transform: object.transform, final: true};
         try {
             await this.client.request({moveObject}).answer;
+            if (from) {
+                const detail = {object, from, to: moveObject.transform};
+                this.dispatchEvent(new CustomEvent('done', {detail}));
+            }
         } catch (error) {
             if (this.held !== object.id) {
                 object.place(object.confirmed);
@@ -205,6 +225,29 @@ export class ObjectMover extends EventTarget {
         const shift = add(scale(right, rightwards), scale(ahead, forwards));
         const level = keptInside(vec3(shift.x, 0, shift.z), object.bounds, scene);
         await this.move(object, shifted(object.transform, level, object.worldFromParent));
+    }
+
+    /**
+     * Takes hold of an object by other means than its surface, as by a handle.
+     *
+     * @param {PlacedObject} object
+     */
+    hold(object) {
+        const grip = {point: vec3(0, 0, 0), level: true, ray: {origin: UP, direction: UP}};
+        this.#drag = {object, grip, from: object.transform, bounds: object.bounds};
+    }
+
+    /**
+     * Places what is held.
+     *
+     * @param {Transform} transform
+     */
+    place(transform) {
+        if (this.#drag) {
+            this.#drag.object.place(transform);
+            this.dispatchEvent(new Event('moved'));
+            this.#unfinished.run();
+        }
     }
 
     #sendUnfinished() {

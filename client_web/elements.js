@@ -41,3 +41,65 @@ export function returnFocus(event) {
         document.getElementById('picture')?.focus({preventScroll: true});
     }
 }
+
+/**
+ * A row of a list that does something when it is pressed.
+ *
+ * @param {string} text
+ * @param {() => void} action
+ * @param {string} tag  shown at the end
+ * @returns {HTMLLIElement}
+ */
+export function listRow(text, action, tag = '') {
+    const item = document.createElement('li');
+    const button = document.createElement('button');
+    button.type = 'button';
+    for (const part of [text, tag]) {
+        const span = document.createElement('span');
+        span.textContent = part;
+        button.append(span);
+    }
+    button.lastElementChild?.classList.add('tag');
+    button.title = text;
+    button.addEventListener('click', (event) => {
+        action();
+        returnFocus(event);
+    });
+    item.append(button);
+    return item;
+}
+
+/**
+ * A small button.
+ *
+ * @param {string} label  its text
+ * @param {string} name  for those who hear it
+ * @param {() => void} action
+ */
+export function smallButton(label, name, action) {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.className = 'plain';
+    button.textContent = label;
+    button.setAttribute('aria-label', name);
+    button.title = name;
+    button.addEventListener('click', action);
+    return button;
+}
+
+/**
+ * Hands a file to the user.
+ *
+ * @param {Blob} blob
+ * @param {string} name
+ */
+export function saveFile(blob, name) {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+/** @type {(text: string) => string} */
+export const fileName = (text) => text.replaceAll(/[^\p{L}\p{N}]+/gu, '_').replaceAll(/^_|_$/g, '');

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts the page: the application, its keys, buttons and gestures.
+// Starts the page: the application, its tools and panels, its keys, buttons and gestures.
 
 import {RaybundleApp} from './app.js';
-import {byId, returnFocus} from './elements.js';
+import {Compare} from './compare.js';
+import {DisplayPanel} from './display_panel.js';
+import {byId, fileName, returnFocus, saveFile} from './elements.js';
+import {Gizmo} from './gizmo.js';
+import {Grabbing} from './grabbing.js';
+import {ChangeList, History, addHistory} from './history.js';
+import {addKeys} from './keys.js';
+import {LightPanel} from './light_panel.js';
+import {Marks} from './marks.js';
+import {Measuring} from './measure.js';
+import {People} from './people.js';
 import {PICTURE_SIZES} from './picture.js';
+import {Pins} from './pins.js';
 import {PointerControl} from './pointer_control.js';
+import {reportHtml} from './report.js';
+import {ScenePanel} from './scene_panel.js';
+import {fromHash, toHash} from './share.js';
+import {addTabs} from './tabs.js';
+import {TargetPanel, showEffects} from './target_panel.js';
+import {Viewpoints} from './viewpoints.js';
+import {FirstHint, Walking, remembered} from './walking.js';
 
 /** Below this width the panel starts closed, CSS pixels. */
 const PHONE_WIDTH = 700;
@@ -17,115 +35,130 @@ function socketUrl() {
     return url.href;
 }
 
-/**
- * What the address says after `#`, which is never sent over the network: name and token.
- *
- * @returns {{name: string, token: string}}
- */
-function settingsFromAddress() {
-    const parameters = new URLSearchParams(location.hash.slice(1));
-    return {name: parameters.get('name') ?? '', token: parameters.get('token') ?? ''};
-}
+const shared = fromHash(location.hash);
+const inAddress = new URLSearchParams(location.hash.slice(1));
+const app = new RaybundleApp({
+    url: socketUrl(),
+    name: inAddress.get('name') ?? remembered('name') ?? '',
+    token: inAddress.get('token') ?? '',
+    view: shared.view,
+});
+const history = new History();
+const marks = new Marks(app);
+const display = new DisplayPanel(app);
+const walking = new Walking(app);
+const gizmo = new Gizmo(app);
+const grabbing = new Grabbing(app);
+const measuring = new Measuring(app, marks, display);
+const people = new People(app, marks);
+const pins = new Pins(app, marks, people, measuring);
+const changes = new ChangeList(app, (viewer) => people.name(viewer));
+const compare = new Compare(app, display);
+const showTab = addTabs(/** @type {HTMLElement} */ (document.querySelector('[role="tablist"]')));
+new ScenePanel(app, grabbing);
+new LightPanel(app, history);
+new TargetPanel(app);
+new Viewpoints(app);
+new FirstHint(app);
+addHistory(app, history);
+app.on('welcome', (welcome) => showEffects(welcome.scene.effects ?? []));
 
 /**
- * Selects what can be moved; a click on the building deselects.
+ * What a click on the picture does, by tool.
  *
- * @param {RaybundleApp} app
  * @param {import('./pointer_control.js').Point} at
  */
-async function clickAt(app, at) {
-    const object = await app.pickAt(at.x, at.y);
-    app.select(object?.movable ? object.id : null);
+async function clickAt(at) {
+    if (app.tool === 'measure') {
+        await measuring.measureAt(at);
+    } else if (app.tool === 'pin') {
+        await pins.askAt(at);
+    } else {
+        const object = await app.pickAt(at.x, at.y);
+        app.select(object?.movable ? object.id : null);
+    }
 }
 
-/** @param {RaybundleApp} app */
-function addGestures(app) {
-    return new PointerControl(app.picture.element, {
-        grab: (at) => app.grab(at),
-        drag: (at) => app.drag(at),
-        release: (keep) => app.release(keep),
-        hover: (at) => app.hover(at),
-        click: (at) => clickAt(app, at),
-        turn: (x, y) => app.camera.turn(x, y),
-        pan: (x, y) => app.camera.pan(x, y),
-        zoom: (factor) => app.camera.zoom(factor),
-    });
-}
-
-/**
- * Orbit or walk.
- *
- * @param {RaybundleApp} app
- * @param {import('./camera_control.js').Mode} mode
- */
-function setMode(app, mode) {
-    app.camera.mode = mode;
-    for (const button of document.querySelectorAll('[data-mode]')) {
-        const pressed = /** @type {HTMLElement} */ (button).dataset.mode === mode;
+/** @param {string} tool */
+function setTool(tool) {
+    pins.cancel();
+    app.setTool(tool);
+    for (const button of document.querySelectorAll('[data-tool]')) {
+        const pressed = /** @type {HTMLElement} */ (button).dataset.tool === tool;
         button.setAttribute('aria-pressed', String(pressed));
     }
-}
-
-const NUDGE_KEYS = new Map([
-    ['ArrowLeft', [-1, 0]],
-    ['ArrowRight', [1, 0]],
-    ['ArrowUp', [0, 1]],
-    ['ArrowDown', [0, -1]],
-]);
-
-/**
- * @param {RaybundleApp} app
- * @param {PointerControl} pointers
- * @param {KeyboardEvent} event
- * @returns {boolean} whether the key means anything
- */
-function pressKey(app, pointers, event) {
-    const nudge = event.shiftKey && app.selected?.movable ? NUDGE_KEYS.get(event.code) : undefined;
-    if (nudge) {
-        app.nudge(nudge[0], nudge[1]);
-    } else if (event.key === 'Escape') {
-        if (!pointers.cancel()) {
-            app.select(null);
-        }
-    } else if (event.key === '+' || event.key === '-') {
-        app.camera.zoom(event.key === '+' ? 0.9 : 1 / 0.9);
-    } else if (event.key === 'Home') {
-        app.flyTo(0);
-    } else if (event.code === 'KeyM') {
-        setMode(app, app.camera.mode === 'orbit' ? 'walk' : 'orbit');
-    } else {
-        return app.camera.keyDown(event.code, event.shiftKey);
+    if (tool !== 'select') {
+        showTab(tool === 'measure' ? 'tab-measure' : 'tab-review');
     }
-    return true;
 }
 
-/**
- * Keys work while the picture has the focus, or nothing has.
- *
- * @param {RaybundleApp} app
- * @param {PointerControl} pointers
- */
-function addKeys(app, pointers) {
-    document.addEventListener('keydown', (event) => {
-        const here = event.target === document.body || event.target === app.picture.element;
-        const modified = event.ctrlKey || event.metaKey || event.altKey;
-        if (here && !modified && pressKey(app, pointers, event)) {
-            event.preventDefault();
-        }
+/** Link to what is on screen. */
+function linkHere() {
+    const url = new URL(location.href);
+    url.hash = toHash({
+        view: app.view,
+        exposure: display.autoExposure ? null : display.exposure,
+        mode: display.mode,
+        selected: app.selected?.id ?? null,
     });
-    document.addEventListener('keyup', (event) => app.camera.keyUp(event.code));
-    addEventListener('blur', () => app.camera.releaseKeys());
-    document.addEventListener('focusout', () => app.camera.releaseKeys());
+    return url.href;
 }
 
-/** @param {RaybundleApp} app */
-function addButtons(app) {
-    for (const button of document.querySelectorAll('[data-mode]')) {
+async function copyLink() {
+    const link = linkHere();
+    try {
+        await navigator.clipboard.writeText(link);
+        app.status.notify('A link to this view has been copied.');
+    } catch {
+        // Without the right to the clipboard the address bar has it.
+        window.history.replaceState(null, '', link);
+        app.status.notify('The address of this page is now a link to this view.');
+    }
+}
+
+function saveReport() {
+    const {canvas} = app.picture;
+    const seen = [...pins.pins.values()].flatMap((pin) => {
+        const {x, y, depth} = app.project(pins.positionOf(pin));
+        const {clientWidth, clientHeight} = app.picture.element;
+        const at = {pin: pin.pin, x: x / clientWidth, y: y / clientHeight};
+        return depth > 0 && at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1 ? [at] : [];
+    });
+    const grid = measuring.grid && {
+        object: measuring.grid.object,
+        columns: measuring.grid.grid.columns,
+        rows: measuring.grid.grid.rows,
+        illuminance: measuring.grid.result.illuminance,
+    };
+    const title = app.scene?.title ?? 'Scene';
+    const html = reportHtml({
+        title,
+        server: app.client.welcome?.server ?? '',
+        time: new Date(),
+        epoch: app.scene?.epoch ?? 0,
+        error: app.stats.relativeError,
+        picture: canvas.toDataURL('image/jpeg', 0.92),
+        address: linkHere(),
+        unit: measuring.unit,
+        pins: [...pins.pins.values()],
+        points: measuring.points,
+        grid,
+        changes: changes.entries,
+        pinsInPicture: seen,
+    });
+    saveFile(new Blob([html], {type: 'text/html'}), `${fileName(title)}_review.html`);
+}
+
+/** @param {boolean} open */
+function setPanel(open) {
+    byId('app', HTMLElement).classList.toggle('panel-closed', !open);
+    byId('panel-toggle', HTMLElement).setAttribute('aria-expanded', String(open));
+}
+
+function addButtons() {
+    for (const button of document.querySelectorAll('[data-tool]')) {
         button.addEventListener('click', (event) => {
-            setMode(
-                app,
-                /** @type {HTMLElement} */ (button).dataset.mode === 'walk' ? 'walk' : 'orbit',
-            );
+            setTool(/** @type {HTMLElement} */ (button).dataset.tool ?? 'select');
             returnFocus(/** @type {MouseEvent} */ (event));
         });
     }
@@ -136,21 +169,73 @@ function addButtons(app) {
         }
     });
     const toggle = byId('panel-toggle', HTMLButtonElement);
-    const setPanel = (/** @type {boolean} */ open) => {
-        byId('app', HTMLElement).classList.toggle('panel-closed', !open);
-        toggle.setAttribute('aria-expanded', String(open));
-    };
     toggle.addEventListener('click', () => {
         setPanel(toggle.getAttribute('aria-expanded') !== 'true');
     });
+    byId('summary', HTMLElement).addEventListener('click', () => {
+        setPanel(true);
+        showTab('tab-accuracy');
+    });
+    byId('share', HTMLElement).addEventListener('click', copyLink);
+    byId('share-again', HTMLElement).addEventListener('click', copyLink);
+    byId('report', HTMLElement).addEventListener('click', saveReport);
     setPanel(innerWidth > PHONE_WIDTH);
 }
 
-const app = new RaybundleApp({url: socketUrl(), ...settingsFromAddress()});
-addButtons(app);
-addKeys(app, addGestures(app));
+/** What a link says besides the view: once, at the first welcome. */
+function restoreShared() {
+    let restored = false;
+    app.on('welcome', () => {
+        if (restored) {
+            return;
+        }
+        restored = true;
+        if (shared.mode !== 'PHOTO') {
+            display.setMode(shared.mode);
+        }
+        if (shared.exposure !== null) {
+            display.autoExposure = false;
+            display.setExposure(shared.exposure);
+        }
+        if (shared.selected !== null) {
+            setTimeout(() => app.select(shared.selected));
+        }
+    });
+}
+
+const pointers = new PointerControl(app.picture.element, {
+    grab: (at) => grabbing.grab(at),
+    drag: (at) => grabbing.drag(at),
+    release: (keep) => grabbing.release(keep),
+    hover: (at) => grabbing.hover(at),
+    click: clickAt,
+    turn: (x, y) => app.camera.turn(x, y),
+    pan: (x, y) => app.camera.pan(x, y),
+    zoom: (factor) => app.camera.zoom(factor),
+});
+app.picture.element.addEventListener('dblclick', (event) => {
+    const box = app.picture.element.getBoundingClientRect();
+    pins.cancel();
+    walking.goTo({x: event.clientX - box.left, y: event.clientY - box.top});
+});
+addButtons();
+addKeys({
+    app,
+    walking,
+    gizmo,
+    grabbing,
+    display,
+    history,
+    setTool,
+    clickMiddle: () => {
+        const {clientWidth, clientHeight} = app.picture.element;
+        clickAt({x: clientWidth / 2, y: clientHeight / 2});
+    },
+    cancel: () => pins.cancel() || gizmo.cancel() || pointers.cancel(),
+});
+restoreShared();
 document.addEventListener('visibilitychange', () => {
     app.client.paused = document.hidden;
 });
-Object.assign(window, {raybundle: app});
+Object.assign(window, {raybundle: app, raybundleParts: {display, walking, measuring, people, pins, compare, history}});
 app.start();

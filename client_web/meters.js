@@ -70,28 +70,18 @@ export class Samples {
     }
 }
 
-/**
- * @typedef {object} ErrorSample
- * @property {number} time  milliseconds
- * @property {number} error
- * @property {number} low
- * @property {number} high
- * @property {number} epoch
- */
+/** @typedef {import('./error_plot.js').PlotSample} PlotSample */
 
-/** The estimated error over the last minute. */
+/** Samples follow one another in steps of this factor of the time, or they are left out. */
+const NEXT_SAMPLE = 1.04;
+const LEAST_STEP_S = 0.05;
+
+/** The estimated error since the last change of the scene; bounded, since its time is logarithmic. */
 export class ErrorHistory {
-    /** @type {ErrorSample[]} */
+    /** @type {PlotSample[]} */
     samples = [];
-
-    /**
-     * @param {number} spanMs
-     * @param {number} intervalMs  samples that follow sooner are left out
-     */
-    constructor(spanMs = 60000, intervalMs = 250) {
-        this.spanMs = spanMs;
-        this.intervalMs = intervalMs;
-    }
+    #epoch = -1;
+    #start = 0;
 
     /**
      * @param {number} now  milliseconds
@@ -99,21 +89,24 @@ export class ErrorHistory {
      * @returns {boolean} whether it was taken
      */
     add(now, {epoch, relativeError: error, errorLow, errorHigh}) {
-        const last = this.samples.at(-1);
-        const soon = last && now - last.time < this.intervalMs && last.epoch === epoch;
+        if (epoch !== this.#epoch) {
+            this.#epoch = epoch;
+            this.#start = now;
+            this.samples = [];
+        }
+        const seconds = (now - this.#start) / 1000;
+        const last = this.samples.at(-1)?.seconds ?? 0;
+        const soon = seconds < Math.max(last * NEXT_SAMPLE, last + LEAST_STEP_S);
         if (error === undefined || !(error > 0) || !Number.isFinite(error) || soon) {
             return false;
         }
-        const sample = {time: now, error, low: errorLow ?? error, high: errorHigh ?? error, epoch};
-        this.samples.push(sample);
-        while (now - this.samples[0].time > this.spanMs) {
-            this.samples.shift();
-        }
+        this.samples.push({seconds, error, low: errorLow ?? error, high: errorHigh ?? error});
         return true;
     }
 
     /** Forgets everything. */
     clear() {
         this.samples = [];
+        this.#epoch = -1;
     }
 }

@@ -8,6 +8,7 @@ import {corners, mix} from './vector.js';
  * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {import('./protocol.js').View} View
  * @typedef {import('./protocol.js').Bounds} Bounds
+ * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  */
 
 /** Points nearer to the eye's plane are not drawn, metres. */
@@ -55,9 +56,22 @@ export function visibleEdges(bounds, eye) {
  * @returns {string} empty: nothing of it lies before the eye
  */
 export function outlinePath(bounds, view, width, height) {
+    return edgesPath(visibleEdges(bounds, view.eye), view, width, height);
+}
+
+/**
+ * SVG path of edges in space.
+ *
+ * @param {[Vec3, Vec3][]} edges
+ * @param {View} view
+ * @param {number} width  of the picture
+ * @param {number} height  of the picture
+ * @returns {string} empty: nothing of them lies before the eye
+ */
+export function edgesPath(edges, view, width, height) {
     const aspect = width / height;
     let path = '';
-    for (const [start, end] of visibleEdges(bounds, view.eye)) {
+    for (const [start, end] of edges) {
         const a = project(view, aspect, start);
         const b = project(view, aspect, end);
         if (a.depth < NEAR && b.depth < NEAR) {
@@ -77,31 +91,84 @@ export function outlinePath(bounds, view, width, height) {
     return path;
 }
 
+/**
+ * What a layer draws with: the picture's view and size, CSS pixels.
+ *
+ * @typedef {object} OverlayFrame
+ * @property {View} view
+ * @property {number} width
+ * @property {number} height
+ * @property {(point: Vec3) => {x: number, y: number, depth: number}} place
+ * @property {(name: string, object: PlacedObject | null) => void} box  its outline into a group
+ */
+
+/** Layers over the picture, drawn together at most once in an animation frame. */
 export class Overlay {
+    /** @type {((frame: OverlayFrame) => void)[]} */
+    #layers = [];
+    #scheduled = false;
+    /** @type {{view: View, aspect: number} | null} */
+    #wanted = null;
+
     /** @param {SVGSVGElement} svg  with groups of class `selected` and `hovered`, each of paths */
     constructor(svg) {
         this.svg = svg;
     }
 
+    /** @param {(frame: OverlayFrame) => void} layer */
+    add(layer) {
+        this.#layers.push(layer);
+    }
+
     /**
-     * @param {View} view  of the picture beneath
-     * @param {number} aspect  of the picture beneath, which covers the element as CSS has it
-     * @param {{selected: Bounds | null, hovered: Bounds | null}} boxes
+     * @param {string} name  class of a group
+     * @returns {SVGGElement}
      */
-    draw(view, aspect, boxes) {
-        const {clientWidth, clientHeight} = this.svg;
-        if (clientWidth === 0 || clientHeight === 0) {
+    group(name) {
+        const found = this.svg.querySelector(`.${name}`);
+        if (!(found instanceof SVGGElement)) {
+            throw new Error(`The page lacks the group ${name} over the picture.`);
+        }
+        return found;
+    }
+
+    /**
+     * @param {View} view
+     * @param {number} aspect  of the element, width over height
+     */
+    draw(view, aspect) {
+        this.#wanted = {view, aspect};
+        if (!this.#scheduled) {
+            this.#scheduled = true;
+            requestAnimationFrame(() => this.#drawNow());
+        }
+    }
+
+    #drawNow() {
+        this.#scheduled = false;
+        const {clientWidth: width, clientHeight: height} = this.svg;
+        if (width === 0 || height === 0 || !this.#wanted) {
             return;
         }
-        const width = Math.max(clientWidth, clientHeight * aspect);
-        const height = width / aspect;
-        const [left, top] = [(width - clientWidth) / 2, (height - clientHeight) / 2];
-        this.svg.setAttribute('viewBox', `${left} ${top} ${clientWidth} ${clientHeight}`);
-        for (const [name, bounds] of Object.entries(boxes)) {
-            const path = bounds ? outlinePath(bounds, view, width, height) : '';
-            for (const element of this.svg.querySelectorAll(`.${name} path`)) {
-                element.setAttribute('d', path);
-            }
-        }
+        const {view, aspect} = this.#wanted;
+        this.svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+        /** @type {OverlayFrame} */
+        const frame = {
+            view,
+            width,
+            height,
+            place: (point) => {
+                const {x, y, depth} = project(view, aspect, point);
+                return {x: x * width, y: y * height, depth};
+            },
+            box: (name, object) => {
+                const edges = object?.boxEdges(view.eye) ?? [];
+                const path = edgesPath(edges, view, width, height);
+                for (const element of this.svg.querySelectorAll(`.${name} path`)) {
+                    element.setAttribute('d', path);
+                }
+            },
+        };
+        this.#layers.forEach((layer) => layer(frame));
     }
 }

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture: shows frames, and says how large they should be.
 
+import {cssMatrix, homography} from './view_warp.js';
+
 /** @typedef {import('./protocol.js').Viewport} Viewport */
+/** @typedef {import('./protocol.js').View} View */
+
+/** Side of the small copy that fills what a warped picture leaves open, pixels. */
+const BACKDROP_SIDE = 24;
 
 /** Pixels asked for at most, by choice of the user. */
 export const PICTURE_SIZES = Object.freeze({
@@ -46,6 +52,8 @@ export class Picture extends EventTarget {
     #timer;
     /** @type {PictureSize} */
     #size = 'standard';
+    /** @type {HTMLCanvasElement} */
+    #backdrop;
 
     /**
      * @param {HTMLElement} element
@@ -61,6 +69,10 @@ export class Picture extends EventTarget {
             throw new Error('This browser offers no 2D canvas.');
         }
         this.context = context;
+        this.#backdrop = document.createElement('canvas');
+        this.#backdrop.className = 'backdrop';
+        this.#backdrop.width = this.#backdrop.height = BACKDROP_SIDE;
+        element.prepend(this.#backdrop);
         new ResizeObserver(() => this.#resized()).observe(element);
         this.#watchPixelRatio();
     }
@@ -107,7 +119,21 @@ export class Picture extends EventTarget {
             this.canvas.height = image.height;
         }
         this.context.drawImage(image, 0, 0);
+        const small = this.#backdrop.getContext('2d', {alpha: false});
+        small?.drawImage(image, 0, 0, BACKDROP_SIDE, BACKDROP_SIDE);
         this.element.classList.add('has-picture');
+    }
+
+    /**
+     * Puts the picture where it belongs in a view, until the server's picture of it is there.
+     *
+     * @param {View} shown  that the picture was made for
+     * @param {View} view  wanted now
+     */
+    warp(shown, view) {
+        const {clientWidth, clientHeight} = this.element;
+        const matrix = homography(shown, this.shownAspect, view, this.aspect);
+        this.canvas.style.transform = matrix ? cssMatrix(matrix, clientWidth, clientHeight) : '';
     }
 
     #resized() {

@@ -41,13 +41,22 @@ export const SUBPROTOCOL = 'raybundle.v1';
  */
 
 /**
+ * @typedef {object} Material
+ * @property {number} id
+ * @property {string} name
+ * @property {Vec3} [baseColour]  linear Rec. 709; absent: not told
+ * @property {number} [roughness]  0..1
+ * @property {number} [metallic]  0..1
+ */
+
+/**
  * @typedef {object} Scene
  * @property {string} name
  * @property {Bounds} bounds
  * @property {SceneObject[]} objects
  * @property {Light[]} lights
  * @property {(View & {name: string})[]} cameras
- * @property {{id: number, name: string}[]} materials
+ * @property {Material[]} materials
  * @property {{name: string, active: boolean, reason: string}[]} effects
  */
 
@@ -60,6 +69,10 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} epoch
  * @property {Scene} scene
  * @property {{maxWidth: number, maxHeight: number, maxMessageBytes: number}} limits
+ * @property {string} [renderer]  of the server's GL
+ * @property {boolean} [softwareRendering]
+ * @property {Pin[]} [pins]
+ * @property {SavedViewpoint[]} [viewpoints]
  */
 
 /**
@@ -89,12 +102,66 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [errorLow]
  * @property {number} [errorHigh]
  * @property {number} exposure  EV (log2)
+ * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
  * @property {number} serverTimeMs
  */
 
 /** @typedef {{object: number, transform: Transform, final?: boolean}} MoveObject */
 
-/** @typedef {{epoch: number, by: number, moveObject?: MoveObject}} SceneChanged */
+/** @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3}} SetLight */
+
+/**
+ * @typedef {{material: number, baseColour?: Vec3, roughness?: number, metallic?: number}} SetMaterial
+ */
+
+/**
+ * @typedef {object} SceneChanged
+ * @property {number} epoch
+ * @property {number} by
+ * @property {MoveObject} [moveObject]
+ * @property {SetLight} [setLight]
+ * @property {SetMaterial} [setMaterial]
+ */
+
+/**
+ * @typedef {object} Pin
+ * @property {number} pin
+ * @property {number} by
+ * @property {string} byName
+ * @property {string} text
+ * @property {Vec3} position
+ * @property {number} illuminance  lx, when it was set
+ * @property {number} epoch  when it was set
+ * @property {boolean} removed
+ * @property {number} setAtMs  Unix time
+ * @property {number} object  0: none
+ * @property {Vec3} localPosition  in the space of the object
+ * @property {number} [relativeError]
+ * @property {number} [change]  of the illuminance since then, relative
+ */
+
+/**
+ * @typedef {object} SavedViewpoint
+ * @property {number} viewpoint
+ * @property {number} by
+ * @property {View & {name: string}} [camera]
+ * @property {boolean} removed
+ */
+
+/**
+ * @typedef {object} Viewer
+ * @property {number} viewer
+ * @property {string} name
+ * @property {Role} role
+ * @property {Vec3} eye
+ * @property {Vec3} target
+ * @property {Vec3} [up]
+ * @property {number} verticalFov
+ * @property {number} aspect
+ * @property {number} following  0: nobody
+ */
+
+/** @typedef {{illuminance: number[], relativeError: number[], epoch: number}} ProbeGridResult */
 
 /**
  * @typedef {object} ProbeResult
@@ -119,6 +186,11 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {ProbeResult} [probeResult]
  * @property {{serverTimeMs: number}} [pong]
  * @property {Solution} [solution]
+ * @property {Pin} [pinChanged]
+ * @property {SavedViewpoint} [viewpointChanged]
+ * @property {{by: number, position: Vec3}} [pointed]
+ * @property {{viewers: Viewer[]}} [presence]
+ * @property {ProbeGridResult} [probeGridResult]
  */
 
 /** An `error` message of the server, as an exception. */

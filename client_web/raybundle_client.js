@@ -44,7 +44,7 @@ export function retryDelay(attempt, random) {
 }
 
 /**
- * Events: `state` (detail {state, reason, retryAt}), `welcome`, `frame` (detail {header, image,
+ * Events: `state` (detail {state, reason, code, retryAt}), `welcome`, `frame` (detail {header, image,
  * decodeMs}), `solution`, `sceneChanged`, `roundTrip` (detail milliseconds), `problem` (detail
  * ServerError, of a message that expects no answer), `message` (every text message).
  */
@@ -189,9 +189,9 @@ export class RaybundleClient extends EventTarget {
     #refused(error) {
         this.#drop();
         if (FINAL_CODES.has(error.code)) {
-            this.#become('refused', error.message);
+            this.#become('refused', error.message, error.code);
         } else {
-            this.#retryLater(error.message);
+            this.#retryLater(error.message, error.code);
         }
     }
 
@@ -201,12 +201,15 @@ export class RaybundleClient extends EventTarget {
         this.#retryLater(reason);
     }
 
-    /** @param {string} reason */
-    #retryLater(reason) {
+    /**
+     * @param {string} reason
+     * @param {string} code  of the server's error, if it was one
+     */
+    #retryLater(reason, code = '') {
         const delay = retryDelay(this.#attempt++, Math.random());
         this.retryAt = performance.now() + delay;
         this.#retryTimer = setTimeout(() => this.connect(), delay);
-        this.#become('reconnecting', reason);
+        this.#become('reconnecting', reason, code);
     }
 
     /** Lets go of the socket and of everything that waits for it. */
@@ -296,11 +299,12 @@ export class RaybundleClient extends EventTarget {
     /**
      * @param {ConnectionState} state
      * @param {string} reason
+     * @param {string} code
      */
-    #become(state, reason) {
+    #become(state, reason, code = '') {
         this.state = state;
         this.reason = reason;
-        this.#emit('state', {state, reason, retryAt: this.retryAt});
+        this.#emit('state', {state, reason, code, retryAt: this.retryAt});
     }
 
     /**

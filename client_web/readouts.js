@@ -3,9 +3,9 @@
 // every frame.
 
 import {byId, showValue} from './elements.js';
+import {drawErrorPlot} from './error_plot.js';
 import {count, milliseconds, percent, progress, rate} from './format.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
-import {drawSparkline} from './sparkline.js';
 
 /**
  * @typedef {import('./protocol.js').FrameHeader} FrameHeader
@@ -27,7 +27,10 @@ export class Readouts {
     #header = null;
     /** @type {Solution | null} */
     #solution = null;
-    #sparkline = byId('sparkline', SVGSVGElement);
+    #plot = byId('error-plot', SVGSVGElement);
+    #state = byId('summary-state', HTMLElement);
+    /** Relative error that is wanted, where one is. @type {number | null} */
+    target = null;
     #bar = byId('settled', HTMLProgressElement);
 
     constructor() {
@@ -98,21 +101,19 @@ export class Readouts {
         showValue('iterationRate', rate(stats.iterationsPerSecond));
         showValue('frameRate', rate(stats.framesPerSecond));
         showValue('latency', milliseconds(stats.latencyMs));
+        showValue('latencyP95', milliseconds(stats.latencyP95Ms));
         showValue('roundTrip', milliseconds(stats.roundTripMs));
         showValue('decode', milliseconds(stats.decodeMs));
         showValue('settled', this.#header || this.#solution ? progress(settled) : '–');
         this.#bar.value = settled;
         this.#bar.classList.toggle('done', settled >= SETTLED);
-        this.#showTarget(stats.secondsToTarget);
+        const known = this.#header !== null || this.#solution !== null;
+        const done = settled >= SETTLED;
+        this.#state.dataset.settled = known && done ? 'yes' : 'no';
+        const text = done ? 'Light has settled' : `Light is settling, ${progress(settled)}`;
+        showValue('settledState', known ? text : 'Waiting for light');
         this.#showFormat();
-        drawSparkline(this.#sparkline, this.#history.samples);
-    }
-
-    /** @param {number | null} seconds */
-    #showTarget(seconds) {
-        const row = document.querySelector('[data-row="secondsToTarget"]');
-        row?.toggleAttribute('hidden', seconds === null);
-        showValue('secondsToTarget', seconds === null ? '' : `${seconds.toFixed(1)} s`);
+        drawErrorPlot(this.#plot, this.#history.samples, this.target);
     }
 
     #showFormat() {

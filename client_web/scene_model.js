@@ -2,6 +2,7 @@
 // What the page knows of the scene: objects, where they stand, and where the server last said they
 // stand. The two differ while a move is on its way.
 
+import {visibleEdges} from './overlay.js';
 import {
     IDENTITY,
     add,
@@ -100,6 +101,30 @@ export class PlacedObject {
         this.confirmed = completeTransform(transform);
     }
 
+    /**
+     * Edges of the box around the object, turned with it, that no face of the box hides.
+     *
+     * @param {Vec3} eye
+     * @returns {[Vec3, Vec3][]}
+     */
+    boxEdges(eye) {
+        const parent = this.worldFromParent;
+        /** @type {(from: Transform, to: Transform) => (point: Vec3) => Vec3} */
+        const carried = (from, to) => (point) => {
+            const inNode = inverseTransformPoint(from, inverseMatrixPoint(parent, point));
+            return matrixPoint(parent, transformPoint(to, inNode));
+        };
+        const now = carried(this.#originalTransform, this.transform);
+        const eyeThen = carried(this.transform, this.#originalTransform)(eye);
+        const edges = visibleEdges(this.#originalBounds, eyeThen);
+        return edges.map(([start, end]) => [now(start), now(end)]);
+    }
+
+    /** Local transform as this page was told first. */
+    get original() {
+        return completeTransform(this.#originalTransform);
+    }
+
     /** Where it has been moved to since the scene was loaded into this page, metres. */
     get shift() {
         const original = completeTransform(this.#originalTransform).translation;
@@ -115,10 +140,14 @@ export class SceneModel {
      */
     constructor(scene, epoch) {
         this.name = scene.name;
+        /** The name as people would write it. */
+        this.title = scene.name.replaceAll(/[_-]+/g, ' ').replace(/^./, (c) => c.toUpperCase());
         this.bounds = scene.bounds;
         this.cameras = scene.cameras ?? [];
         this.effects = scene.effects ?? [];
         this.epoch = epoch;
+        this.lights = (scene.lights ?? []).map((light) => ({...light}));
+        this.materials = (scene.materials ?? []).map((material) => ({...material}));
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
     }
 
@@ -138,6 +167,8 @@ export class SceneModel {
      */
     apply(change, held) {
         this.epoch = change.epoch;
+        this.#applyLight(change.setLight);
+        this.#applyMaterial(change.setMaterial);
         const move = change.moveObject;
         const object = move ? this.object(move.object) : null;
         if (!move || !object) {
@@ -146,6 +177,26 @@ export class SceneModel {
         object.confirm(move.transform);
         if (object.id !== held) {
             object.place(move.transform);
+        }
+    }
+
+    /** @param {import('./protocol.js').SetLight | undefined} change */
+    #applyLight(change) {
+        const light = this.lights.find(({id}) => id === change?.light);
+        if (light && change) {
+            light.intensity = change.intensity ?? light.intensity;
+            light.on = change.on ?? light.on;
+            light.colour = change.colour ?? light.colour;
+        }
+    }
+
+    /** @param {import('./protocol.js').SetMaterial | undefined} change */
+    #applyMaterial(change) {
+        const material = this.materials.find(({id}) => id === change?.material);
+        if (material && change) {
+            material.baseColour = change.baseColour ?? material.baseColour;
+            material.roughness = change.roughness ?? material.roughness;
+            material.metallic = change.metallic ?? material.metallic;
         }
     }
 }

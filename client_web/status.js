@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of the connection and passing notices.
+// The state of the connection, what is being waited for, and passing notices.
 
 import {byId, showValue} from './elements.js';
 
-/** @typedef {import('./raybundle_client.js').ConnectionState} ConnectionState */
+/**
+ * @typedef {import('./raybundle_client.js').ConnectionState} ConnectionState
+ * @typedef {import('./raybundle_client.js').RaybundleClient} RaybundleClient
+ * @typedef {import('./protocol.js').Welcome} Welcome
+ * @typedef {{state: ConnectionState, reason: string, code: string, retryAt: number}} StateChange
+ */
 
 const STATE_TEXTS = {
     idle: 'Disconnected',
@@ -13,33 +18,66 @@ const STATE_TEXTS = {
     refused: 'Refused',
 };
 
-const TITLES = {
-    idle: 'Disconnected',
-    connecting: 'Connecting to the server',
-    connected: '',
-    reconnecting: 'The connection to the server is lost',
-    refused: 'The server has refused the connection',
-};
-
 const NOTICE_MS = 8000;
 const MAX_NOTICES = 3;
+
+/**
+ * What the banner says.
+ *
+ * @param {StateChange} change
+ * @param {boolean} hasPicture
+ * @returns {{title: string, retry: string, asksForToken: boolean}}  `retry` names the button
+ */
+export function bannerOf({state, code}, hasPicture) {
+    const asksForToken = state === 'refused' && code === 'UNAUTHENTICATED';
+    if (asksForToken) {
+        return {title: 'This server asks for an access token', retry: '', asksForToken};
+    }
+    if (state === 'refused' && code === 'UNIMPLEMENTED') {
+        const title = 'This page and the server speak different versions';
+        return {title, retry: 'Load the page again', asksForToken};
+    }
+    const lost = hasPicture ? 'The connection to the server is lost' : 'Waiting for the server';
+    const titles = {
+        idle: 'Disconnected',
+        connecting: 'Connecting to the server',
+        connected: '',
+        reconnecting: code === 'RESOURCE_EXHAUSTED' ? 'The server is full' : lost,
+        refused: 'The server has refused the connection',
+    };
+    const retry = state === 'connecting' || state === 'connected' ? '' : 'Try again now';
+    return {title: titles[state], retry, asksForToken};
+}
 
 export class Status {
     #banner = byId('banner', HTMLElement);
     #retry = byId('banner-retry', HTMLButtonElement);
     #connection = byId('connection', HTMLElement);
     #notices = byId('notices', HTMLElement);
-    /** @type {{state: ConnectionState, reason: string, retryAt: number}} */
-    #shown = {state: 'idle', reason: '', retryAt: 0};
+    #tokenForm = byId('token-form', HTMLFormElement);
+    #preparing = byId('preparing', HTMLElement);
+    /** @type {StateChange} */
+    #shown = {state: 'idle', reason: '', code: '', retryAt: 0};
 
-    /** @param {() => void} retry */
-    constructor(retry) {
-        this.#retry.addEventListener('click', retry);
+    /** @param {RaybundleClient} client */
+    constructor(client) {
+        this.#retry.addEventListener('click', () => {
+            if (this.#shown.code === 'UNIMPLEMENTED') {
+                location.reload();
+            } else {
+                client.connect();
+            }
+        });
+        this.#tokenForm.addEventListener('submit', (event) => {
+            event.preventDefault();
+            client.settings.token = byId('token', HTMLInputElement).value.trim();
+            client.connect();
+        });
         setInterval(() => this.#tick(), 500);
     }
 
     /**
-     * @param {{state: ConnectionState, reason: string, retryAt: number}} change
+     * @param {StateChange} change
      * @param {boolean} hasPicture
      */
     show(change, hasPicture) {
@@ -48,13 +86,37 @@ export class Status {
         this.#connection.dataset.state = state;
         byId('app', HTMLElement).classList.toggle('offline', state !== 'connected');
         byId('connection-text', HTMLElement).textContent = STATE_TEXTS[state];
-        const waiting = state === 'reconnecting' && !hasPicture;
-        const title = waiting ? 'Waiting for the server' : TITLES[state];
+        const {title, retry, asksForToken} = bannerOf(change, hasPicture);
         byId('banner-title', HTMLElement).textContent = title;
         this.#banner.hidden = state === 'connected';
         this.#banner.classList.toggle('aside', hasPicture);
-        this.#retry.hidden = state === 'connecting' || state === 'connected';
+        this.#retry.hidden = retry === '';
+        this.#retry.textContent = retry || 'Try again now';
+        this.#tokenForm.hidden = !asksForToken;
+        this.#preparing.hidden = true;
         this.#tick();
+    }
+
+    /**
+     * @param {Welcome} welcome
+     * @param {string} title  of the scene
+     * @param {boolean} hasPicture
+     */
+    showWelcome(welcome, title, hasPicture) {
+        document.title = `${title} – Raybundle`;
+        byId('scene-name', HTMLElement).textContent = title;
+        showValue('server', welcome.server);
+        this.#preparing.hidden = hasPicture;
+        const renderer = byId('renderer', HTMLElement);
+        renderer.hidden = !welcome.softwareRendering;
+        renderer.textContent =
+            'This server draws without a graphics card, so pictures come a few times a second.' +
+            ` (${welcome.renderer ?? ''})`;
+    }
+
+    /** There is a picture now. */
+    showPicture() {
+        this.#preparing.hidden = true;
     }
 
     /**
@@ -62,8 +124,9 @@ export class Status {
      *
      * @param {string} text
      * @param {'notice' | 'problem'} kind
+     * @param {{label: string, run: () => void} | null} action  offered as a button
      */
-    notify(text, kind = 'notice') {
+    notify(text, kind = 'notice', action = null) {
         const same = [...this.#notices.children].some((n) => n.firstChild?.textContent === text);
         if (same) {
             return;
@@ -72,12 +135,22 @@ export class Status {
         notice.className = `notice ${kind}`;
         const message = document.createElement('span');
         message.textContent = text;
-        const close = document.createElement('button');
-        close.type = 'button';
-        close.textContent = '×';
-        close.setAttribute('aria-label', 'Dismiss');
-        close.addEventListener('click', () => notice.remove());
-        notice.append(message, close);
+        notice.append(message);
+        const addButton = (/** @type {string} */ label, /** @type {() => void} */ run) => {
+            const button = document.createElement('button');
+            button.type = 'button';
+            button.textContent = label;
+            button.addEventListener('click', () => {
+                notice.remove();
+                run();
+            });
+            notice.append(button);
+            return button;
+        };
+        if (action) {
+            addButton(action.label, action.run);
+        }
+        addButton('×', () => {}).setAttribute('aria-label', 'Dismiss');
         this.#notices.append(notice);
         while (this.#notices.children.length > MAX_NOTICES) {
             this.#notices.firstElementChild?.remove();
@@ -85,17 +158,16 @@ export class Status {
         setTimeout(() => notice.remove(), NOTICE_MS);
     }
 
-    /** @param {string} server  name and version */
-    showServer(server) {
-        showValue('server', server);
-    }
-
     #tick() {
         const {state, reason, retryAt} = this.#shown;
         const seconds = Math.max(0, Math.ceil((retryAt - performance.now()) / 1000));
         const next = seconds > 0 ? `Next attempt in ${seconds}\u00a0s.` : 'Trying again.';
-        const parts = [reason, state === 'reconnecting' ? next : ''];
+        const parts = [sentence(reason), state === 'reconnecting' ? next : ''];
         const text = byId('banner-text', HTMLElement);
         text.textContent = parts.filter(Boolean).join(' ');
     }
 }
+
+/** @type {(text: string) => string} */
+const sentence = (text) =>
+    text && `${text[0].toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;

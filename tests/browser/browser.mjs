@@ -11,7 +11,7 @@ const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const SCREENSHOTS = process.env.RAYBUNDLE_SCREENSHOTS ?? path.join(ROOT, 'build/screenshots');
 
 /** Patience with software rendering on a busy machine, milliseconds. */
-export const PATIENCE_MS = 400000;
+export const PATIENCE_MS = Number(process.env.RAYBUNDLE_PATIENCE_MS ?? 400000);
 
 /**
  * Starts Chromium.

@@ -87,6 +87,7 @@ describe('the page of a running server', () => {
         const at = await onPage(page, await middleOf(page));
         await page.mouse.click(at.x, at.y);
         await page.waitForFunction((name) => window.raybundle.selected?.name === name, SHORT_BOX);
+        await page.click('#tab-scene');
         assert.equal(await page.textContent('[data-value="selectionName"]'), SHORT_BOX);
         assert.notEqual(await page.getAttribute('#overlay .selected .stroke', 'd'), '');
     });

@@ -7,6 +7,7 @@ import {describe, it} from 'node:test';
 import * as camera from '../../client_web/camera.js';
 import {motionOf, walkingSpeed} from '../../client_web/camera_control.js';
 import {carried, grip, keptInside} from '../../client_web/drag.js';
+import {layOut} from '../../client_web/error_plot.js';
 import * as format from '../../client_web/format.js';
 import {ErrorHistory, RateMeter, Samples} from '../../client_web/meters.js';
 import {outlinePath, visibleEdges} from '../../client_web/overlay.js';
@@ -14,8 +15,6 @@ import {pickByBounds} from '../../client_web/picking.js';
 import {fitViewport} from '../../client_web/picture.js';
 import {retryDelay} from '../../client_web/raybundle_client.js';
 import {SceneModel, movedBounds, shifted} from '../../client_web/scene_model.js';
-import {notesOf} from '../../client_web/scene_panel.js';
-import {layOut} from '../../client_web/sparkline.js';
 import * as vector from '../../client_web/vector.js';
 
 const {vec3} = vector;
@@ -227,14 +226,6 @@ describe('scene', () => {
         assert.equal(pickByBounds(objects, through(4, 4, 1))?.id, 1);
         assert.equal(pickByBounds(objects, through(4, 4, -1)), null);
     });
-
-    it('tells only of effects that are on', () => {
-        const effects = [
-            {name: 'sky', active: true, reason: 'the scene has no emitter'},
-            {name: 'glossy', active: false, reason: 'no glossy material'},
-        ];
-        assert.deepEqual(notesOf(effects), ['sky: the scene has no emitter']);
-    });
 });
 
 describe('drag', () => {
@@ -306,31 +297,37 @@ describe('figures', () => {
         assert.equal(samples.quantile(1), 3);
     });
 
-    it('keep the course of the error, thinned and bounded', () => {
-        const history = new ErrorHistory(1000, 100);
-        assert.ok(history.add(0, {epoch: 0, relativeError: 0.5}));
-        assert.ok(!history.add(50, {epoch: 0, relativeError: 0.4}));
-        assert.ok(history.add(60, {epoch: 1, relativeError: 0.4, errorLow: 0.3, errorHigh: 0.6}));
-        assert.ok(!history.add(400, {epoch: 1}));
-        assert.ok(history.add(1050, {epoch: 1, relativeError: 0.2}));
-        assert.equal(history.samples.length, 2);
-        assert.equal(history.samples[0].high, 0.6);
+    it('keep the course of the error since the last change, thinned as time goes on', () => {
+        const history = new ErrorHistory();
+        assert.ok(!history.add(0, {epoch: 0, relativeError: 0.5}));
+        assert.ok(history.add(100, {epoch: 0, relativeError: 0.5}));
+        assert.ok(!history.add(110, {epoch: 0, relativeError: 0.4}));
+        assert.ok(!history.add(400, {epoch: 0}));
+        for (let time = 1000; time < 3.6e6; time += 250) {
+            history.add(time, {epoch: 0, relativeError: 0.1, errorLow: 0.05, errorHigh: 0.2});
+        }
+        assert.ok(history.samples.length < 300, `${history.samples.length} samples of an hour`);
+        assert.equal(history.samples[1].high, 0.2);
+        history.add(3.7e6, {epoch: 1, relativeError: 0.4});
+        assert.equal(history.samples.length, 0);
     });
 
-    it('draw errors from left to right, falling as they fall', () => {
-        const sample = (time, error, epoch) => ({time, error, low: error, high: error, epoch});
-        const samples = [sample(0, 0.5, 0), sample(500, 0.05, 0), sample(1000, 0.02, 1)];
-        const plot = layOut(samples, 100, 50, 1000);
+    it('draw an error that halves as time quadruples as one straight line', () => {
+        const samples = [1, 4, 16, 64].map((seconds, i) => {
+            const error = 0.4 / 2 ** i;
+            return {seconds, error, low: error / 2, high: error * 2};
+        });
+        const plot = layOut(samples, 0.02, 276, 150);
         const points = [...plot.line.matchAll(/[ML]([\d.]+) ([\d.]+)/g)];
         const [x, y] = [1, 2].map((part) => points.map((match) => Number(match[part])));
-        assert.deepEqual(x, [0, 50, 100]);
-        assert.ok(y[0] < y[1] && y[1] < y[2] && y[2] <= 50);
-        assert.equal(plot.changes, 'M100.0 0V50');
-        assert.deepEqual(
-            plot.decades.map(({share}) => share),
-            [0.1],
-        );
-        assert.equal(layOut([], 100, 50, 1000).line, '');
+        for (const i of [1, 2]) {
+            assert.ok(Math.abs(x[i + 1] - x[i] - (x[1] - x[0])) < 0.2, `x: ${x}`);
+            assert.ok(Math.abs(y[i + 1] - y[i] - (y[1] - y[0])) < 0.2, `y: ${y}`);
+        }
+        assert.ok(y[1] > y[0] && x[1] > x[0]);
+        assert.notEqual(plot.target, '');
+        assert.ok(plot.labels.some(({text}) => text === '10 %'));
+        assert.equal(layOut([], null, 276, 150).line, '');
     });
 
     it('read well, and as a dash where nothing is known', () => {

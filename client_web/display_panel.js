@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// How radiance becomes a picture: photograph or false colour, exposure, the legend, saving it.
+
+import {SCALE_DECADES, onScale, turbo} from './colour.js';
+import {byId, fileName, returnFocus, saveFile} from './elements.js';
+import {FrameThrottle} from './frame_throttle.js';
+import {LUX_PER_FOOTCANDLE, threeDigits} from './units.js';
+
+/**
+ * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./units.js').IlluminanceUnit} IlluminanceUnit
+ * @typedef {'PHOTO' | 'FALSE_LUMINANCE' | 'FALSE_ILLUMINANCE'} DisplayMode
+ */
+
+const MODES = /** @type {const} */ (['PHOTO', 'FALSE_LUMINANCE', 'FALSE_ILLUMINANCE']);
+
+/**
+ * Marks of a scale: 1, 2 and 5 times the powers of ten.
+ *
+ * @param {number} maximum  upper end, in the unit that is shown
+ * @returns {number[]} downwards
+ */
+export function scaleTicks(maximum) {
+    const ticks = [];
+    const top = Math.floor(Math.log10(maximum) + 1e-9);
+    for (let power = top; power >= top - SCALE_DECADES; --power) {
+        for (const lead of [5, 2, 1]) {
+            const value = lead * 10 ** power;
+            const least = maximum * 10 ** -SCALE_DECADES;
+            if (value <= maximum * 1.0001 && value >= least * 0.9999) {
+                ticks.push(value);
+            }
+        }
+    }
+    return ticks;
+}
+
+export class DisplayPanel {
+    /** @type {DisplayMode} */
+    mode = 'PHOTO';
+    exposure = 0;
+    autoExposure = true;
+    scaleMaximum = 0;
+    isolines = false;
+    /** @type {IlluminanceUnit} */
+    #unit = 'lx';
+    #drawn = '';
+    #select = byId('display-mode', HTMLSelectElement);
+    #slider = byId('exposure', HTMLInputElement);
+    #auto = byId('auto-exposure', HTMLButtonElement);
+    #sending = new FrameThrottle(() => this.#send());
+
+    /** @param {RaybundleApp} app */
+    constructor(app) {
+        this.app = app;
+        this.#addControls();
+        app.on('welcome', () => this.#send());
+        app.on('picture', () => this.#drawLegend());
+    }
+
+    /** @param {IlluminanceUnit} unit */
+    set unit(unit) {
+        this.#unit = unit;
+        this.#drawLegend();
+    }
+
+    /** @param {DisplayMode} mode */
+    setMode(mode) {
+        this.mode = mode;
+        this.#select.value = mode;
+        this.#sending.run();
+    }
+
+    /** Photo, luminance, illuminance, and again. */
+    nextMode() {
+        this.setMode(MODES[(MODES.indexOf(this.mode) + 1) % MODES.length]);
+    }
+
+    /** @param {number} stops */
+    setExposure(stops) {
+        this.exposure = stops;
+        this.#slider.value = String(stops);
+        this.#show();
+        this.#sending.run();
+    }
+
+    /** Saves the picture, as it is on screen, as PNG. */
+    async savePicture() {
+        const blob = await pictureBlob(this.app);
+        if (blob) {
+            saveFile(blob, `${fileName(this.app.scene?.title ?? 'picture')}.png`);
+        }
+    }
+
+    #addControls() {
+        this.#select.addEventListener('change', () => {
+            this.setMode(/** @type {DisplayMode} */ (this.#select.value));
+            this.app.picture.element.focus({preventScroll: true});
+        });
+        this.#slider.addEventListener('input', () => this.setExposure(Number(this.#slider.value)));
+        this.#slider.addEventListener('dblclick', () => this.setExposure(0));
+        this.#auto.addEventListener('click', (event) => {
+            // The brightness on screen stays: what was automatic becomes the user's own.
+            const shown = this.app.frame?.exposure ?? 0;
+            this.autoExposure = !this.autoExposure;
+            const range = Number(this.#slider.max);
+            const own = this.autoExposure ? 0 : Math.round(shown * 4) / 4;
+            this.#slider.min = String(Math.min(-range, own - 6));
+            this.setExposure(own);
+            returnFocus(event);
+        });
+        byId('save-picture', HTMLElement).addEventListener('click', () => this.savePicture());
+        const maximum = byId('scale-maximum', HTMLSelectElement);
+        maximum.addEventListener('change', () => {
+            this.scaleMaximum = Number(maximum.value);
+            this.#sending.run();
+        });
+        const isolines = byId('isolines', HTMLInputElement);
+        isolines.addEventListener('change', () => {
+            this.isolines = isolines.checked;
+            this.#sending.run();
+        });
+        this.#show();
+    }
+
+    #show() {
+        this.#auto.setAttribute('aria-pressed', String(this.autoExposure));
+        const sign = this.exposure > 0 ? '+' : this.exposure < 0 ? '−' : '';
+        const text = `${sign}${Math.abs(this.exposure).toFixed(1)}`;
+        byId('exposure-value', HTMLElement).textContent = text;
+        this.#slider.setAttribute('aria-valuetext', `${text} stops`);
+    }
+
+    #send() {
+        const {mode, exposure, autoExposure, scaleMaximum, isolines} = this;
+        const factor = mode === 'FALSE_ILLUMINANCE' && this.#unit === 'fc' ? LUX_PER_FOOTCANDLE : 1;
+        const setDisplay = {
+            mode,
+            exposure,
+            autoExposure,
+            scaleMaximum: scaleMaximum * factor,
+            isolines,
+        };
+        this.app.client.send({setDisplay});
+    }
+
+    #drawLegend() {
+        const maximum = this.app.frame?.scaleMaximum;
+        const legend = byId('legend', HTMLElement);
+        legend.hidden = maximum === undefined;
+        if (maximum === undefined) {
+            this.#drawn = '';
+            return;
+        }
+        const lux = this.mode === 'FALSE_ILLUMINANCE';
+        const unit = lux ? this.#unit : 'cd/m²';
+        const top = unit === 'fc' ? maximum / LUX_PER_FOOTCANDLE : maximum;
+        if (this.#drawn === `${top} ${unit}`) {
+            return;
+        }
+        this.#drawn = `${top} ${unit}`;
+        byId('legend-title', HTMLElement).textContent = `${lux ? 'Illuminance' : 'Luminance'}, ${unit}`;
+        const bar = byId('legend-bar', HTMLCanvasElement);
+        const context = bar.getContext('2d');
+        for (let row = 0; row < bar.height && context; ++row) {
+            context.fillStyle = turbo(1 - row / (bar.height - 1));
+            context.fillRect(0, row, 1, 1);
+        }
+        const ticks = scaleTicks(top).map((value) => {
+            const item = document.createElement('li');
+            item.textContent = value < 1000 ? String(Number(value.toPrecision(1))) : threeDigits(value);
+            item.style.top = `${100 * (1 - onScale(value, top))}%`;
+            return item;
+        });
+        byId('legend-ticks', HTMLElement).replaceChildren(...ticks);
+    }
+}
+
+/**
+ * The picture on screen as PNG.
+ *
+ * @param {RaybundleApp} app
+ * @returns {Promise<Blob | null>}
+ */
+export function pictureBlob(app) {
+    return new Promise((resolve) => app.picture.canvas.toBlob(resolve, 'image/png'));
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pure maths of a measuring grid: where its points lie on a surface, and what they say together.
+
+import {add, clamp, cross, dot, length, normalise, scale, sub, vec3} from './vector.js';
+
+/**
+ * @typedef {import('./protocol.js').Vec3} Vec3
+ * @typedef {import('./protocol.js').Bounds} Bounds
+ * @typedef {object} Grid
+ * @property {Vec3} origin  first point, world space, metres
+ * @property {Vec3} stepX
+ * @property {Vec3} stepY
+ * @property {number} columns
+ * @property {number} rows
+ * @typedef {object} GridSummary
+ * @property {number} measured  points that were
+ * @property {number} minimum  lx
+ * @property {number} mean
+ * @property {number} maximum
+ * @property {number} uniformity  minimum over mean
+ */
+
+/** As many points does the server measure at once. */
+export const MAX_POINTS = 1024;
+/** Patches of a surface of this reach around the point are measured at most, metres. */
+const REACH = 10;
+
+/**
+ * Largest step that EN 12464-1 allows for a surface, 0.2 * 5^log10(d), at most 10 m.
+ *
+ * @param {number} side  d, the longer one of the surface, metres
+ * @returns {number} metres
+ */
+export const standardStep = (side) => Math.min(0.2 * 5 ** Math.log10(Math.max(side, 1e-3)), 10);
+
+/**
+ * A grid on the surface under a point, as far as the object's bounds reach. Points lie in the middle
+ * of equal cells, at most `step` apart.
+ *
+ * @param {Vec3} point
+ * @param {Vec3} normal  of the surface, of length 1
+ * @param {Bounds} bounds  of the object, world space
+ * @param {number} step  metres; 0: as EN 12464-1 has it
+ * @returns {Grid}
+ */
+export function gridOn(point, normal, bounds, step) {
+    const upright = Math.abs(normal.y) > 0.9;
+    const across = normalise(cross(upright ? vec3(0, 0, 1) : vec3(0, 1, 0), normal));
+    const along = cross(normal, across);
+    const reach = (/** @type {Vec3} */ axis) => {
+        // How far from the point the bounds go, along an axis.
+        let [low, high] = [0, 0];
+        for (let i = 0; i < 8; ++i) {
+            const corner = vec3(
+                i & 1 ? bounds.max.x : bounds.min.x,
+                i & 2 ? bounds.max.y : bounds.min.y,
+                i & 4 ? bounds.max.z : bounds.min.z,
+            );
+            const at = dot(sub(corner, point), axis);
+            low = Math.min(low, at);
+            high = Math.max(high, at);
+        }
+        return [clamp(low, -REACH, 0), clamp(high, 0, REACH)];
+    };
+    const [left, right] = reach(across);
+    const [near, far] = reach(along);
+    const [width, height] = [Math.max(right - left, 0.01), Math.max(far - near, 0.01)];
+    let wanted = step > 0 ? step : standardStep(Math.max(width, height));
+    const cells = (/** @type {number} */ side) => Math.max(Math.ceil(side / wanted - 1e-6), 1);
+    while (cells(width) * cells(height) > MAX_POINTS) {
+        wanted *= 1.1;
+    }
+    const [columns, rows] = [cells(width), cells(height)];
+    const stepX = scale(across, width / columns);
+    const stepY = scale(along, height / rows);
+    const corner = add(point, add(scale(across, left), scale(along, near)));
+    const origin = add(corner, scale(add(stepX, stepY), 0.5));
+    return {origin, stepX, stepY, columns, rows};
+}
+
+/**
+ * @param {Grid} grid
+ * @returns {Vec3[]} row by row
+ */
+export function pointsOf({origin, stepX, stepY, columns, rows}) {
+    return Array.from({length: columns * rows}, (_, i) =>
+        add(origin, add(scale(stepX, i % columns), scale(stepY, Math.floor(i / columns)))),
+    );
+}
+
+/**
+ * @param {number[]} illuminance  lx; negative: not measured
+ * @returns {GridSummary | null}  null: nothing was measured
+ */
+export function summaryOf(illuminance) {
+    const values = illuminance.filter((value) => value >= 0);
+    if (values.length === 0) {
+        return null;
+    }
+    const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+    const minimum = Math.min(...values);
+    const maximum = Math.max(...values);
+    const uniformity = mean > 0 ? minimum / mean : 1;
+    return {measured: values.length, minimum, mean, maximum, uniformity};
+}
+
+/**
+ * @param {Grid} grid
+ * @param {import('./protocol.js').ProbeGridResult} result
+ * @returns {string} table with a head, points that were not measured left empty
+ */
+export function gridCsv(grid, {illuminance, relativeError, epoch}) {
+    const lines = ['row,column,x_m,y_m,z_m,illuminance_lx,relative_standard_error,epoch'];
+    pointsOf(grid).forEach(({x, y, z}, i) => {
+        const at = [Math.floor(i / grid.columns) + 1, (i % grid.columns) + 1];
+        const place = [x, y, z].map((value) => value.toFixed(4));
+        const value = illuminance[i] >= 0 ? illuminance[i].toPrecision(6) : '';
+        const error = relativeError[i] >= 0 ? relativeError[i].toPrecision(3) : '';
+        lines.push([...at, ...place, value, error, epoch].join(','));
+    });
+    return `${lines.join('\r\n')}\r\n`;
+}
+
+/**
+ * Text that is safe in one cell of a CSV file.
+ *
+ * @param {string} text
+ */
+export function csvCell(text) {
+    // A spreadsheet must not take what somebody typed for a formula.
+    const harmless = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
+    return /[",\r\n]/.test(harmless) ? `"${harmless.replaceAll('"', '""')}"` : harmless;
+}
+
+/** @type {(grid: Grid) => number} */
+export const cellSide = ({stepX, stepY}) => Math.min(length(stepX), length(stepY));

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keyboard: what each key does while the picture has the focus, or nothing has.
+
+/**
+ * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {object} KeyTargets
+ * @property {RaybundleApp} app
+ * @property {import('./walking.js').Walking} walking
+ * @property {import('./gizmo.js').Gizmo} gizmo
+ * @property {import('./grabbing.js').Grabbing} grabbing
+ * @property {import('./display_panel.js').DisplayPanel} display
+ * @property {import('./history.js').History} history
+ * @property {(tool: string) => void} setTool
+ * @property {() => void} clickMiddle  as a click on the middle of the picture
+ * @property {() => boolean} cancel  ends what is going on; whether there was anything
+ */
+
+const NUDGE_KEYS = new Map([
+    ['ArrowLeft', [-1, 0]],
+    ['ArrowRight', [1, 0]],
+    ['ArrowUp', [0, 1]],
+    ['ArrowDown', [0, -1]],
+]);
+
+/** @type {Map<string, (targets: KeyTargets) => void>} */
+const COMMANDS = new Map([
+    ['Home', ({app}) => app.flyTo(0)],
+    ['KeyM', ({walking}) => walking.switchMode()],
+    ['KeyL', ({walking}) => walking.lookWithMouse()],
+    ['KeyH', ({walking}) => walking.stand()],
+    ['KeyV', ({display}) => display.nextMode()],
+    ['KeyG', ({gizmo}) => gizmo.setMode('move')],
+    ['KeyR', ({gizmo}) => gizmo.setMode('turn')],
+    ['KeyT', ({gizmo}) => gizmo.setMode('size')],
+    ['Enter', ({clickMiddle}) => clickMiddle()],
+    ['Digit1', ({setTool}) => setTool('select')],
+    ['Digit2', ({setTool}) => setTool('measure')],
+    ['Digit3', ({setTool}) => setTool('pin')],
+]);
+
+/**
+ * @param {KeyTargets} targets
+ * @param {KeyboardEvent} event
+ * @returns {boolean} whether the key means anything
+ */
+function press(targets, event) {
+    const {app} = targets;
+    const nudge = event.shiftKey && app.selected?.movable ? NUDGE_KEYS.get(event.code) : undefined;
+    if (nudge) {
+        targets.grabbing.nudge(nudge[0], nudge[1]);
+        return true;
+    }
+    if (event.key === 'Escape') {
+        if (!targets.cancel()) {
+            app.select(null);
+        }
+        return true;
+    }
+    if (event.key === '+' || event.key === '-') {
+        app.camera.zoom(event.key === '+' ? 0.9 : 1 / 0.9);
+        return true;
+    }
+    const command = COMMANDS.get(event.code);
+    if (command && !event.repeat) {
+        command(targets);
+        return true;
+    }
+    return app.camera.keyDown(event.code, event.shiftKey);
+}
+
+/**
+ * Undo and redo.
+ *
+ * @param {KeyTargets} targets
+ * @param {KeyboardEvent} event
+ * @returns {boolean}
+ */
+function pressModified({history}, event) {
+    if (event.code === 'KeyZ' && !event.shiftKey) {
+        history.undo();
+        return true;
+    }
+    if (event.code === 'KeyY' || event.code === 'KeyZ') {
+        history.redo();
+        return true;
+    }
+    return false;
+}
+
+/** @param {KeyTargets} targets */
+export function addKeys(targets) {
+    const {app} = targets;
+    document.addEventListener('keydown', (event) => {
+        const here = event.target === document.body || event.target === app.picture.element;
+        if (!here || event.altKey) {
+            return;
+        }
+        const modified = event.ctrlKey || event.metaKey;
+        if (modified ? pressModified(targets, event) : press(targets, event)) {
+            event.preventDefault();
+        }
+    });
+    document.addEventListener('keyup', (event) => app.camera.keyUp(event.code));
+    addEventListener('blur', () => app.camera.releaseKeys());
+    document.addEventListener('focusout', () => app.camera.releaseKeys());
+}

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights and materials: what each is set to, and how to set it. While a slider moves, one change at a
+// time is on its way, and the newest follows it.
+
+import {blackBody, fromHex, temperatureOf, toHex} from './colour.js';
+import {byId} from './elements.js';
+import {ServerError} from './protocol.js';
+import {threeDigits} from './units.js';
+
+/**
+ * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./history.js').History} History
+ * @typedef {import('./protocol.js').Light} Light
+ * @typedef {import('./protocol.js').Material} Material
+ */
+
+const UNITS = {CD_PER_M2: 'cd/m²', CD: 'cd', LX: 'lx', LM: 'lm'};
+/** A dimmer's lowest step, as a share of the light as loaded; below it, it is off. */
+const DIMMEST = 0.01;
+/** A dimmer's highest step. */
+const BRIGHTEST = 4;
+const WARMEST_K = 1800;
+const COLDEST_K = 10000;
+
+/**
+ * Position of a logarithmic dimmer.
+ *
+ * @param {number} share  of the light as loaded
+ * @returns {number} 0..1
+ */
+export function dimmerPosition(share) {
+    const position = Math.log(Math.max(share, DIMMEST) / DIMMEST) / Math.log(BRIGHTEST / DIMMEST);
+    return Math.min(Math.max(position, 0), 1);
+}
+
+/** @type {(position: number) => number} */
+export const dimmerShare = (position) => DIMMEST * (BRIGHTEST / DIMMEST) ** position;
+
+/** Sends the newest of many changes, one at a time. */
+export class NewestOnly {
+    /** @type {object | null} */
+    #next = null;
+    #busy = false;
+
+    /** @param {(body: object) => Promise<unknown>} send */
+    constructor(send) {
+        this.send = send;
+    }
+
+    /** @param {object} body  replaces one that still waits */
+    async push(body) {
+        this.#next = body;
+        if (this.#busy) {
+            return;
+        }
+        this.#busy = true;
+        while (this.#next) {
+            const now = this.#next;
+            this.#next = null;
+            await this.send(now);
+        }
+        this.#busy = false;
+    }
+}
+
+/**
+ * @param {string} kind  of the element
+ * @param {Record<string, string>} attributes
+ * @returns {HTMLInputElement}
+ */
+function input(kind, attributes) {
+    const element = document.createElement('input');
+    element.type = kind;
+    for (const [name, value] of Object.entries(attributes)) {
+        element.setAttribute(name, value);
+    }
+    return element;
+}
+
+/**
+ * @param {string} text
+ * @param {...HTMLElement} parts
+ */
+function field(text, ...parts) {
+    const label = document.createElement('label');
+    label.className = 'field';
+    const name = document.createElement('span');
+    name.textContent = text;
+    label.append(name, ...parts);
+    return label;
+}
+
+export class LightPanel {
+    /** Intensities as this page was told first, by id. @type {Map<number, number>} */
+    #loaded = new Map();
+    /** Refreshes the controls of a light or material. @type {(() => void)[]} */
+    #refresh = [];
+    #scene = '';
+
+    /**
+     * @param {RaybundleApp} app
+     * @param {History} history
+     */
+    constructor(app, history) {
+        this.app = app;
+        this.history = history;
+        app.on('welcome', () => this.#showScene());
+        app.on('sceneChanged', () => this.#refresh.forEach((show) => show()));
+    }
+
+    #showScene() {
+        const {scene} = this.app;
+        if (!scene) {
+            return;
+        }
+        if (scene.name !== this.#scene) {
+            this.#scene = scene.name;
+            this.#loaded = new Map(scene.lights.map(({id, intensity}) => [id, intensity]));
+        }
+        this.#refresh = [];
+        byId('lights-note', HTMLElement).hidden = true;
+        byId('materials-note', HTMLElement).hidden = true;
+        const lights = scene.lights.map((light) => this.#lightCard(light));
+        byId('lights', HTMLElement).replaceChildren(...lights);
+        const materials = scene.materials.map((material) => this.#materialCard(material));
+        byId('materials', HTMLElement).replaceChildren(...materials);
+        this.#allow(document.body, this.app.mayEdit);
+        this.#refresh.forEach((show) => show());
+    }
+
+    /**
+     * @param {HTMLElement} within
+     * @param {boolean} allowed
+     */
+    #allow(within, allowed) {
+        for (const control of within.querySelectorAll('.cards input')) {
+            /** @type {HTMLInputElement} */ (control).disabled = !allowed;
+        }
+    }
+
+    /** @param {Light} light */
+    #lightCard(light) {
+        const unit = UNITS[/** @type {keyof typeof UNITS} */ (light.unit)] ?? light.unit;
+        const name = light.name || `Light ${light.id}`;
+        const on = input('checkbox', {role: 'switch', 'aria-label': `${name} on`});
+        const attributes = {min: '0', max: '1', step: '0.01', 'aria-label': `${name}, dimmer`};
+        const dimmer = input('range', attributes);
+        const value = input('number', {min: '0', step: 'any', 'aria-label': `${name}, ${unit}`});
+        const kelvin = input('range', {
+            min: String(WARMEST_K),
+            max: String(COLDEST_K),
+            step: '50',
+            'aria-label': `${name}, colour temperature`,
+        });
+        const kelvinText = document.createElement('output');
+        const unitText = document.createElement('span');
+        unitText.className = 'unit';
+        unitText.textContent = unit;
+        const loaded = () => this.#loaded.get(light.id) || 1;
+        const change = this.#changes('setLight', {light: light.id}, name, () => {
+            const {intensity, on: lit, colour} = light;
+            return {intensity, on: lit, colour};
+        });
+        on.addEventListener('change', () => change.done({on: on.checked}));
+        const dimmed = () => ({intensity: loaded() * dimmerShare(Number(dimmer.value))});
+        dimmer.addEventListener('input', () => change.going(dimmed()));
+        dimmer.addEventListener('change', () => change.done(dimmed()));
+        value.addEventListener('change', () => {
+            if (value.valueAsNumber >= 0) {
+                change.done({intensity: value.valueAsNumber});
+            }
+        });
+        const tinted = () => ({colour: blackBody(Number(kelvin.value))});
+        kelvin.addEventListener('input', () => change.going(tinted()));
+        kelvin.addEventListener('change', () => change.done(tinted()));
+        this.#refresh.push(() => {
+            on.checked = light.on;
+            if (document.activeElement !== dimmer) {
+                dimmer.value = String(dimmerPosition(light.intensity / loaded()));
+            }
+            dimmer.setAttribute('aria-valuetext', `${threeDigits(light.intensity)} ${unit}`);
+            if (document.activeElement !== value) {
+                value.value = String(Number(light.intensity.toPrecision(4)));
+            }
+            const temperature = temperatureOf(light.colour);
+            if (document.activeElement !== kelvin) {
+                kelvin.value = String(temperature);
+            }
+            kelvinText.textContent = `${temperature} K`;
+            kelvin.setAttribute('aria-valuetext', `${temperature} kelvin`);
+        });
+        const head = document.createElement('div');
+        head.className = 'card-head';
+        const title = document.createElement('b');
+        title.textContent = name;
+        const lit = document.createElement('label');
+        lit.className = 'switch';
+        lit.append(on);
+        head.append(title, lit);
+        const card = document.createElement('li');
+        card.append(head, field('Dimmer', dimmer, value, unitText), field('Colour', kelvin, kelvinText));
+        return card;
+    }
+
+    /** @param {Material} material */
+    #materialCard(material) {
+        const name = material.name || `Material ${material.id}`;
+        const colour = input('color', {'aria-label': `${name}, colour`});
+        const attributes = {min: '0', max: '1', step: '0.01', 'aria-label': `${name}, roughness`};
+        const roughness = input('range', attributes);
+        const known = document.createElement('output');
+        const change = this.#changes('setMaterial', {material: material.id}, name, () => {
+            const {baseColour, roughness: rough} = material;
+            return {baseColour, roughness: rough};
+        });
+        const painted = () => ({baseColour: fromHex(colour.value)});
+        colour.addEventListener('input', () => change.going(painted()));
+        colour.addEventListener('change', () => change.done(painted()));
+        const rough = () => ({roughness: Number(roughness.value)});
+        roughness.addEventListener('input', () => change.going(rough()));
+        roughness.addEventListener('change', () => change.done(rough()));
+        this.#refresh.push(() => {
+            colour.value = toHex(material.baseColour ?? {x: 0.5, y: 0.5, z: 0.5});
+            if (document.activeElement !== roughness) {
+                roughness.value = String(material.roughness ?? 1);
+            }
+            known.textContent = material.roughness?.toFixed(2) ?? '–';
+            // What is not told cannot be changed with sense.
+            colour.hidden = material.baseColour === undefined;
+            roughness.disabled = !this.app.mayEdit || material.roughness === undefined;
+        });
+        const title = document.createElement('b');
+        title.textContent = name;
+        const head = document.createElement('div');
+        head.className = 'card-head';
+        head.append(title, colour);
+        const card = document.createElement('li');
+        card.append(head, field('Roughness', roughness, known));
+        return card;
+    }
+
+    /**
+     * Changes to one light or material.
+     *
+     * @param {'setLight' | 'setMaterial'} kind
+     * @param {object} subject
+     * @param {string} name
+     * @param {() => object} state  what it is set to now
+     */
+    #changes(kind, subject, name, state) {
+        /** What it was when the user took hold of it. @type {object | null} */
+        let before = null;
+        const send = async (/** @type {object} */ values) => {
+            try {
+                await this.app.client.request({[kind]: {...subject, ...values}}).answer;
+                return true;
+            } catch (error) {
+                this.#refused(kind, error);
+                return false;
+            }
+        };
+        const newest = new NewestOnly(send);
+        return {
+            /** @param {object} values  while a slider moves */
+            going: (values) => {
+                before ??= state();
+                newest.push(values);
+            },
+            /** @param {object} values  when it is let go */
+            done: async (values) => {
+                const from = before ?? state();
+                before = null;
+                if (await send(values)) {
+                    this.history.add({
+                        label: `set ${name}`,
+                        undo: () => send(from),
+                        redo: () => send(values),
+                    });
+                }
+            },
+        };
+    }
+
+    /**
+     * @param {'setLight' | 'setMaterial'} kind
+     * @param {unknown} error
+     */
+    #refused(kind, error) {
+        this.#refresh.forEach((show) => show());
+        if (!(error instanceof ServerError)) {
+            return;
+        }
+        const what = kind === 'setLight' ? 'lights' : 'materials';
+        if (error.code === 'UNIMPLEMENTED') {
+            const note = byId(`${what}-note`, HTMLElement);
+            note.textContent = `This server shows its ${what} but cannot change them.`;
+            note.hidden = false;
+            for (const control of byId(what, HTMLElement).querySelectorAll('input')) {
+                control.disabled = true;
+            }
+        } else {
+            this.app.status.notify(error.message, 'problem');
+        }
+    }
+}

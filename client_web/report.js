@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The review report: one HTML file that needs nothing else, with the picture, the pins and what was
+// measured, and who changed what.
+
+import {percent} from './format.js';
+import {summaryOf} from './grid.js';
+import {changeOf} from './pins.js';
+import {illuminance, plusMinus, threeDigits} from './units.js';
+
+/**
+ * @typedef {import('./protocol.js').Pin} Pin
+ * @typedef {import('./units.js').IlluminanceUnit} IlluminanceUnit
+ * @typedef {object} ReportContent
+ * @property {string} title  of the scene
+ * @property {string} server
+ * @property {Date} time
+ * @property {number} epoch
+ * @property {number | null} error  relative, of the picture
+ * @property {string} picture  data URL
+ * @property {string} address  link to the view
+ * @property {IlluminanceUnit} unit
+ * @property {Pin[]} pins
+ * @property {{number: number, probe: import('./protocol.js').ProbeResult}[]} points
+ * @property {{object: string, columns: number, rows: number, illuminance: number[]} | null} grid
+ * @property {import('./history.js').LogEntry[]} changes
+ * @property {{pin: number, x: number, y: number}[]} pinsInPicture  shares of its width and height
+ */
+
+const STYLE = `
+body{font:14px/1.5 system-ui,sans-serif;color:#1a1c1e;max-width:900px;margin:32px auto;padding:0 16px}
+h1{font-size:24px;margin:0}h2{font-size:16px;margin:28px 0 8px}
+.quiet{color:#54595f}figure{position:relative;margin:20px 0}img{width:100%;display:block}
+.pin{position:absolute;transform:translate(-50%,-50%);min-width:20px;padding:0 4px;border-radius:10px;
+background:#8a5200;color:#fff;font-size:12px;line-height:20px;text-align:center;border:1px solid #fff}
+table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:5px 12px 5px 0;
+border-bottom:1px solid #d2d5d8;vertical-align:top}td.n{white-space:nowrap;font-variant-numeric:tabular-nums}
+.flag{color:#b3261e;font-weight:600}@media print{body{margin:0}}`;
+
+/** @type {(text: unknown) => string} */
+export const escaped = (text) =>
+    String(text).replaceAll(
+        /[&<>"']/g,
+        (c) => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;', "'": '&#39;'})[c] ?? c,
+    );
+
+/**
+ * @param {string} title
+ * @param {string[]} heads
+ * @param {string[][]} rows  HTML of the cells
+ */
+function section(title, heads, rows) {
+    if (rows.length === 0) {
+        return '';
+    }
+    const head = heads.map((text) => `<th scope="col">${escaped(text)}</th>`).join('');
+    const body = rows.map((cells) => `<tr>${cells.map((c) => `<td class="n">${c}</td>`).join('')}</tr>`);
+    return `<h2>${escaped(title)}</h2><table><thead><tr>${head}</tr></thead><tbody>${body.join('')}</tbody></table>`;
+}
+
+/**
+ * @param {ReportContent} content
+ * @returns {string} a whole HTML document
+ */
+export function reportHtml(content) {
+    const {title, server, time, epoch, error, picture, address, unit} = content;
+    const value = (/** @type {number | undefined} */ lux) => illuminance(lux ?? 0, unit);
+    const pins = content.pins.map((pin) => [
+        String(pin.pin),
+        `<div style="white-space:normal">${escaped(pin.text)}</div>`,
+        `${value(pin.illuminance)} ${escaped(plusMinus(pin.relativeError))}`,
+        String(pin.epoch),
+        `<span class="flag">${escaped(changeOf(pin))}</span>`,
+        escaped(`${pin.byName || `Viewer ${pin.by}`}, ${new Date(pin.setAtMs).toLocaleString()}`),
+    ]);
+    const points = content.points.map(({number, probe}) => [
+        String(number),
+        value(probe.illuminance),
+        `${threeDigits(probe.luminance ?? 0)} cd/m²`,
+        escaped(plusMinus(probe.relativeError)),
+        String(probe.epoch),
+    ]);
+    const summary = content.grid ? summaryOf(content.grid.illuminance) : null;
+    const grid = summary
+        ? [
+              [
+                  escaped(content.grid?.object),
+                  `${summary.measured} of ${content.grid?.illuminance.length}`,
+                  value(summary.minimum),
+                  value(summary.mean),
+                  value(summary.maximum),
+                  summary.uniformity.toFixed(2),
+              ],
+          ]
+        : [];
+    const changes = content.changes.map((entry) => [
+        String(entry.epoch),
+        escaped(entry.time.toLocaleTimeString()),
+        escaped(entry.by),
+        escaped(entry.text),
+    ]);
+    const marks = content.pinsInPicture.map(
+        ({pin, x, y}) =>
+            `<span class="pin" style="left:${(100 * x).toFixed(2)}%;top:${(100 * y).toFixed(2)}%">${pin}</span>`,
+    );
+    return `<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>${escaped(title)}: lighting review</title>
+<style>${STYLE}</style></head><body>
+<h1>${escaped(title)}</h1>
+<p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. Epoch ${epoch}, estimated error of the
+picture ${escaped(percent(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
+<figure><img alt="The scene as seen during the review" src="${escaped(picture)}">${marks.join('')}</figure>
+${section('Pins', ['#', 'Note', 'Illuminance then', 'Epoch', 'Light', 'By'], pins)}
+${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'Epoch'], points)}
+${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uo'], grid)}
+${section('Changes', ['Epoch', 'Time', 'By', 'What'], changes)}
+</body></html>
+`;
+}

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measuring, placing and reviewing with a real server, one, two and three pages at once. The tests
+// build on one another and run in order.
+
+import assert from 'node:assert/strict';
+import {readFile} from 'node:fs/promises';
+import {after, before, describe, it} from 'node:test';
+
+import {
+    difference,
+    frameWith,
+    keepScreenshot,
+    launchBrowser,
+    onPage,
+    openClient,
+    thumbnail,
+} from './browser.mjs';
+import {Daemon} from './daemon.mjs';
+
+const SCENE = 'scenes/cornell_box.gltf';
+/** Floor beside the boxes, metres. */
+const FLOOR = {x: 4.6, y: 0, z: 2.4};
+const SMALL = {viewport: {width: 900, height: 640}};
+
+describe('a review', () => {
+    /** @type {Daemon} */
+    let daemon;
+    /** @type {import('playwright-core').Browser} */
+    let browser;
+    /** @type {Awaited<ReturnType<typeof openClient>>} */
+    let ann;
+    /** @type {Awaited<ReturnType<typeof openClient>>} */
+    let ben;
+
+    before(async () => {
+        browser = await launchBrowser();
+        daemon = await Daemon.start(SCENE);
+        const options = {viewport: {width: 1000, height: 700}, colorScheme: 'dark'};
+        ann = await openClient(browser, `${daemon.url}#name=Ann`, options);
+        await frameWith(ann.page, {settled: 0.5});
+    });
+
+    after(async () => {
+        await browser?.close();
+        await daemon?.stop();
+    });
+
+    /** Clicks a point of the scene. */
+    const clickAt = async (page, point) => {
+        const {x, y} = await onPage(page, point);
+        await page.mouse.click(x, y);
+    };
+
+    /** Text of the file that a button saves. */
+    const saved = async (page, selector) => {
+        const [download] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);
+        return {name: download.suggestedFilename(), bytes: await readFile(await download.path())};
+    };
+
+    it('measures illuminance and luminance with their error where one clicks', async () => {
+        const {page} = ann;
+        await page.keyboard.press('Digit2');
+        await clickAt(page, FLOOR);
+        await page.waitForSelector('#points tbody tr');
+        const [, lux, nits, error] = await page.$$eval('#points tbody td', (cells) =>
+            cells.map(({textContent}) => textContent),
+        );
+        assert.match(lux, /^\d[\d\u202f.]* lx$/);
+        assert.match(error, /^± (\?|[\d.]+ %)$/);
+        // Floor: Lambert, so luminance is illuminance * albedo / pi.
+        const share = (parseFloat(nits) / parseFloat(lux.replace('\u202f', ''))) * Math.PI;
+        assert.ok(share > 0.6 && share < 0.85, `albedo ${share}`);
+        const at = await onPage(page, FLOOR);
+        const mark = await page.locator('.probe').boundingBox();
+        assert.ok(Math.abs(mark.x - 9 - at.x) < 4 && Math.abs(mark.y + 11 - at.y) < 4);
+        await page.selectOption('#unit', 'fc');
+        assert.match(await page.textContent('#points tbody td:nth-child(2)'), / fc$/);
+        await page.selectOption('#unit', 'lx');
+    });
+
+    it('measures a grid on the floor and saves it as a table', async () => {
+        const {page} = ann;
+        await page.selectOption('#grid-step', '0.5');
+        await page.click('#measure-grid');
+        await page.waitForSelector('#grid-result', {state: 'visible'});
+        const value = async (name) =>
+            parseFloat((await page.textContent(`[data-value="${name}"]`)).replace('\u202f', ''));
+        const [min, mean, max] = [await value('gridMin'), await value('gridMean'), await value('gridMax')];
+        assert.ok(min < mean && mean < max, `${min}, ${mean}, ${max}`);
+        assert.ok(Math.abs((await value('gridUniformity')) - min / mean) < 0.011);
+        const {name, bytes} = await saved(page, '#grid-csv');
+        assert.match(name, /\.csv$/);
+        const rows = String(bytes).trim().split('\r\n').slice(1);
+        assert.equal(rows.length, 121);
+        const measured = rows.filter((row) => row.split(',')[5] !== '').length;
+        assert.ok(measured > 30 && measured < 121, `${measured} points`);
+        await keepScreenshot(page, 'grid');
+    });
+
+    it('shows illuminance by colour, with a legend that fits', async () => {
+        const {page} = ann;
+        const photo = await thumbnail(page);
+        await page.selectOption('#display-mode', 'FALSE_ILLUMINANCE');
+        await page.check('#isolines');
+        await page.selectOption('#scale-maximum', '2000');
+        await page.waitForFunction(() => window.raybundle.frame.scaleMaximum === 2000);
+        assert.match(await page.textContent('#legend-title'), /^Illuminance, lx$/);
+        const ticks = await page.$$eval('#legend-ticks li', (all) => all.map((t) => t.textContent));
+        assert.deepEqual([ticks[0], ticks.at(-1)], ['2\u202f000', '2']);
+        assert.ok(difference(photo, await thumbnail(page)) > 20);
+        await keepScreenshot(page, 'false_colour');
+        await page.selectOption('#display-mode', 'PHOTO');
+        await page.waitForFunction(() => window.raybundle.frame.scaleMaximum === undefined);
+        assert.ok(await page.isHidden('#legend'));
+    });
+
+    it('is brighter with more exposure, and saved as PNG', async () => {
+        const {page} = ann;
+        const mean = async () => {
+            const pixels = await thumbnail(page);
+            return pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
+        };
+        const first = await mean();
+        const {exposure} = await page.evaluate(() => window.raybundle.frame);
+        await page.locator('#exposure').fill('1.5');
+        await page.waitForFunction((ev) => window.raybundle.frame.exposure > ev + 1, exposure);
+        assert.ok((await mean()) > first + 15);
+        const {name, bytes} = await saved(page, '#save-picture');
+        assert.equal(name, 'Cornell_box.png');
+        assert.deepEqual([...bytes.subarray(1, 4)], [...Buffer.from('PNG')]);
+        await page.locator('#exposure').fill('0');
+    });
+
+    it('goes where one double-clicks', async () => {
+        const {page} = ann;
+        await page.focus('#picture');
+        await page.keyboard.press('Digit1');
+        const {x, y} = await onPage(page, {x: 2.75, y: 3.5, z: 5.5});
+        await page.mouse.dblclick(x, y);
+        await page.waitForFunction(() => window.raybundle.view.target.z > 5.4);
+        await page.keyboard.press('Home');
+        await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.z + 7.5) < 1e-6);
+    });
+
+    it('turns what is selected by its ring, and takes that back', async () => {
+        const {page} = ann;
+        await page.click('#tab-scene');
+        await page.click('#objects li:first-child button');
+        await page.click('[data-gizmo="turn"]');
+        await page.check('#snap');
+        const turn = () => page.inputValue('[data-place="turn"]');
+        const x = () => page.inputValue('[data-place="x"]');
+        const before = await x();
+        const ring = await page.waitForFunction(() => {
+            const path = document.querySelector('.gizmo .shape.turn');
+            if (!path.getAttribute('d')) {
+                return null;
+            }
+            const {x, y} = path.getPointAtLength(path.getTotalLength() / 4);
+            const box = document.getElementById('overlay').getBoundingClientRect();
+            return {x: x + box.left, y: y + box.top};
+        });
+        const at = await ring.jsonValue();
+        await page.mouse.move(at.x, at.y);
+        await page.mouse.down();
+        await page.mouse.move(at.x - 10, at.y - 12, {steps: 4});
+        await page.mouse.up();
+        await page.waitForFunction(() => !document.getElementById('undo').disabled);
+        assert.equal(Math.abs(Number(await turn())) % 15, 0);
+        assert.notEqual(Number(await turn()), 0);
+        assert.equal(await x(), before, 'it turned about its middle');
+        await page.focus('#picture');
+        await page.keyboard.press('Control+KeyZ');
+        await page.waitForFunction(
+            () => Number(document.querySelector('[data-place="turn"]').value) === 0,
+        );
+        await page.fill('[data-place="x"]', '2.2');
+        await page.keyboard.press('Enter');
+        await page.waitForFunction(() => {
+            const {min, max} = window.raybundle.selected.bounds;
+            return Math.abs((min.x + max.x) / 2 - 2.2) < 1e-6;
+        });
+        await keepScreenshot(page, 'gizmo');
+        await page.click('#undo');
+        await page.waitForFunction(
+            (value) => document.querySelector('[data-place="x"]').value === value,
+            before,
+        );
+    });
+
+    it('keeps a picture to compare with', async () => {
+        const {page} = ann;
+        await page.click('#tab-review');
+        await page.click('#keep-picture');
+        await page.click('#compare');
+        await page.waitForSelector('#compare-canvas', {state: 'visible'});
+        await page.locator('#wipe-at').fill('0.25');
+        const clip = await page.evaluate(
+            () => document.getElementById('compare-canvas').style.clipPath,
+        );
+        assert.match(clip, /75/);
+        await page.click('#compare');
+        assert.ok(await page.isHidden('#compare-canvas'));
+    });
+
+    it('shows two people each other, and one follows the other', async () => {
+        ben = await openClient(browser, `${daemon.url}#name=Ben`, {...SMALL, colorScheme: 'light'});
+        await frameWith(ben.page, {});
+        await ann.page.waitForFunction(() => document.querySelector('#people').textContent.includes('Ben'));
+        await ben.page.click('#tab-review');
+        await ben.page.click('[data-follow]');
+        await ann.page.focus('#picture');
+        await ann.page.keyboard.press('KeyD');
+        const {eye} = await ann.page.evaluate(() => window.raybundle.view);
+        await ben.page.waitForFunction(
+            (x) => Math.abs(window.raybundle.view.eye.x - x) < 0.2 && window.raybundle.view.eye.x !== 2.75,
+            eye.x,
+        );
+        await ben.page.focus('#picture');
+        await ben.page.keyboard.press('KeyA');
+        await ben.page.waitForFunction(() => window.raybundleParts.people.following === 0);
+        await ben.page.keyboard.down('KeyW');
+        await ben.page.waitForFunction(() => window.raybundle.view.eye.z > -5.5);
+        await ben.page.keyboard.up('KeyW');
+        await ann.page.waitForFunction(() =>
+            [...document.querySelectorAll('.people path')].some((path) => path.getAttribute('d')),
+        );
+    });
+
+    it('keeps a pin with the light measured there, for everybody and for who comes later', async () => {
+        const {page} = ann;
+        await page.keyboard.press('Home');
+        await page.waitForFunction(() => Math.abs(window.raybundle.link.shown?.eye.x - 2.75) < 1e-6);
+        await page.keyboard.press('Digit3');
+        await clickAt(page, FLOOR);
+        await page.waitForSelector('.pin-editor textarea');
+        await page.keyboard.type('Too dark beside the boxes');
+        await page.keyboard.press('Enter');
+        await ben.page.waitForSelector('#pins li');
+        assert.match(await ben.page.textContent('#pins li'), /Too dark beside the boxes.* lx ±.*Ann/);
+        const {url} = daemon;
+        const cara = await openClient(browser, `${url}#name=Cara`, {...SMALL, colorScheme: 'dark'});
+        await cara.page.waitForSelector('.marks .pin', {state: 'attached'});
+        await frameWith(cara.page, {settled: 0.3});
+        await keepScreenshot(page, 'review_three_people');
+        await cara.context.close();
+    });
+
+    it('shows the others where to look', async () => {
+        await clickAt(ann.page, {x: 1, y: 4, z: 5.5});
+        await ann.page.click('.pin-editor [aria-label="Show this place to the others"]');
+        await ben.page.waitForSelector('.pointed', {state: 'attached'});
+        await ben.page.click('.notice:has-text("look here") button:has-text("Look")');
+        await ben.page.waitForFunction(() => window.raybundle.view.target.z > 5.4);
+    });
+
+    it('flags a pin where the light has changed', async () => {
+        const {page} = ann;
+        await frameWith(page, {settled: 0.9});
+        await page.evaluate(({x, z}) => {
+            const {scene} = window.raybundle;
+            const box = scene.objects.find(({name}) => name === 'tall box');
+            const {min, max} = box.bounds;
+            const by = {x: x - (min.x + max.x) / 2, y: 0.4, z: z - (min.z + max.z) / 2};
+            const {translation: t} = box.transform;
+            const translation = {x: t.x + by.x, y: t.y + by.y, z: t.z + by.z};
+            return window.raybundle.moveObject(box.id, {...box.transform, translation});
+        }, FLOOR);
+        await ben.page.waitForSelector('#pins .flag');
+        assert.match(await ben.page.textContent('#pins .flag'), /Light −\d+ % since/);
+        assert.match(await ben.page.textContent('[data-value="lastChange"]'), /Ann: moved tall box/);
+    });
+
+    it('saves a viewpoint that the other can fly to', async () => {
+        await ann.page.click('#tab-scene');
+        await ann.page.fill('#viewpoint-name', 'Before the boxes');
+        await ann.page.keyboard.press('Enter');
+        await ben.page.click('#tab-scene');
+        await ben.page.click('#viewpoints button:has-text("Before the boxes")');
+        await ben.page.waitForFunction(() => Math.abs(window.raybundle.view.eye.z + 7.5) < 1e-3);
+    });
+
+    it('goes on from a link, and comes home as a report', async () => {
+        const {page} = ann;
+        await page.click('#tab-review');
+        const {name, bytes} = await saved(page, '#report');
+        assert.equal(name, 'Cornell_box_review.html');
+        const html = String(bytes);
+        assert.ok(html.includes('Too dark beside the boxes') && html.includes('data:image/jpeg'));
+        assert.match(html, /Uo|Measured points/);
+        await page.evaluate(() => {
+            Object.defineProperty(navigator, 'clipboard', {value: undefined});
+            window.raybundle.select(2);
+        });
+        await page.click('#share');
+        await page.waitForFunction(() => location.hash.includes('view='));
+        const shared = await openClient(browser, page.url(), SMALL);
+        await shared.page.waitForFunction(() => window.raybundle.selected?.id === 2);
+        const [a, b] = await Promise.all(
+            [page, shared.page].map((p) => p.evaluate(() => window.raybundle.view.eye)),
+        );
+        for (const axis of ['x', 'y', 'z']) {
+            assert.ok(Math.abs(a[axis] - b[axis]) < 1e-3, `${JSON.stringify(a)}, ${JSON.stringify(b)}`);
+        }
+        await shared.context.close();
+    });
+
+    it('can be shown in another page', async () => {
+        const example = await openClient(browser, `${daemon.url}example.html`, SMALL);
+        await example.page.waitForFunction(() => {
+            const view = document.querySelector('raybundle-view');
+            const canvas = view.shadowRoot.querySelector('canvas:not(.backdrop)');
+            const context = canvas.getContext('2d');
+            const {data} = context.getImageData(canvas.width / 2, canvas.height / 2, 1, 1);
+            return canvas.width > 100 && data[0] + data[1] + data[2] > 60;
+        });
+        await keepScreenshot(example.page, 'embedded');
+        assert.deepEqual(example.faults, []);
+        await example.context.close();
+    });
+
+    it('has caused no error in any page', () => {
+        assert.deepEqual(ann.faults, []);
+        assert.deepEqual(ben.faults, []);
+    });
+});

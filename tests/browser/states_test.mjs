@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page says while it has no server, or not the one it wants; lights and materials; and that
+// it can be used by everybody.
+
+import assert from 'node:assert/strict';
+import {after, afterEach, before, describe, it} from 'node:test';
+
+import {PATIENCE_MS, keepScreenshot, launchBrowser} from './browser.mjs';
+import {FileServer, WELCOME, fakeSocket} from './fake_server.mjs';
+
+/** @type {import('playwright-core').Browser} */
+let browser;
+/** @type {FileServer} */
+let files;
+/** @type {import('playwright-core').BrowserContext} */
+let context;
+
+/**
+ * A page whose server answers as told.
+ *
+ * @param {Parameters<typeof fakeSocket>[1]} answer
+ * @param {import('playwright-core').BrowserContextOptions} options
+ */
+async function openPage(answer, options = {}) {
+    context = await browser.newContext({viewport: {width: 1280, height: 800}, ...options});
+    const page = await context.newPage();
+    page.setDefaultTimeout(PATIENCE_MS);
+    const faults = [];
+    page.on('pageerror', (error) => faults.push(error.message));
+    const sent = await fakeSocket(page, answer);
+    await page.goto(files.url);
+    return {page, sent, faults};
+}
+
+/** Refuses the first hello, welcomes later ones. */
+const refuseOnce = (code, message, closeCode) => {
+    let refused = false;
+    return (request, send, close) => {
+        if (!request.hello) {
+            send({ok: {}});
+        } else if (refused) {
+            send({welcome: WELCOME});
+        } else {
+            refused = true;
+            send({error: {code, message}});
+            if (closeCode) {
+                close(closeCode);
+            }
+        }
+    };
+};
+
+before(async () => {
+    browser = await launchBrowser();
+    files = await FileServer.start();
+});
+
+after(async () => {
+    await browser?.close();
+    files?.stop();
+});
+
+afterEach(() => context?.close());
+
+describe('the page without its server', () => {
+    it('asks for a token where its own is refused, and comes in with it', async () => {
+        const answer = refuseOnce('UNAUTHENTICATED', 'hello.token: wrong');
+        const {page, sent} = await openPage(answer);
+        await page.waitForSelector('#token-form', {state: 'visible'});
+        assert.match(await page.textContent('#banner-title'), /access token/);
+        await keepScreenshot(page, 'token');
+        await page.fill('#token', 'secret');
+        await page.click('#token-form button');
+        await page.waitForSelector('#banner', {state: 'hidden'});
+        assert.equal(sent.filter(({hello}) => hello).at(-1).hello.token, 'secret');
+        assert.ok(!page.url().includes('secret'), 'the token is in the address');
+    });
+
+    it('says that the server is full, and comes in by itself when there is room', async () => {
+        const answer = refuseOnce('RESOURCE_EXHAUSTED', 'the server is full', 1013);
+        const {page} = await openPage(answer);
+        await page.waitForFunction(() => {
+            const [title, text] = ['banner-title', 'banner-text'].map(
+                (id) => document.getElementById(id).textContent,
+            );
+            return title === 'The server is full' && /Next attempt|Trying/.test(text);
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+    });
+
+    it('says that the versions differ', async () => {
+        const text = 'hello.protocol: client speaks 1.0, server speaks 2.0';
+        const {page} = await openPage(refuseOnce('UNIMPLEMENTED', text, 1002));
+        await page.waitForSelector('#banner', {state: 'visible'});
+        await page.waitForFunction(() => window.raybundle.client.state === 'refused');
+        assert.match(await page.textContent('#banner-title'), /different versions/);
+        assert.equal(await page.textContent('#banner-retry'), 'Load the page again');
+    });
+
+    it('says that it waits for the first picture, and what draws it', async () => {
+        const {page} = await openPage((request, send) =>
+            send(request.hello ? {welcome: WELCOME} : {ok: {}}),
+        );
+        await page.waitForSelector('#preparing', {state: 'visible'});
+        assert.equal(await page.textContent('#scene-name'), 'Test room');
+        await page.click('#tab-accuracy');
+        assert.match(await page.textContent('#renderer'), /without a graphics card.*llvmpipe/);
+        const effects = await page.$$eval('#effects li', (rows) => rows.map((r) => r.textContent));
+        assert.deepEqual(effects, ['skyoffno sky is set', 'glossonone material is glossy']);
+    });
+});
+
+describe('lights and materials', () => {
+    /** Carries out every change, as a server does. */
+    const obeys = () => {
+        let epoch = 0;
+        return (request, send) => {
+            const {hello, setLight, setMaterial} = request;
+            if (setLight || setMaterial) {
+                const change = setLight ? {setLight} : {setMaterial};
+                send({sceneChanged: {epoch: ++epoch, by: 1, ...change}});
+            } else {
+                send(hello ? {welcome: WELCOME} : {ok: {}});
+            }
+        };
+    };
+
+    it('are switched, dimmed in the unit of the light, tinted and painted, and undone', async () => {
+        const {page, sent, faults} = await openPage(obeys(), {colorScheme: 'light'});
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('#tab-light');
+        const lights = () => sent.flatMap(({setLight}) => (setLight ? [setLight] : []));
+        const state = () => page.evaluate(() => window.raybundle.scene.lights[0]);
+        await page.click('#lights [role="switch"]');
+        await page.waitForFunction(() => !window.raybundle.scene.lights[0].on);
+        assert.deepEqual(lights().at(-1), {light: 1, on: false});
+        await page.fill('#lights input[type="number"]', '650');
+        await page.keyboard.press('Enter');
+        await page.waitForFunction(() => window.raybundle.scene.lights[0].intensity === 650);
+        assert.equal(await page.textContent('#lights .unit'), 'lm');
+        await page.locator('#lights input[type="range"]').nth(1).fill('2700');
+        await page.waitForFunction(() => window.raybundle.scene.lights[0].colour.x > 1.2);
+        const {colour} = await state();
+        assert.ok(colour.x > colour.y && colour.y > colour.z, JSON.stringify(colour));
+        const level = 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z;
+        assert.ok(Math.abs(level - 1) < 1e-6, `luminance ${level}`);
+        await page.fill('#materials input[type="color"]', '#ff0000');
+        await page.waitForFunction(() => window.raybundle.scene.materials[0].baseColour.x === 1);
+        await page.locator('#materials input[type="range"]').fill('0.25');
+        await page.waitForFunction(() => window.raybundle.scene.materials[0].roughness === 0.25);
+        await keepScreenshot(page, 'lights');
+        await page.click('#tab-scene');
+        for (let i = 0; i < 5; ++i) {
+            await page.click('#undo');
+        }
+        await page.waitForFunction(() => {
+            const [light] = window.raybundle.scene.lights;
+            const [material] = window.raybundle.scene.materials;
+            return light.on && light.intensity === 1000 && material.roughness === 0.6;
+        });
+        assert.deepEqual(faults, []);
+    });
+
+    it('stay as they are where the server cannot change them, and the page says so', async () => {
+        const {page} = await openPage((request, send) => {
+            const {hello, setLight} = request;
+            const error = {code: 'UNIMPLEMENTED', message: 'not here'};
+            send(setLight ? {error} : hello ? {welcome: WELCOME} : {ok: {}});
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('#tab-light');
+        await page.click('#lights [role="switch"]');
+        await page.waitForSelector('#lights-note', {state: 'visible'});
+        assert.ok(await page.isChecked('#lights [role="switch"]'));
+        assert.ok(await page.isDisabled('#lights [role="switch"]'));
+    });
+
+    it('are not offered to who may only look', async () => {
+        const welcome = {...WELCOME, role: 'VIEWER'};
+        const {page} = await openPage((request, send) => {
+            send(request.hello ? {welcome} : {ok: {}});
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('#tab-light');
+        assert.ok(await page.isDisabled('#lights [role="switch"]'));
+        await page.click('#tab-scene');
+        assert.ok(await page.isHidden('#viewpoint-form'));
+    });
+});
+
+describe('everybody', () => {
+    const welcomes = (request, send) => send(request.hello ? {welcome: WELCOME} : {ok: {}});
+
+    it('reaches everything with the keyboard, and every control has a name', async () => {
+        const {page} = await openPage(welcomes);
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.focus('#tab-scene');
+        for (const id of ['tab-light', 'tab-measure', 'tab-review', 'tab-accuracy']) {
+            await page.keyboard.press('ArrowRight');
+            assert.equal(await page.evaluate(() => document.activeElement.id), id);
+            assert.equal(await page.getAttribute(`#${id}`, 'aria-selected'), 'true');
+        }
+        const nameless = await page.evaluate(() =>
+            [...document.querySelectorAll('button, input, select, textarea, [role="tabpanel"]')]
+                .filter((element) => {
+                    const labels = [...(element.labels ?? [])].map((label) => label.textContent);
+                    const by = element.getAttribute('aria-labelledby');
+                    const text = [
+                        element.getAttribute('aria-label'),
+                        element.tagName === 'BUTTON' ? element.textContent : '',
+                        by && document.getElementById(by)?.textContent,
+                        ...labels,
+                    ];
+                    return !text.some((part) => part?.trim());
+                })
+                .map((element) => element.outerHTML),
+        );
+        assert.deepEqual(nameless, []);
+    });
+
+    for (const colorScheme of /** @type {const} */ (['dark', 'light'])) {
+        it(`can read it: contrast of 4.5 at least, ${colorScheme}`, async () => {
+            const {page} = await openPage(welcomes, {colorScheme});
+            await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+            const poor = await page.evaluate(() => {
+                const rgb = (/** @type {string} */ text) => text.match(/[\d.]+/g).map(Number);
+                const level = ([r, g, b]) => {
+                    const [x, y, z] = [r, g, b].map((value) => {
+                        const v = value / 255;
+                        return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+                    });
+                    return 0.2126 * x + 0.7152 * y + 0.0722 * z;
+                };
+                const behind = (/** @type {Element | null} */ element) => {
+                    for (let e = element; e; e = e.parentElement) {
+                        const colour = rgb(getComputedStyle(e).backgroundColor);
+                        if ((colour[3] ?? 1) > 0.5) {
+                            return colour;
+                        }
+                    }
+                    return [0, 0, 0];
+                };
+                const found = [];
+                for (const tab of document.querySelectorAll('[role="tab"]')) {
+                    tab.click();
+                    for (const element of document.querySelectorAll('#app *')) {
+                        const own = [...element.childNodes].some(
+                            (node) => node.nodeType === 3 && node.textContent.trim(),
+                        );
+                        if (!own || !element.checkVisibility() || element.matches(':disabled, option')) {
+                            continue;
+                        }
+                        const a = level(rgb(getComputedStyle(element).color)) + 0.05;
+                        const b = level(behind(element)) + 0.05;
+                        const contrast = Math.max(a, b) / Math.min(a, b);
+                        if (contrast < 4.5) {
+                            found.push(`${contrast.toFixed(2)} ${element.outerHTML.slice(0, 120)}`);
+                        }
+                    }
+                }
+                return found;
+            });
+            assert.deepEqual(poor, []);
+        });
+    }
+
+    it('who prefers less motion is at the camera at once', async () => {
+        const {page} = await openPage(welcomes, {reducedMotion: 'reduce'});
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        const eye = await page.evaluate(() => {
+            const {scene} = window.raybundle;
+            scene.cameras.push({...scene.cameras[0], name: 'up', eye: {x: 2, y: 9, z: 9}});
+            window.raybundle.flyTo('up');
+            return window.raybundle.view.eye;
+        });
+        assert.deepEqual(eye, {x: 2, y: 9, z: 9});
+    });
+
+    it('fits at 360 pixels, with every tab', async () => {
+        const {page} = await openPage(welcomes, {viewport: {width: 360, height: 740}});
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('#panel-toggle');
+        for (const id of ['scene', 'light', 'measure', 'review', 'accuracy']) {
+            await page.click(`#tab-${id}`);
+            const width = await page.evaluate(() => {
+                const {scrollWidth} = document.getElementById('panel');
+                return Math.max(document.documentElement.scrollWidth, scrollWidth);
+            });
+            assert.ok(width <= 360, `${id} is ${width} pixels wide`);
+        }
+    });
+});
+
+describe('walking', () => {
+    const welcomes = (request, send) => send(request.hello ? {welcome: WELCOME} : {ok: {}});
+
+    it('by keys goes ahead, gets going and ends softly', async () => {
+        const {page} = await openPage(welcomes);
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('[data-mode="walk"]');
+        const z = () => page.evaluate(() => window.raybundle.view.eye.z);
+        const start = await z();
+        await page.keyboard.down('KeyW');
+        await page.waitForFunction((from) => window.raybundle.view.eye.z < from - 0.3, start);
+        await page.keyboard.up('KeyW');
+        const released = await z();
+        await page.waitForFunction((from) => window.raybundle.view.eye.z < from, released);
+        await page.waitForTimeout(700);
+        const rest = await z();
+        await page.waitForTimeout(200);
+        assert.equal(await z(), rest);
+        await page.keyboard.press('KeyH');
+        await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.y - 1.6) < 1e-6);
+        assert.equal(await page.textContent('[data-value="eyeHeight"]'), '1.60 m');
+    });
+
+    it('by mouse look turns the head while the mouse is held', async () => {
+        const {page} = await openPage(welcomes);
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.focus('#picture');
+        await page.mouse.move(500, 400);
+        await page.keyboard.press('KeyL');
+        await page.waitForFunction(() => document.pointerLockElement?.id === 'picture');
+        const before = await page.evaluate(() => window.raybundle.view);
+        await page.mouse.move(600, 400, {steps: 4});
+        await page.waitForFunction((from) => window.raybundle.view.target.x > from + 0.1, before.target.x);
+        const after = await page.evaluate(() => window.raybundle.view);
+        assert.deepEqual(after.eye, before.eye);
+    });
+
+    it('by a stick under the thumb', async () => {
+        const viewport = {width: 360, height: 740};
+        const {page} = await openPage(welcomes, {viewport, hasTouch: true, isMobile: true});
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.tap('[data-mode="walk"]');
+        await page.waitForSelector('#stick', {state: 'visible'});
+        const start = await page.evaluate(() => window.raybundle.view.eye.z);
+        const box = await page.locator('#stick').boundingBox();
+        await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+        await page.mouse.down();
+        await page.mouse.move(box.x + box.width / 2, box.y + 5, {steps: 3});
+        await page.waitForFunction((from) => window.raybundle.view.eye.z < from - 0.2, start);
+        await page.mouse.up();
+    });
+
+    it('by a game controller', async () => {
+        const {page} = await openPage(welcomes);
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        const start = await page.evaluate(() => {
+            const pad = {mapping: 'standard', axes: [0, -1, 0, 0], buttons: []};
+            navigator.getGamepads = () => [pad];
+            dispatchEvent(new Event('gamepadconnected'));
+            return window.raybundle.view.eye.z;
+        });
+        await page.waitForFunction((from) => window.raybundle.view.eye.z < from - 0.3, start);
+    });
+});

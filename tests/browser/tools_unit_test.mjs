@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+// The maths behind the page's tools: reprojection, grids, placing, colours, links, reports.
+
+import assert from 'node:assert/strict';
+import {describe, it} from 'node:test';
+
+import {goTo, look, project, walk} from '../../client_web/camera.js';
+import * as colour from '../../client_web/colour.js';
+import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf} from '../../client_web/grid.js';
+import {History} from '../../client_web/history.js';
+import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
+import {frustumOf} from '../../client_web/people.js';
+import {changeOf} from '../../client_web/pins.js';
+import * as placement from '../../client_web/placement.js';
+import {escaped, reportHtml} from '../../client_web/report.js';
+import {PlacedObject} from '../../client_web/scene_model.js';
+import {placeOf, placedAt} from '../../client_web/scene_panel.js';
+import {fromHash, toHash} from '../../client_web/share.js';
+import {bannerOf} from '../../client_web/status.js';
+import {duration, targetAt} from '../../client_web/target_panel.js';
+import * as units from '../../client_web/units.js';
+import {centre, length, sub, vec3} from '../../client_web/vector.js';
+import {cssMatrix, homography} from '../../client_web/view_warp.js';
+import {outsideDeadZone} from '../../client_web/walking.js';
+
+const VIEW = {eye: vec3(1, 1.6, 4), target: vec3(0, 1, 0), up: vec3(0, 1, 0), verticalFov: 0.8};
+const close = (actual, expected, bound, what) =>
+    assert.ok(Math.abs(actual - expected) <= bound, `${what ?? ''} ${actual}, not ${expected}`);
+
+describe('the last picture under another camera', () => {
+    /** Where a homography takes a point of the picture. */
+    const taken = (h, x, y) => {
+        const [a, b, w] = [0, 3, 6].map((i) => h[i] * x + h[i + 1] * y + h[i + 2]);
+        return {x: a / w, y: b / w};
+    };
+
+    it('stays where it is while the camera does', () => {
+        const {x, y} = taken(homography(VIEW, 1.5, VIEW, 1.5), 0.3, 0.8);
+        close(x, 0.3, 1e-9);
+        close(y, 0.8, 1e-9);
+    });
+
+    it('follows a turn of the head exactly, whatever the distance', () => {
+        const turned = look(VIEW, 0.2, -0.1);
+        const h = homography(VIEW, 1.5, turned, 1.2);
+        for (const point of [vec3(0.3, 0.9, 0), vec3(0.6, 1.2, -8), vec3(0.9, 1.4, 2)]) {
+            const before = project(VIEW, 1.5, point);
+            const after = project(turned, 1.2, point);
+            const {x, y} = taken(h, before.x, before.y);
+            close(x, after.x, 1e-9);
+            close(y, after.y, 1e-9);
+        }
+    });
+
+    it('follows a step exactly for what lies at the distance of the target', () => {
+        const moved = walk(VIEW, 0.5, 0.3, 0);
+        const before = project(VIEW, 1.5, VIEW.target);
+        const after = project(moved, 1.5, VIEW.target);
+        const {x, y} = taken(homography(VIEW, 1.5, moved, 1.5), before.x, before.y);
+        close(x, after.x, 1e-9);
+        close(y, after.y, 1e-9);
+    });
+
+    it('is not drawn from behind', () => {
+        assert.equal(homography(VIEW, 1.5, look(VIEW, Math.PI, 0), 1.5), null);
+    });
+
+    it('is a matrix that CSS reads', () => {
+        const css = cssMatrix(homography(VIEW, 1.5, VIEW, 1.5), 300, 200);
+        const numbers = css.slice('matrix3d('.length, -1).split(',').map(Number);
+        assert.equal(numbers.length, 16);
+        [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1].forEach((v, i) => close(numbers[i], v, 1e-9));
+    });
+});
+
+describe('a double click', () => {
+    it('on the floor stands there, looking the same way', () => {
+        const there = goTo(VIEW, vec3(2, 0.2, -3), vec3(0, 1, 0), true);
+        assert.deepEqual(there.eye, vec3(2, 1.8, -3));
+        close(there.target.y, there.eye.y, 1e-9);
+        const heading = (v) => Math.atan2(v.target.x - v.eye.x, v.target.z - v.eye.z);
+        close(heading(there), heading(VIEW), 1e-9);
+    });
+
+    it('on a wall comes near and looks at it', () => {
+        const there = goTo(VIEW, vec3(0, 1, -10), vec3(0, 0, 1), true);
+        assert.deepEqual(there.target, vec3(0, 1, -10));
+        assert.ok(length(sub(there.eye, there.target)) < length(sub(VIEW.eye, there.target)) / 2);
+    });
+});
+
+describe('a measuring grid', () => {
+    const TABLE = {min: vec3(-1, 0, 2), max: vec3(1, 0.75, 3)};
+
+    it('has equal cells over the surface, no wider than asked', () => {
+        const grid = gridOn(vec3(0.3, 0.75, 2.4), vec3(0, 1, 0), TABLE, 0.3);
+        assert.equal(grid.columns * grid.rows, 7 * 4);
+        const points = pointsOf(grid);
+        for (const {x, y, z} of points) {
+            assert.ok(x > -1 && x < 1 && z > 2 && z < 3);
+            close(y, 0.75, 1e-9);
+        }
+        const mean = points.reduce((sum, {x}) => sum + x, 0) / points.length;
+        close(mean, 0, 1e-9);
+    });
+
+    it('stands upright on a wall', () => {
+        const wall = {min: vec3(0, 0, 0), max: vec3(4, 3, 5)};
+        for (const {x} of pointsOf(gridOn(vec3(4, 1, 2), vec3(-1, 0, 0), wall, 0.5))) {
+            close(x, 4, 1e-9);
+        }
+    });
+
+    it('has the step of EN 12464-1, and no more points than the server measures', () => {
+        close(standardStep(1), 0.2, 1e-12);
+        close(standardStep(10), 1, 1e-12);
+        const hall = {min: vec3(-60, 0, -60), max: vec3(60, 5, 60)};
+        const grid = gridOn(vec3(0, 0, 0), vec3(0, 1, 0), hall, 0.1);
+        assert.ok(grid.columns * grid.rows <= 1024);
+    });
+
+    it('sums up what was measured and leaves out what was not', () => {
+        const summary = summaryOf([100, -1, 300, 200]);
+        assert.deepEqual(summary, {measured: 3, minimum: 100, mean: 200, maximum: 300, uniformity: 0.5});
+        assert.equal(summaryOf([-1, -1]), null);
+    });
+
+    it('becomes a table', () => {
+        const grid = {origin: vec3(0, 0, 0), stepX: vec3(1, 0, 0), stepY: vec3(0, 0, 2), columns: 2, rows: 1};
+        const lines = gridCsv(grid, {illuminance: [123.4567, -1], relativeError: [0.02, -1], epoch: 7})
+            .trim()
+            .split('\r\n');
+        assert.equal(lines[1], '1,1,0.0000,0.0000,0.0000,123.457,0.0200,7');
+        assert.equal(lines[2], '1,2,1.0000,0.0000,0.0000,,,7');
+        assert.equal(csvCell('=1+1'), "'=1+1");
+        assert.equal(csvCell('a "b", c'), '"a ""b"", c"');
+    });
+});
+
+describe('placing an object', () => {
+    const object = () =>
+        new PlacedObject({
+            id: 1,
+            name: 'box',
+            movable: true,
+            bounds: {min: vec3(1, 0, 2), max: vec3(2, 1, 4)},
+            transform: {translation: vec3(0.5, 0, 0)},
+            worldFromParent: [0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 3, 0, 1, 1],
+        });
+
+    it('turns it about its own middle, also below a turned and scaled parent', () => {
+        const box = object();
+        const before = centre(box.bounds);
+        box.place(placedAt(box, 'turn', 90));
+        const after = centre(box.bounds);
+        assert.ok(length(sub(after, before)) < 1e-6, JSON.stringify(after));
+        const size = sub(box.bounds.max, box.bounds.min);
+        close(size.x, 2, 1e-6);
+        close(size.z, 1, 1e-6);
+        close(placeOf(box).turn, 90, 1e-6);
+    });
+
+    it('outlines it with a box that turns with it', () => {
+        const box = object();
+        box.place(placedAt(box, 'turn', 30));
+        const edges = box.boxEdges(vec3(0, 9, 9));
+        const lengths = edges.map(([a, b]) => length(sub(a, b)));
+        assert.equal(edges.length, 9);
+        assert.ok(lengths.every((size) => Math.min(Math.abs(size - 1), Math.abs(size - 2)) < 1e-6));
+    });
+
+    it('resizes it on its base', () => {
+        const box = object();
+        box.place(placedAt(box, 'size', 50));
+        close(box.bounds.min.y, 0, 1e-9);
+        close(box.bounds.max.y, 0.5, 1e-9);
+        close(placeOf(box).size, 50, 1e-9);
+    });
+
+    it('puts it where a number says', () => {
+        const box = object();
+        box.place(placedAt(box, 'x', 7));
+        close(placeOf(box).x, 7, 1e-9);
+        close(placeOf(box).z, 3, 1e-9);
+    });
+
+    it('moves it as far along an axis as the pointer went', () => {
+        const picture = {width: 900, height: 600};
+        const at = (p) => {
+            const {x, y} = project(VIEW, 1.5, p);
+            return {x: x * 900, y: y * 600};
+        };
+        const from = at(vec3(0, 1, 0));
+        const to = at(vec3(0.05, 1, 0));
+        const way = {x: to.x - from.x, y: to.y - from.y};
+        const metres = placement.alongAxis(VIEW, picture, vec3(0, 1, 0), vec3(1, 0, 0), way);
+        close(metres, 0.05, 0.001);
+        close(placement.snapped(0.26, 0.1), 0.3, 1e-12);
+    });
+});
+
+describe('colours and units', () => {
+    it('tell a temperature from a colour and back', () => {
+        for (const kelvin of [2700, 4000, 6500]) {
+            const light = colour.blackBody(kelvin);
+            close(colour.luminance(light), 1, 1e-9);
+            close(colour.temperatureOf(light), kelvin, 50);
+        }
+        const white = colour.blackBody(6504);
+        close(white.x, white.z, 0.1, 'daylight is nearly white:');
+    });
+
+    it('go through sRGB unchanged', () => {
+        assert.equal(colour.toHex(colour.fromHex('#3b7fd0')), '#3b7fd0');
+    });
+
+    it('dim by ratios', () => {
+        close(dimmerShare(dimmerPosition(1)), 1, 1e-9);
+        close(dimmerShare(0), 0.01, 1e-12);
+    });
+
+    it('say no more digits than there are', () => {
+        assert.equal(units.illuminance(482.1, 'lx'), '482 lx');
+        assert.equal(units.illuminance(107.639, 'fc'), '10.0 fc');
+        assert.equal(units.illuminance(12345, 'lx'), '12\u202f345 lx');
+        assert.equal(units.plusMinus(0.012), '± 2.4 %');
+        assert.equal(units.plusMinus(undefined), '± ?');
+    });
+});
+
+describe('changes', () => {
+    it('are undone and done again, the newest first', async () => {
+        const log = [];
+        const history = new History();
+        const step = (name) => ({
+            label: name,
+            undo: async () => log.push(`-${name}`),
+            redo: async () => log.push(`+${name}`),
+        });
+        history.add(step('a'));
+        history.add(step('b'));
+        await history.undo();
+        await history.undo();
+        await history.undo();
+        await history.redo();
+        assert.deepEqual(log, ['-b', '-a', '+a']);
+        history.add(step('c'));
+        assert.equal(history.next, null);
+    });
+
+    it('of a slider are sent one at a time, the newest last', async () => {
+        const sent = [];
+        let finish = () => {};
+        const newest = new NewestOnly((body) => {
+            sent.push(body.n);
+            return new Promise((resolve) => {
+                finish = resolve;
+            });
+        });
+        newest.push({n: 1});
+        newest.push({n: 2});
+        newest.push({n: 3});
+        assert.deepEqual(sent, [1]);
+        finish();
+        await new Promise((resolve) => setTimeout(resolve));
+        assert.deepEqual(sent, [1, 3]);
+    });
+
+    it('of the light at a pin are told above ten per cent', () => {
+        assert.equal(changeOf({change: 0.09}), '');
+        assert.equal(changeOf({}), '');
+        assert.equal(changeOf({change: -0.24}), '−24 % since');
+    });
+});
+
+describe('a link', () => {
+    it('brings back camera, exposure, mode and selection', () => {
+        const shared = {view: VIEW, exposure: -1.5, mode: 'FALSE_ILLUMINANCE', selected: 3};
+        assert.deepEqual(fromHash(`#${toHash(shared)}`), shared);
+    });
+
+    it('that is broken says nothing', () => {
+        const nothing = {view: null, exposure: null, mode: 'PHOTO', selected: null};
+        for (const hash of ['', '#view=1,2,3', '#view=0,0,0,0,0,0,0,1,0,1&ev=x&show=Y&object=z']) {
+            assert.deepEqual(fromHash(hash), nothing);
+        }
+    });
+});
+
+describe('the report', () => {
+    it('is one file that shows what people typed as text', () => {
+        const html = reportHtml({
+            title: 'Room <1>',
+            server: 'raybundle',
+            time: new Date(0),
+            epoch: 2,
+            error: 0.02,
+            picture: 'data:image/jpeg;base64,AA==',
+            address: 'http://a/#view=1',
+            unit: 'lx',
+            pins: [
+                {pin: 1, by: 1, byName: 'Ann', text: '<script>alert(1)</script>', illuminance: 100,
+                    epoch: 1, setAtMs: 0, change: 0.5},
+            ],
+            points: [{number: 1, probe: {illuminance: 50, luminance: 5, epoch: 2}}],
+            grid: {object: 'table', columns: 1, rows: 2, illuminance: [10, 30]},
+            changes: [{time: new Date(0), epoch: 2, by: 'Ann', text: 'moved chair'}],
+            pinsInPicture: [{pin: 1, x: 0.5, y: 0.25}],
+        });
+        assert.ok(!html.includes('<script'));
+        assert.ok(html.includes('&lt;script&gt;'));
+        assert.ok(html.includes('+50 % since') && html.includes('moved chair'));
+        assert.ok(html.includes('left:50.00%;top:25.00%'));
+        assert.ok(!/(src|href)="https?:(?!\/\/a\/)/.test(html), 'needs nothing else');
+        assert.equal(escaped(`<a href="x">&'`), '&lt;a href=&quot;x&quot;&gt;&amp;&#39;');
+    });
+});
+
+describe('what the page says', () => {
+    it('of a connection that is not', () => {
+        const change = (state, code) => ({state, reason: '', code, retryAt: 0});
+        assert.ok(bannerOf(change('refused', 'UNAUTHENTICATED'), false).asksForToken);
+        assert.match(bannerOf(change('refused', 'UNIMPLEMENTED'), false).title, /versions/);
+        assert.match(bannerOf(change('reconnecting', 'RESOURCE_EXHAUSTED'), false).title, /full/);
+        assert.match(bannerOf(change('reconnecting', ''), true).title, /lost/);
+    });
+
+    it('of targets', () => {
+        close(targetAt('error', 0), 0.2, 1e-9);
+        close(targetAt('error', 1), 0.005, 1e-9);
+        assert.equal(duration(0.3), 'less than a second');
+        assert.equal(duration(42), '42 s');
+        assert.equal(duration(300), '5 min');
+    });
+
+    it('of others: where they look', () => {
+        const {eye, corners} = frustumOf({...VIEW, aspect: 2, viewer: 1, name: '', role: 'VIEWER', following: 0});
+        assert.deepEqual(eye, VIEW.eye);
+        const width = length(sub(corners[1], corners[0]));
+        close(width / length(sub(corners[2], corners[1])), 2, 1e-9);
+    });
+});
+
+describe('a controller', () => {
+    it('rests in its dead zone and reaches full speed', () => {
+        assert.equal(outsideDeadZone(0.1), 0);
+        assert.equal(outsideDeadZone(-1), -1);
+        close(outsideDeadZone(0.575), 0.5, 1e-9);
+    });
+});
