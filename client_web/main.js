@@ -215,8 +215,9 @@ const pointers = new PointerControl(app.picture.element, {
 });
 app.picture.element.addEventListener('dblclick', (event) => {
     const box = app.picture.element.getBoundingClientRect();
-    pins.cancel();
-    walking.goTo({x: event.clientX - box.left, y: event.clientY - box.top});
+    if (app.tool === 'select') {
+        walking.goTo({x: event.clientX - box.left, y: event.clientY - box.top});
+    }
 });
 addButtons();
 addKeys({
