@@ -19,7 +19,8 @@ export class History extends EventTarget {
     #done = [];
     /** @type {Step[]} */
     #undone = [];
-    #busy = false;
+    /** What is under way; steps follow one another. @type {Promise<void>} */
+    #under = Promise.resolve();
 
     /** The step that undo() takes back. */
     get last() {
@@ -35,7 +36,7 @@ export class History extends EventTarget {
     add(step) {
         this.#done.push(step);
         this.#done.splice(0, this.#done.length - MAX_STEPS);
-        this.#undone = [];
+        this.#undone.length = 0;
         this.dispatchEvent(new Event('change'));
     }
 
@@ -51,8 +52,8 @@ export class History extends EventTarget {
 
     /** Forgets everything, as for another scene. */
     clear() {
-        this.#done = [];
-        this.#undone = [];
+        this.#done.length = 0;
+        this.#undone.length = 0;
         this.dispatchEvent(new Event('change'));
     }
 
@@ -61,17 +62,17 @@ export class History extends EventTarget {
      * @param {Step[]} to
      * @param {'undo' | 'redo'} way
      */
-    async #shift(from, to, way) {
-        const step = from.at(-1);
-        if (!step || this.#busy) {
-            return;
-        }
-        this.#busy = true;
-        from.pop();
-        to.push(step);
-        this.dispatchEvent(new Event('change'));
-        await step[way]();
-        this.#busy = false;
+    #shift(from, to, way) {
+        this.#under = this.#under.then(async () => {
+            const step = from.pop();
+            if (step) {
+                to.push(step);
+                this.dispatchEvent(new Event('change'));
+                // What is refused has been told to the user by whoever was asked.
+                await step[way]().catch(() => {});
+            }
+        });
+        return this.#under;
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keyboard: what each key does while the picture has the focus, or nothing has.
+// The keyboard: what each key does while the picture has the focus, or nothing has. Undo and redo work
+// everywhere but in fields of text.
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -87,15 +88,24 @@ function pressModified({history}, event) {
     return false;
 }
 
+/**
+ * Whether somebody writes there, so that undo is the field's own.
+ *
+ * @param {EventTarget | null} target
+ */
+const isText = (target) =>
+    target instanceof HTMLTextAreaElement ||
+    (target instanceof HTMLInputElement && !['range', 'checkbox', 'color'].includes(target.type));
+
 /** @param {KeyTargets} targets */
 export function addKeys(targets) {
     const {app} = targets;
     document.addEventListener('keydown', (event) => {
         const here = event.target === document.body || event.target === app.picture.element;
-        if (!here || event.altKey) {
+        const modified = event.ctrlKey || event.metaKey;
+        if (event.altKey || (modified ? isText(event.target) : !here)) {
             return;
         }
-        const modified = event.ctrlKey || event.metaKey;
         if (modified ? pressModified(targets, event) : press(targets, event)) {
             event.preventDefault();
         }

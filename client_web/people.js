@@ -175,8 +175,10 @@ export class People {
             }
         }
         const self = viewers.find(({viewer}) => viewer === this.own);
-        if (self && this.following && self.following !== this.following && this.app.link.led) {
-            this.app.status.notify(`${this.name(this.following)} leads no more.`);
+        if (self && this.following && self.following === 0) {
+            if (this.app.link.led) {
+                this.app.status.notify(`${this.name(this.following)} leads no more.`);
+            }
             this.following = 0;
             this.app.link.led = false;
         }

@@ -149,8 +149,10 @@ describe('lights and materials', () => {
         await page.locator('#materials input[type="range"]').fill('0.25');
         await page.waitForFunction(() => window.raybundle.scene.materials[0].roughness === 0.25);
         await keepScreenshot(page, 'lights');
+        await page.keyboard.press('Control+KeyZ');
+        await page.waitForFunction(() => window.raybundle.scene.materials[0].roughness === 0.6);
         await page.click('#tab-scene');
-        for (let i = 0; i < 5; ++i) {
+        for (let i = 0; i < 4; ++i) {
             await page.click('#undo');
         }
         await page.waitForFunction(() => {
