@@ -106,7 +106,9 @@ IterationSample IterationSchedule::next() {
 void IterationSchedule::sample_window(IterationSample& sample, const RandomisedHalton& numbers,
                                       std::uint64_t k) {
     sample.row_phase = numbers.sample(rows, k) < 0.5 ? 0 : 1;
-    sample.direction = uniform_direction(numbers.sample(polar, k), numbers.sample(azimuth, k));
+    // Light goes both ways: half of the sphere says it all, and more evenly.
+    sample.direction =
+        uniform_direction(0.5 * numbers.sample(polar, k), numbers.sample(azimuth, k));
     sample.angle = turn_range * numbers.sample(window_turn, k);
     sample.shift = {static_cast<float>(numbers.sample(shift_x, k)),
                     static_cast<float>(numbers.sample(shift_y, k))};

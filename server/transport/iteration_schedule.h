@@ -26,7 +26,7 @@ struct IterationSample {
     glm::vec4 shooter_numbers{0.0F};        ///< perspective: see solution_shooters.comp
     unsigned row_phase = 0;                 ///< which pixel rows sum for the patches
     double angle = 0.0;                     ///< of the bundle about its z axis, radians
-    glm::vec3 direction{0.0F, 0.0F, 1.0F};  ///< parallel: uniform over the sphere
+    glm::vec3 direction{0.0F, 0.0F, 1.0F};  ///< parallel: uniform over half of the sphere, or all of it
     double plane = 0.0;     ///< where the plane splits the scene, share of R, [0, 1)
     glm::vec2 shift{0.0F};  ///< of the samples in their pixels, [0, 1)
 };

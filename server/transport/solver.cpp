@@ -121,8 +121,8 @@ float Solver::sample_weight() const {
 
 /// Step of the transferred iterate, see solution_update.comp.
 float Solver::iterate_step() const {
-    constexpr float exponent = 0.66F;
-    constexpr float smallest = 1.0F / 256.0F;
+    constexpr float exponent = 0.8F;
+    constexpr float smallest = 1.0F / 2048.0F;
     const auto age = static_cast<float>(changes_ == 0 ? iterations_ + 1
                                                       : std::min(iterations_, since_change_ + 32));
     return std::max(std::pow(age, -exponent), smallest);
