@@ -21,7 +21,7 @@
 #define BINDING_SHOOTERS 11        // Shooter[]
 #define BINDING_COUNTERS 12        // Counters
 #define BINDING_LAYER_COUNTS 13    // uint[window pixels]: surfaces that the pixel's line meets
-#define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: the k-th of a pixel at k * pixels + pixel
+#define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: see layers.glsl
 #define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
 #define BINDING_MATERIALS 16       // MaterialData[]
 #define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures
@@ -77,6 +77,7 @@
 #define UNIT_GLOSS 17             // rgba32f
 #define UNIT_PIXEL_GLOSS 18       // rgba32f
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
+#define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0

@@ -121,7 +121,10 @@ float Solver::sample_weight() const {
 
 /// Step of the transferred iterate, see solution_update.comp.
 float Solver::iterate_step() const {
-    constexpr float exponent = 0.8F;
+    // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
+    // unless the energy balance sets it. Only perspective bundles tell it what flux escapes.
+    const bool balanced = scene_.sky() == glm::vec3(0.0F) && probabilities_.perspective > 0.0F;
+    const float exponent = balanced ? 0.8F : 0.66F;
     constexpr float smallest = 1.0F / 2048.0F;
     const auto age = static_cast<float>(changes_ == 0 ? iterations_ + 1
                                                       : std::min(iterations_, since_change_ + 32));
