@@ -153,6 +153,11 @@ void add_render(CLI::App& app, Options& o) {
                    "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
                    "metropolis, photon-map")
         ->capture_default_str();
+    app.add_option(
+           "--bias-for-noise", o.bias_for_noise,
+           "Cut off rare bright contributions as fits so many planned iterations; the result "
+           "is then biased (0: never)")
+        ->check(CLI::Range(0.0, 1e9));
     app.add_option("--stats", o.stats, "Write statistics as JSON");
 }
 

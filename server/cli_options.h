@@ -83,6 +83,7 @@ struct Options {
     std::optional<std::uint64_t> iterations;
     std::optional<double> error;
     std::string method = "combined";
+    std::uint64_t bias_for_noise = 0;  // iterations planned
     std::string stats;
 
     // accuracy, besides those of render

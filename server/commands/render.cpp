@@ -78,6 +78,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"relativeError", outcome.statistics.relative_error},
         {"errorLow", outcome.statistics.error_low},
         {"errorHigh", outcome.statistics.error_high},
+        {"biased", options.bias_for_noise > 0},
         {"nonFinite", solver.non_finite()},
         {"notices", loaded.scene.notices}};
     write_file(options.stats, json.dump(2) + "\n");
@@ -95,6 +96,7 @@ int run_render(const Options& options) {
     SolverSettings settings;
     settings.seed = options.seed;
     settings.probabilities = std::get<StrategyProbabilities>(method);
+    settings.noise_horizon = options.bias_for_noise;
     const EglContext context = create_egl_context({options.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);

@@ -122,7 +122,8 @@ struct Shooter {
     float density;   // p_j / A_j, 1/m^2
     uint object;
     uint glossy;     // 1: its radiance depends on direction
-    uint pad0, pad1;
+    float probability;  // p_j
+    uint pad0;
 };
 
 struct Counters {
@@ -207,10 +208,11 @@ struct BundleParameters {
     vec4 origin;         // perspective: shooting point; parallel: window's origin; w = near distance
     vec4 axis_x;         // unit; w: perspective: how far from their centres pixels sample, pixels; plane: its z, m
     vec4 axis_y;         // the same along y; w of parallel bundles: R, the depth of the window's slab, m
-    vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle
+    vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle; w: p_j of the shooter
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
-    vec4 weights;        // sign/weight of the transfer, iteration weight w, pixel size (m or tangent), batch
+    vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
+                         // limit of density.glsl, 0 = none; batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
     mat4 before_from_now;  // rotation of the object that is elsewhere at place 1

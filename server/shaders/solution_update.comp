@@ -14,6 +14,7 @@
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
+#include "density.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
@@ -51,7 +52,8 @@ void main() {
     }
     vec3 new_sample;
     if (scalar) {
-        new_sample = counters.shooter_radiance.rgb * take_accumulated(i, 0u);
+        float received = trade_bias_for_noise(take_accumulated(i, 0u), bundle.weights.z, bundle.axis_z.w);
+        new_sample = counters.shooter_radiance.rgb * received;
     } else {
         new_sample = vec3(take_accumulated(i, 0u), take_accumulated(i, 1u), take_accumulated(i, 2u));
     }

@@ -121,6 +121,9 @@ float Solver::sample_weight() const {
 
 /// Step of the transferred iterate, see solution_update.comp.
 float Solver::iterate_step() const {
+    if (!settings_.main_part) {
+        return 1.0F;
+    }
     // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
     // unless the energy balance sets it. Only perspective bundles tell it what flux escapes.
     const bool balanced = scene_.sky() == glm::vec3(0.0F) && probabilities_.perspective > 0.0F;
@@ -139,6 +142,7 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.context.sample_weight = sample_weight();
     settings.batch = planned.sample.batch;
     settings.slot = slot;
+    settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
     settings.row_phase = planned.sample.row_phase;
     last_strategy_ = planned.sample.strategy;
     if (planned.sample.strategy == Strategy::perspective) {

@@ -23,8 +23,14 @@ struct SolverSettings {
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
     std::uint64_t coarse_iterations = 768;
-    float density_error = 1.0F;         ///< fault injection of tests: factor of the densities
-    bool ageing = false;                ///< probabilities follow ageing_mix() instead
+    float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
+    bool ageing = false;         ///< probabilities follow ageing_mix() instead
+    /// Iterations planned, M of eq. 5.6: perspective bundles trade bias for noise, most of all
+    /// without parallel ones, which bound their contributions anyway. 0: unbiased.
+    std::uint64_t noise_horizon = 0;
+    /// Patches send the average of what they reflected (ch. 4.4: separated main part). Otherwise
+    /// what the last bundle brought, as in plain stochastic iteration; to compare.
+    bool main_part = true;
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
 };

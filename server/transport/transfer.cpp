@@ -109,6 +109,8 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     store_.bind();
     layout::BundleParameters p = common_parameters(frame, settings);
     p.densities.w = shooter.density;
+    p.axis_z.w = shooter.probability;
+    p.weights.z = 2.0F * glm::pi<float>() * settings.noise_horizon;
     p.axis_x.w = frame.pixel_shift.x;
     p.axis_y.w = frame.pixel_shift.y;
     p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());

@@ -30,6 +30,8 @@ struct TransferSettings {
     double row_phase =
         0.0;            ///< which pixel rows are sampled, [0, 1), see row_stride in transfer.cpp
     unsigned slot = 0;  ///< of a layered iteration in its group, for take_overflow()
+    /// Iterations M over which perspective bundles trade bias for noise (ch. 5.4); 0: never.
+    float noise_horizon = 0.0F;
     bool coloured = false;  ///< patch sums carry the shooter's radiance (special phase)
     BundleReceiver::Context context;
 };
