@@ -13,6 +13,7 @@
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_geometry.h"
+#include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_node_tree.h"
 #include "scene/gltf_objects.h"
@@ -45,7 +46,7 @@ void name_materials(Scene& scene) {
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
-    } else if (scene.lights.empty()) {
+    } else if (!has_emitter(scene)) {
         scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
         document.note(
             fmt::format("nothing in the scene emits light: it is lit by a uniform sky "
@@ -84,8 +85,9 @@ Scene load_checked(const std::string& path, const SceneSettings& settings) {
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
         read_geometry(document, tree, settings.metres_per_unit);
-    bake_objects(document, tree, geometries, plan_objects(document, tree, geometries),
-                 default_material, scene);
+    const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
+    bake_objects(document, tree, geometries, plans, default_material, scene);
+    read_punctual_lights(document, tree, plans, scene);
     scene.removed.duplicate_faces = remove_duplicate_faces(scene);
     if (scene.removed.duplicate_faces > 0) {
         document.note(

@@ -55,10 +55,14 @@ RadianceStore::RadianceStore(const GpuScene& scene)
         send_ = ShaderProgram({"transport_sent_radiance.comp"}, scene_.defines());
         turn_gloss_ = ShaderProgram({"solution_turn_gloss.comp"});
     }
+    if (!scene_.punctual_lights().empty()) {
+        first_shot_.emplace(scene_);
+    }
     bind();
     const ShaderProgram emit({"solution_emit.comp"});
     emit.set("patch_count", patch_count_);
     emit.dispatch(patch_count_);
+    shoot_first();
     refresh_power();
 }
 
@@ -76,10 +80,19 @@ void RadianceStore::bind() const {
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+    if (first_shot_) {
+        first_shot_->bind();
+    }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_GLOSS);
         chain_.bind_storage(BINDING_CHAIN);
         glBindTextureUnit(UNIT_GLOSS, gloss_texture_.get());
+    }
+}
+
+void RadianceStore::shoot_first() {
+    if (first_shot_) {
+        first_shot_->update();
     }
 }
 
@@ -192,6 +205,12 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
     for (glm::vec4& value : values) {
         value = glm::vec4(glm::vec3(value) * scene_.radiance_unit(), value.w);
     }
+    if (first_shot_) {
+        const std::vector<glm::vec3> first = first_shot_->read_irradiance();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] += glm::vec4(first[i] * scene_.radiance_unit(), 0.0F);
+        }
+    }
     return values;
 }
 
@@ -211,7 +230,7 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 }
 
 std::size_t RadianceStore::bytes() const {
-    std::size_t sum = 0;
+    std::size_t sum = first_shot_ ? first_shot_->bytes() : 0;
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
                                  &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
         sum += buffer->bytes();
