@@ -5,11 +5,18 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <string_view>
+#include <utility>
+
+#include "scene/gltf_loader.h"
+#include "scene/gltf_uri.h"
 
 namespace raybundle {
 namespace {
 
 constexpr const char* extension_name = "KHR_lights_punctual";
+constexpr const char* ies_extension = "EXT_lights_ies";
+constexpr std::uint64_t max_profile_bytes = 16ULL << 20U;
 constexpr std::size_t max_lights = 256;  // each keeps shadow maps on the GPU
 
 PunctualKind kind_of(const std::string& type) {
@@ -33,6 +40,10 @@ class LightReader {
         if (const Json* extension = document.extension(extension_name)) {
             definitions_ = array_or_empty(*extension, "lights");
         }
+        if (const Json* extension = document.extension(ies_extension)) {
+            profiles_ = array_or_empty(*extension, "lights");
+        }
+        read_profiles_.resize(profiles_.size());
     }
 
     void read() {
@@ -42,10 +53,16 @@ class LightReader {
             if (object_of_node_[n] == PunctualLight::no_object && parent >= 0) {
                 object_of_node_[n] = object_of_node_[static_cast<std::size_t>(parent)];
             }
-            const tinygltf::Value* use =
-                find_extension(item(document_.model().nodes, index).extensions, extension_name);
-            if (use != nullptr && tree_.nodes[n].visible) {
+            if (!tree_.nodes[n].visible) {
+                continue;
+            }
+            const tinygltf::ExtensionMap& extensions =
+                item(document_.model().nodes, index).extensions;
+            if (const auto* use = find_extension(extensions, extension_name)) {
                 add(n, static_cast<std::size_t>(integer_or(*use, "light", 0)));
+            }
+            if (const auto* use = find_extension(extensions, ies_extension)) {
+                add_profile(n, *use);
             }
         }
     }
@@ -53,21 +70,11 @@ class LightReader {
   private:
     void add(std::size_t node, std::size_t definition) {
         const std::string path = item_path("nodes", node) + ".extensions.KHR_lights_punctual.light";
-        if (definition >= definitions_.size()) {
-            document_.fail(path, fmt::format("{} is out of range: the file has {} lights",
-                                             definition, definitions_.size()));
-        }
-        if (scene_.punctual_lights.size() >= max_lights) {
-            document_.fail(path, fmt::format("more than {} punctual lights", max_lights));
-        }
+        check_index(path, definition, definitions_.size());
         const Json& source = definitions_[definition];
         PunctualLight light;
         light.kind = kind_of(source["type"].get<std::string>());
-        light.name = tree_.nodes[node].name.empty() ? value_or<std::string>(source, "name", "")
-                                                    : tree_.nodes[node].name;
-        if (light.name.empty()) {
-            light.name = fmt::format("light {}", scene_.punctual_lights.size() + 1);
-        }
+        light.name = name_of(node, source);
         for (int c = 0; c < 3; ++c) {
             const Json* colour = find_member(source, "color");
             const float factor =
@@ -81,9 +88,71 @@ class LightReader {
             document_.note("the range of lights is ignored: light reaches as far as it does");
         }
         place(node, light);
-        if (light.intensity != glm::vec3(0.0F)) {
-            scene_.punctual_lights.push_back(light);
+        keep(path, std::move(light));
+    }
+
+    void add_profile(std::size_t node, const tinygltf::Value& use) {
+        const std::string path = item_path("nodes", node) + ".extensions.EXT_lights_ies.light";
+        const auto index = static_cast<std::size_t>(integer_or(use, "light", 0));
+        check_index(path, index, profiles_.size());
+        PunctualLight light;
+        light.name = name_of(node, profiles_[index]);
+        light.intensity = number_or(use, "multiplier", 1.0F) *
+                          glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F);
+        light.profile = profile(index);
+        place(node, light);
+        keep(path, std::move(light));
+    }
+
+    std::shared_ptr<const IesProfile> profile(std::size_t index) {
+        if (read_profiles_[index]) {
+            return read_profiles_[index];
         }
+        const std::string path = fmt::format("extensions.EXT_lights_ies.lights[{}]", index);
+        const Json& source = profiles_[index];
+        std::vector<std::uint8_t> bytes;
+        if (const Json* uri = find_member(source, "uri")) {
+            bytes = read_uri(document_.path(), path + ".uri", uri->get<std::string>(),
+                             max_profile_bytes);
+        } else if (const int view = value_or(source, "bufferView", -1); view >= 0) {
+            const auto span = document_.view_bytes(view);
+            bytes.assign(span.begin(), span.end());
+        } else {
+            document_.fail(path, "has neither a uri nor a bufferView");
+        }
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        try {
+            read_profiles_[index] =
+                std::make_shared<const IesProfile>(parse_ies(document_.path(), text));
+        } catch (const SceneError& error) {
+            document_.fail(path, error.json_path() + ": " + error.reason());
+        }
+        return read_profiles_[index];
+    }
+
+    void check_index(const std::string& path, std::size_t index, std::size_t count) const {
+        if (index >= count) {
+            document_.fail(path,
+                           fmt::format("{} is out of range: the file has {} lights", index, count));
+        }
+    }
+
+    [[nodiscard]] std::string name_of(std::size_t node, const Json& source) const {
+        std::string name = tree_.nodes[node].name;
+        if (name.empty()) {
+            name = value_or<std::string>(source, "name", "");
+        }
+        return name.empty() ? fmt::format("light {}", scene_.punctual_lights.size() + 1) : name;
+    }
+
+    void keep(const std::string& path, PunctualLight light) {
+        if (light.intensity == glm::vec3(0.0F)) {
+            return;
+        }
+        if (scene_.punctual_lights.size() >= max_lights) {
+            document_.fail(path, fmt::format("more than {} punctual lights", max_lights));
+        }
+        scene_.punctual_lights.push_back(std::move(light));
     }
 
     void read_cone(const Json& source, std::size_t definition, PunctualLight& light) {
@@ -124,6 +193,8 @@ class LightReader {
     Scene& scene_;
     std::vector<int> object_of_node_;  // index into Scene::objects
     Json definitions_ = Json::array();
+    Json profiles_ = Json::array();
+    std::vector<std::shared_ptr<const IesProfile>> read_profiles_;  // where one has been used
 };
 
 }  // namespace

@@ -10,11 +10,11 @@
 
 namespace raybundle {
 
-/// Adds the KHR_lights_punctual lights of the shown scene's visible nodes to
+/// Adds the KHR_lights_punctual and EXT_lights_ies lights of the shown scene's visible nodes to
 /// scene.punctual_lights, in the order of the nodes and named after them. A light in the subtree of
 /// an object belongs to it and moves with it. scene.objects must be those of `plans`. Throws
-/// SceneError for indices out of range, cones without an angle between them and more lights than
-/// can be kept.
+/// SceneError for indices out of range, profiles that cannot be read, cones without an angle
+/// between them and more lights than can be kept.
 void read_punctual_lights(GltfDocument& document, const GltfNodeTree& tree,
                           const std::vector<ObjectPlan>& plans, Scene& scene);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <new>
 
 #include "scene/default_camera.h"
@@ -40,6 +41,33 @@ void name_materials(Scene& scene) {
         if (scene.materials[i].name.empty()) {
             scene.materials[i].name = fmt::format("material {}", i + 1);
         }
+    }
+}
+
+/// Gives the punctual lights of a name the distribution of a file, "LIGHT=FILE"; their colour
+/// stays.
+void apply_ies(const std::string& choice, Scene& scene) {
+    const std::size_t equals = choice.find('=');
+    const std::string name = choice.substr(0, equals);
+    std::shared_ptr<const IesProfile> profile;
+    std::string names;
+    for (PunctualLight& light : scene.punctual_lights) {
+        names += (names.empty() ? "'" : ", '") + light.name + "'";
+        if (light.name != name || light.kind == PunctualKind::directional) {
+            continue;
+        }
+        if (!profile) {
+            profile = std::make_shared<const IesProfile>(read_ies(choice.substr(equals + 1)));
+        }
+        light.kind = PunctualKind::point;
+        light.intensity /= luminance(light.intensity);
+        light.profile = profile;
+    }
+    if (!profile) {
+        throw SceneError(scene.path, "",
+                         fmt::format("--ies: there is no point light or spot '{}'; punctual "
+                                     "lights: {}",
+                                     name, names.empty() ? "none" : names));
     }
 }
 
@@ -88,6 +116,9 @@ Scene load_checked(const std::string& path, const SceneSettings& settings) {
     const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
     bake_objects(document, tree, geometries, plans, default_material, scene);
     read_punctual_lights(document, tree, plans, scene);
+    for (const std::string& choice : settings.ies) {
+        apply_ies(choice, scene);
+    }
     scene.removed.duplicate_faces = remove_duplicate_faces(scene);
     if (scene.removed.duplicate_faces > 0) {
         document.note(

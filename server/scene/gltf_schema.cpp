@@ -132,6 +132,8 @@ constexpr Rule rules[] = {
     object(specular_glossiness),
     numbers("materials[].extensions.KHR_materials_pbrSpecularGlossiness.diffuseFactor", 4, 0, huge),
     number("materials[].extensions.KHR_materials_pbrSpecularGlossiness.glossinessFactor", 0, 1),
+    numbers("materials[].extensions.KHR_materials_pbrSpecularGlossiness.specularFactor", 3, 0, 1),
+    number("materials[].extensions.KHR_materials_ior.ior", 0, 1e6),
 
     object("meshes[]"),
     text("meshes[].name"),
@@ -177,6 +179,14 @@ constexpr Rule rules[] = {
     number("extensions.KHR_lights_punctual.lights[].range", 0, huge),
     number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", 0, right_angle),
     number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", 0, right_angle),
+
+    integer("nodes[].extensions.EXT_lights_ies.light", 0, 1e9, required),
+    number("nodes[].extensions.EXT_lights_ies.multiplier", 0, 1e12),
+    numbers("nodes[].extensions.EXT_lights_ies.color", 3, 0, 1e9),
+    object("extensions.EXT_lights_ies.lights[]"),
+    text("extensions.EXT_lights_ies.lights[].name"),
+    text("extensions.EXT_lights_ies.lights[].uri"),
+    index("extensions.EXT_lights_ies.lights[].bufferView", "bufferViews"),
 
     text("scenes[].name"),
     index("scenes[].nodes[]", "nodes"),

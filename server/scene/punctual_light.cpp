@@ -31,11 +31,15 @@ PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_
     placed.intensity = glm::dvec3(light.intensity);
     placed.inner_cosine = light.inner_cosine;
     placed.outer_cosine = light.outer_cosine;
+    placed.profile = light.profile;
     return placed;
 }
 
 /// KHR_lights_punctual, "Inner and Outer Cone Angles".
 double PlacedLight::attenuation(const glm::dvec3& direction) const {
+    if (profile) {
+        return profile->candela(direction * axes);  // in its own axes
+    }
     if (kind != PunctualKind::spot) {
         return 1.0;
     }
@@ -51,6 +55,9 @@ glm::dvec3 PlacedLight::towards(const glm::dvec3& direction) const {
 
 glm::dvec3 PlacedLight::flux() const {
     constexpr double pi = glm::pi<double>();
+    if (profile) {
+        return intensity * profile->flux();
+    }
     if (kind != PunctualKind::spot) {
         return 4.0 * pi * intensity;
     }

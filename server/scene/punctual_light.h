@@ -2,7 +2,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
+
+#include "scene/ies_profile.h"
 
 namespace raybundle {
 
@@ -24,6 +27,8 @@ struct PunctualLight {
     glm::vec3 intensity{0.0F};
     float inner_cosine = 1.0F;  ///< spot: full intensity within this cone
     float outer_cosine = 0.0F;  ///< spot: dark outside this one; below inner_cosine
+    /// Of a point light: its intensity over direction, whose factor `intensity` is then.
+    std::shared_ptr<const IesProfile> profile;
 };
 
 /// A punctual light in the world.
@@ -33,11 +38,12 @@ struct PlacedLight {
     glm::dmat3 axes{1.0};      ///< orthonormal; it shines along -axes[2]
     glm::dvec3 intensity{0.0};
     double inner_cosine = 1.0, outer_cosine = 0.0;
+    std::shared_ptr<const IesProfile> profile;
 
     [[nodiscard]] glm::dvec3 direction() const { return -axes[2]; }
     /// Directional: lx; else cd, towards a unit direction away from the light.
     [[nodiscard]] glm::dvec3 towards(const glm::dvec3& direction) const;
-    /// Its factor of `intensity` in that direction.
+    /// Its factor of `intensity` in that direction, cd where it has a profile.
     [[nodiscard]] double attenuation(const glm::dvec3& direction) const;
     /// Luminous flux, lm, of a light that is not directional.
     [[nodiscard]] glm::dvec3 flux() const;

@@ -54,6 +54,7 @@
 #define BINDING_FIRST_SHOT 50         // vec4[2 * patches]: see patch_source.glsl
 #define BINDING_PUNCTUAL 51           // PunctualData[]
 #define BINDING_PIXEL_FIRST_SHOT 52   // vec4[]: see view_first_shot.comp
+#define BINDING_IES 53                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
@@ -186,9 +187,14 @@ struct Reflectance {
     vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w: 1: glossy, see ReflectanceTables
 };
 
+// Directions of an IES profile on the GPU: half degrees from its aim, 2.5 degrees round it.
+#define IES_ROWS 361
+#define IES_COLUMNS 145
+
 #define PUNCTUAL_POINT 0u
 #define PUNCTUAL_SPOT 1u
 #define PUNCTUAL_DIRECTIONAL 2u
+#define NO_PROFILE 0xffffffffu
 
 // A punctual light in the shifted world, see scene/punctual_light.h.
 struct PunctualData {
@@ -198,6 +204,7 @@ struct PunctualData {
     vec4 axis_z;     // opposite to its direction
     vec4 intensity;  // cd or lx, in radiance units
     uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
+    uvec4 profile;   // x: IES profile, or NO_PROFILE
 };
 
 struct PixelSurface {

@@ -63,5 +63,5 @@ void main() {
     }
     radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
     first_shot[2u * i] = vec4(irradiance, 0.0);
-    first_shot[2u * i + 1u] = vec4(reflected, 0.0);
+    first_shot[2u * i + 1u] = vec4(reflected, patch_attributes(i).x);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/first_shot.h"
 
+#include <cmath>
+
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
@@ -14,6 +16,19 @@ unsigned divisions_of(std::uint32_t patches) {
     return patches < many_patches ? 4 : 2;
 }
 
+/// A profile at the directions of shaders/first_shot.glsl, cd.
+void append_table(const IesProfile& profile, std::vector<float>& values) {
+    for (int column = 0; column < IES_COLUMNS; ++column) {
+        const double phi = glm::radians(2.5 * column);
+        for (int row = 0; row < IES_ROWS; ++row) {
+            const double theta = glm::radians(0.5 * row);
+            const double across = std::sin(theta);
+            values.push_back(static_cast<float>(profile.candela(
+                {across * std::cos(phi), across * std::sin(phi), -std::cos(theta)})));
+        }
+    }
+}
+
 }  // namespace
 
 FirstShot::FirstShot(const GpuScene& scene)
@@ -23,6 +38,13 @@ FirstShot::FirstShot(const GpuScene& scene)
       patches_("first shot", 2 * std::size_t{scene.patch_count()} * sizeof(glm::vec4)),
       shoot_({"solution_first_shot.comp"}, scene.defines()) {
     patches_.clear();
+    std::vector<float> tables;
+    for (const auto& profile : maps_.profiles()) {
+        append_table(*profile, tables);
+    }
+    if (!tables.empty()) {
+        profiles_ = Buffer::from<float>("ies profiles", tables);
+    }
 }
 
 void FirstShot::update() {
@@ -39,6 +61,9 @@ void FirstShot::bind() const {
     maps_.bind();
     lights_.bind_storage(BINDING_PUNCTUAL);
     patches_.bind_storage(BINDING_FIRST_SHOT);
+    if (profiles_.bytes() > 0) {
+        profiles_.bind_storage(BINDING_IES);
+    }
 }
 
 void FirstShot::set_uniforms(const ShaderProgram& program) const {
@@ -57,8 +82,19 @@ std::vector<glm::vec3> FirstShot::read_irradiance() const {
     return irradiance;
 }
 
+std::vector<glm::vec4> FirstShot::read_reflected() const {
+    std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
+    patches_.read<glm::vec4>(values);
+    std::vector<glm::vec4> reflected;
+    reflected.reserve(scene_.patch_count());
+    for (std::size_t i = 1; i < values.size(); i += 2) {
+        reflected.push_back(values[i]);
+    }
+    return reflected;
+}
+
 std::size_t FirstShot::bytes() const {
-    return maps_.bytes() + lights_.bytes() + patches_.bytes();
+    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes();
 }
 
 }  // namespace raybundle

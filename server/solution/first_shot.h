@@ -28,12 +28,15 @@ class FirstShot {
     void set_uniforms(const ShaderProgram& program) const;
     /// Irradiance per patch, radiance units. Synchronous.
     [[nodiscard]] std::vector<glm::vec3> read_irradiance() const;
+    /// Main part of the radiance that it makes (radiance units), w = area, m². Synchronous.
+    [[nodiscard]] std::vector<glm::vec4> read_reflected() const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     const GpuScene& scene_;
     ShadowMaps maps_;
     Buffer lights_, patches_;
+    Buffer profiles_;  // only where some light has one
     ShaderProgram shoot_;
 };
 

@@ -37,7 +37,10 @@ float choose_radiance_unit(const Scene& scene, const PatchMesh& mesh) {
     // away from a lamp.
     const float distance = 0.25F * glm::length(scene.bounds.extent());
     for (const PunctualLight& light : scene.punctual_lights) {
-        const glm::vec3& i = light.intensity;
+        const glm::vec3 i =
+            light.intensity *
+            (light.profile ? static_cast<float>(light.profile->flux()) / (4.0F * glm::pi<float>())
+                           : 1.0F);
         const float square =
             light.kind == PunctualKind::directional ? 1.0F : std::max(distance * distance, 1e-12F);
         largest = std::max(largest, std::max({i.r, i.g, i.b}) / (glm::pi<float>() * square));
@@ -246,6 +249,9 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(smooth, "SMOOTH");
     define_if(!mesh.coverage.empty(), "ALPHA_MASK");
     define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
+    define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                          [](const PunctualLight& light) { return light.profile != nullptr; }),
+              "IES");
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");

@@ -37,8 +37,8 @@ class GpuScene {
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
-    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights). What is absent is
-    /// not even compiled.
+    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
+    /// profiles). What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;

@@ -57,12 +57,15 @@ RadianceStore::RadianceStore(const GpuScene& scene)
     }
     if (!scene_.punctual_lights().empty()) {
         first_shot_.emplace(scene_);
+        forget_ = ShaderProgram({"solution_forget.comp"}, scene_.defines());
     }
     bind();
     const ShaderProgram emit({"solution_emit.comp"});
     emit.set("patch_count", patch_count_);
     emit.dispatch(patch_count_);
-    shoot_first();
+    if (first_shot_) {
+        first_shot_->update();
+    }
     refresh_power();
 }
 
@@ -90,9 +93,29 @@ void RadianceStore::bind() const {
     }
 }
 
-void RadianceStore::shoot_first() {
-    if (first_shot_) {
-        first_shot_->update();
+void RadianceStore::reshoot(float phase_weight) {
+    if (!first_shot_) {
+        return;
+    }
+    const std::vector<glm::vec4> before = first_shot_->read_reflected();
+    first_shot_->update();
+    const std::vector<glm::vec4> after = first_shot_->read_reflected();
+    std::vector<glm::vec4> sent(patch_count_);
+    radiance_.read<glm::vec4>(sent);
+    double change = 0.0;
+    double all = 0.0;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        const double area = after[i].w;
+        change += area * static_cast<double>(luminance(glm::abs(glm::vec3(after[i] - before[i]))));
+        all += area * static_cast<double>(luminance(glm::vec3(sent[i])));
+    }
+    const double q = all > 0.0 ? std::min(change / all, 1.0) : 0.0;
+    forgetting_ = static_cast<float>(q * q) / phase_weight;
+    if (q > 0.0) {
+        forget_.set("patch_count", patch_count_);
+        forget_.set("forgetting", forgetting_);
+        forget_.set("change", static_cast<float>(q));
+        forget_.dispatch(patch_count_);
     }
 }
 
@@ -105,6 +128,9 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("step", bundle.step);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
+    if (first_shot_ && gloss_.bytes() > 0) {
+        first_shot_->set_uniforms(update_);
+    }
     update_.dispatch(patch_count_);
 }
 

@@ -77,6 +77,10 @@ ShadowMaps::ShadowMaps(const GpuScene& scene)
     : scene_(scene), raster_({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()) {
     for (const PunctualLight& light : scene.punctual_lights()) {
         layers_ += layers_of(light);
+        if (light.profile &&
+            std::find(profiles_.begin(), profiles_.end(), light.profile) == profiles_.end()) {
+            profiles_.push_back(light.profile);
+        }
     }
     size_ = map_size(layers_);
     maps_ = create_layers(size_, layers_);
@@ -86,6 +90,13 @@ ShadowMaps::ShadowMaps(const GpuScene& scene)
     framebuffer_ = Framebuffer(name);
     glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depths_.get(), 0);
     glObjectLabel(GL_FRAMEBUFFER, name, -1, "shadow maps");
+}
+
+/// Number of a light's profile among all that are different.
+unsigned ShadowMaps::profile_of(std::size_t light) const {
+    const auto& profile = scene_.punctual_lights()[light].profile;
+    const auto found = std::find(profiles_.begin(), profiles_.end(), profile);
+    return profile ? static_cast<unsigned>(found - profiles_.begin()) : NO_PROFILE;
 }
 
 void ShadowMaps::place_lights() {
@@ -108,6 +119,7 @@ void ShadowMaps::place_lights() {
         data.intensity = glm::vec4(light.intensity / scene_.radiance_unit(), 0.0F);
         data.map = {layer, layers_of(light), static_cast<unsigned>(light.kind),
                     static_cast<unsigned>(size_)};
+        data.profile.x = profile_of(i);
         layer += data.map.y;
         lights_.push_back(data);
     }

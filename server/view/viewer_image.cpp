@@ -335,7 +335,7 @@ void ViewerImage::discard_sample(float sample_weight) {
 }
 
 void ViewerImage::begin_special(std::uint32_t moved_object) {
-    refresh_geometry(1.0F, moved_object);
+    refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
     delta_.clear();
     if (gloss_delta_.bytes() > 0) {
         gloss_delta_.clear();

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <memory>
 
 #include "../reference/lit_room.h"
 #include "oracle/oracle_solve.h"
@@ -51,6 +52,28 @@ TEST(FirstShot, LampOfThousandLumenGivesThousandLumen) {
         1000.0, 5.0);
 }
 
+/// A luminaire of a file, whose axis is turned with the light: the flux of its table.
+TEST(FirstShot, IesProfileGivesItsFlux) {
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    b.add_box({0, 0, 0}, {4, 3, 5}, true, 12, b.add_material(glm::vec3(0.0F)));
+    add_punctual_light(b, odd_rotation(), PunctualKind::point, {1.1F, 2.3F, 1.9F}, {0.3F, -1, 0.4F},
+                       glm::vec3(2.0F));
+    b.scene.punctual_lights[0].profile = std::make_shared<const IesProfile>(
+        parse_ies("f",
+                  "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 4 5 1 2 0 0 0\n1 1 10\n0 30 60 90\n"
+                  "0 90 180 270 360\n100 90 50 0\n100 60 20 0\n100 20 5 0\n100 60 20 0\n"
+                  "100 90 50 0\n"));
+    const double exact = 2.0 * b.scene.punctual_lights[0].profile->flux();
+    const Solver solver(b.scene, b.mesh);
+    const auto irradiance = solver.store().read_irradiance();
+    double flux = 0.0;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        flux += patch_area(b.mesh, i) * static_cast<double>(irradiance[i].g);
+    }
+    EXPECT_NEAR(flux, exact, 5e-3 * exact);
+}
+
 /// Every pixel of a floor under a lamp: I h / d^3.
 TEST(FirstShot, PixelsFollowInverseSquareAndCosine) {
     SceneBuilder b;
@@ -82,8 +105,13 @@ TEST(FirstShot, PixelsFollowInverseSquareAndCosine) {
 }
 
 struct Lit {
-    explicit Lit(const glm::mat4& where, std::uint32_t n, glm::uvec2 size, std::uint64_t seed = 1)
+    explicit Lit(const glm::mat4& where, std::uint32_t n, glm::uvec2 size, std::uint64_t seed = 1,
+                 bool glossy = false)
         : builder(lit_room(where, n)) {
+        if (glossy) {  // walls and floor of polished plaster
+            builder.scene.materials[0].specular = 1.0F;
+            builder.scene.materials[0].roughness = 0.35F;
+        }
         SolverSettings settings;
         settings.seed = seed;
         settings.coarse_iterations = 1'000'000;
@@ -163,6 +191,26 @@ TEST(FirstShot, RoomIsAsBrightAsByPathTracing) {
     }
 }
 
+/// The floor shines: the picture has the lights' highlights, and the wall behind what it reflects.
+TEST(FirstShot, GlossyRoomIsAsBrightAsByPathTracing) {
+    const glm::mat4 where = odd_rotation();
+    constexpr glm::uvec2 size(24, 18);
+    Lit lit(where, 16, size, 1, true);
+    lit.iterate(1536);
+    const auto picture = lit.image->read_radiance();
+    const auto truth = path_traced(lit, lit_room_camera(where), size);
+    EXPECT_LT(difference(picture, truth), 0.04);
+    glm::dvec3 mean(0.0);
+    glm::dvec3 exact(0.0);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        mean += glm::dvec3(picture[i]);
+        exact += truth[i];
+    }
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(mean[c], exact[c], 0.03 * exact[c]) << c;
+    }
+}
+
 TEST(FirstShot, SameSeedGivesTheSameBits) {
     const auto bits = [](std::uint64_t seed) {
         Lit lit(odd_rotation(), 6, {16, 12}, seed);
@@ -229,6 +277,81 @@ TEST(FirstShot, CarriedLampMoves) {
     }
     // A square of half-width a at height h below: Phi = 4 I atan(a^2 / (h sqrt(2 a^2 + h^2))).
     EXPECT_NEAR(flux, 400.0 * std::atan(16.0 / (4.0 * std::sqrt(48.0))), 8.0);
+}
+
+/// A lamp goes from one end of a white room to the other: the light that walls have sent each other
+/// before is not the one of now. 256 iterations after 512 bring both means to a fresh start's.
+TEST(FirstShot, IndirectLightFollowsALampThatMoves) {
+    const auto build = [](float z) {
+        SceneBuilder b;
+        b.add_box({0, 0, 0}, {3, 3, 9}, true, 8, b.add_material(glm::vec3(0.7F)));
+        Transform transform;
+        transform.translation.z = z;
+        b.add_object("lamp", transform);
+        b.add_box({1.4F, 2.8F, -0.1F}, {1.6F, 2.9F, 0.1F}, false, 1,
+                  b.add_material(glm::vec3(0.0F)));
+        add_punctual_light(b, glm::mat4(1.0F), PunctualKind::point, {1.5F, 2.7F, 0}, {0, -1, 0},
+                           glm::vec3(100.0F));
+        b.scene.punctual_lights[0].object = 1;
+        return b;
+    };
+    const SceneBuilder at_one_end = build(1.5F);
+    const SceneBuilder at_other_end = build(7.5F);
+    const auto iterate = [](Solver& solver, std::uint64_t until) {
+        while (solver.iterations() < until) {
+            solver.step({});
+        }
+    };
+    Solver moved(at_one_end.scene, at_one_end.mesh);
+    iterate(moved, 512);
+    moved.move_object(1, glm::translate(glm::mat4(1.0F), glm::vec3(0, 0, 7.5F)), {});
+    iterate(moved, 768);
+    SolverSettings settings;
+    settings.seed = 9;
+    Solver fresh(at_other_end.scene, at_other_end.mesh, settings);
+    iterate(fresh, 1024);
+    const auto there = moved.store().read_irradiance();
+    const auto truth = fresh.store().read_irradiance();
+    double square = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        square += std::pow(static_cast<double>(there[i].g - truth[i].g), 2);
+        total += std::pow(static_cast<double>(truth[i].g), 2);
+    }
+    EXPECT_LT(std::sqrt(square / total), 0.05);
+}
+
+/// Together with everything else that a scene can call for: finite, and bright.
+TEST(FirstShot, GoesTogetherWithAllOtherEffects) {
+    SceneBuilder b = lit_room(odd_rotation(), 4);
+    b.scene.materials[0].specular = 1.0F;
+    b.scene.materials[0].roughness = 0.5F;
+    b.scene.materials[1].max_phong = MaxPhong{glm::vec3(0.3F), 10.0F};
+    b.scene.textures.push_back({"white", 1, 1, true, true, {255, 255, 255, 255}});
+    b.scene.materials[2].base_colour_texture.texture = 0;
+    b.scene.materials[2].alpha_mode = AlphaMode::mask;
+    b.scene.sky_radiance = glm::vec3(5.0F);
+    b.mesh.coverage.assign(b.mesh.patch_count(), 1.0F);
+    b.scene.punctual_lights[0].profile = std::make_shared<const IesProfile>(
+        parse_ies("f", "TILT=NONE\n1 1 1 2 1 1 1 0 0 0\n1 1 1\n0 180\n0\n1 1\n"));
+    SolverSettings settings;
+    settings.probabilities = {0.3F, 0.2F, 0.5F};
+    Solver solver(b.scene, b.mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, {32, 24});
+    image.set_camera(lit_room_camera(odd_rotation()));
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 64; ++i) {
+        solver.step(receivers);
+    }
+    EXPECT_EQ(solver.non_finite(), 0U);
+    double mean = 0.0;
+    for (const glm::vec4& pixel : image.read_radiance()) {
+        ASSERT_TRUE(std::isfinite(pixel.r + pixel.g + pixel.b));
+        mean += static_cast<double>(pixel.g) / (32.0 * 24.0);
+    }
+    EXPECT_GT(mean, 1.0);
+    EXPECT_LT(mean, 200.0);
 }
 
 /// Nothing of it exists where no scene calls for it.
