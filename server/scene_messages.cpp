@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/effects_plan.h"
+
 namespace raybundle {
 
 glm::vec3 from_message(const v1::Vec3& v) {
@@ -61,13 +63,6 @@ Bounds world_bounds(const Object& object) {
 
 namespace {
 
-void add_effect(v1::Scene* message, const char* name, bool active, const std::string& reason) {
-    v1::Effect* effect = message->add_effects();
-    effect->set_name(name);
-    effect->set_active(active);
-    effect->set_reason(reason);
-}
-
 /// Punctual lights are numbered after the area lights.
 void describe_light(const PunctualLight& light, v1::Scene* message) {
     const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
@@ -86,16 +81,12 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
-    add_effect(message, "diffuse", true, "every surface reflects diffusely");
-    const bool sky = luminance(scene.sky_radiance) > 0.0F;
-    add_effect(message, "sky", sky,
-               sky ? "uniform sky of " +
-                         std::to_string(static_cast<int>(luminance(scene.sky_radiance))) +
-                         " cd/m²" + (has_emitter(scene) ? "" : ": the scene has no emitter")
-                   : "no sky is set and the scene has emitters");
-    add_effect(message, "textures", !scene.textures.empty(),
-               scene.textures.empty() ? "no material has a texture"
-                                      : std::to_string(scene.textures.size()) + " textures");
+    for (const Effect& effect : plan_effects(scene, 0).effects) {
+        v1::Effect* out = message->add_effects();
+        out->set_name(effect.name);
+        out->set_active(effect.active);
+        out->set_reason(effect.reason);
+    }
 }
 
 }  // namespace
