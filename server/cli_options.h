@@ -44,7 +44,8 @@ struct Options {
     int gpu = -1;
     bool list_gpus = false;
     std::string unit = "m";
-    std::optional<float> sky;  // cd/m²
+    std::optional<float> sky;      // cd/m²
+    std::vector<std::string> ies;  // LIGHT=FILE
     std::string log_level = "info";
 
     std::string scene;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/effects_plan.h"
+
 namespace raybundle {
 
 glm::vec3 from_message(const v1::Vec3& v) {
@@ -61,24 +63,30 @@ Bounds world_bounds(const Object& object) {
 
 namespace {
 
-void add_effect(v1::Scene* message, const char* name, bool active, const std::string& reason) {
-    v1::Effect* effect = message->add_effects();
-    effect->set_name(name);
-    effect->set_active(active);
-    effect->set_reason(reason);
+/// Punctual lights are numbered after the area lights.
+void describe_light(const PunctualLight& light, v1::Scene* message) {
+    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
+    v1::Light* out = message->add_lights();
+    const bool directional = light.kind == PunctualKind::directional;
+    const float intensity = luminance(light.intensity);
+    out->set_id(id);
+    out->set_name(light.name);
+    out->set_kind(directional                        ? v1::Light::DIRECTIONAL
+                  : light.kind == PunctualKind::spot ? v1::Light::SPOT
+                                                     : v1::Light::POINT);
+    out->set_intensity(intensity);
+    out->set_unit(directional ? v1::Light::LX : v1::Light::CD);
+    to_message(light.intensity / intensity, out->mutable_colour());
+    out->set_on(true);
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
-    add_effect(message, "diffuse", true, "every surface reflects diffusely");
-    const bool sky = luminance(scene.sky_radiance) > 0.0F;
-    add_effect(message, "sky", sky,
-               sky ? "uniform sky of " +
-                         std::to_string(static_cast<int>(luminance(scene.sky_radiance))) +
-                         " cd/m²" + (scene.lights.empty() ? ": the scene has no emitter" : "")
-                   : "no sky is set and the scene has emitters");
-    add_effect(message, "textures", !scene.textures.empty(),
-               scene.textures.empty() ? "no material has a texture"
-                                      : std::to_string(scene.textures.size()) + " textures");
+    for (const Effect& effect : plan_effects(scene, 0).effects) {
+        v1::Effect* out = message->add_effects();
+        out->set_name(effect.name);
+        out->set_active(effect.active);
+        out->set_reason(effect.reason);
+    }
 }
 
 }  // namespace
@@ -108,6 +116,9 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         to_message(intensity > 0.0F ? light.radiance / intensity : glm::vec3(1.0F),
                    out->mutable_colour());
         out->set_on(true);
+    }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        describe_light(light, message);
     }
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();

@@ -7,6 +7,7 @@
 #include "commands/command.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
+#include "scene/effects_plan.h"
 #include "transport/solver.h"
 #include "view/image_file.h"
 #include "view/viewer_image.h"
@@ -61,6 +62,8 @@ void write_picture(ViewerImage& image, const std::string& path) {
 
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
                       const LoadedScene& loaded, const ViewerImage& image, const Outcome& outcome) {
+    const nlohmann::json plan =
+        effects_plan_json(plan_effects(loaded.scene, loaded.mesh.patch_count()));
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", context.renderer()},
@@ -80,6 +83,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"errorHigh", outcome.statistics.error_high},
         {"biased", options.bias_for_noise > 0},
         {"nonFinite", solver.non_finite()},
+        {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};
     write_file(options.stats, json.dump(2) + "\n");
 }

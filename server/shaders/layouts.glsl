@@ -51,6 +51,11 @@
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
 
+#define BINDING_FIRST_SHOT 50         // vec4[2 * patches]: see patch_source.glsl
+#define BINDING_PUNCTUAL 51           // PunctualData[]
+#define BINDING_PIXEL_FIRST_SHOT 52   // vec4[]: see view_first_shot.comp
+#define BINDING_IES 53                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
+
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
@@ -78,6 +83,9 @@
 #define UNIT_PIXEL_GLOSS 18       // rgba32f
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 #define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
+
+#define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
+#define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -179,6 +187,26 @@ struct Reflectance {
     vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
     vec4 lobe;   // alpha (max-Phong: exponent), f90, share of the base colour in lambert, 1/mean transmission
     vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w: 1: glossy, see ReflectanceTables
+};
+
+// Directions of an IES profile on the GPU: half degrees from its aim, 2.5 degrees round it.
+#define IES_ROWS 361
+#define IES_COLUMNS 145
+
+#define PUNCTUAL_POINT 0u
+#define PUNCTUAL_SPOT 1u
+#define PUNCTUAL_DIRECTIONAL 2u
+#define NO_PROFILE 0xffffffffu
+
+// A punctual light in the shifted world, see scene/punctual_light.h.
+struct PunctualData {
+    vec4 position;   // w: half width of its map: tangent, or m (directional)
+    vec4 axis_x;     // of its map; w: cosine of the inner cone
+    vec4 axis_y;     // w: cosine of the outer cone
+    vec4 axis_z;     // opposite to its direction
+    vec4 intensity;  // cd or lx, in radiance units
+    uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
+    uvec4 profile;   // x: IES profile, or NO_PROFILE
 };
 
 struct PixelSurface {

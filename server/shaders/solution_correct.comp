@@ -7,6 +7,7 @@
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+#include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
@@ -43,7 +44,7 @@ void main() {
     vec4 iterate = source[i];
     iterate.rgb = max(iterate.rgb + increment, 0.0);
     source[i] = iterate;
-    vec3 emitted = surfaces[i].emission.rgb;
+    vec3 emitted = patch_source(i);
     vec3 reflected = surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
 #ifdef GLOSSY
     for (bool glossy = is_glossy(i); glossy; glossy = false) {

@@ -27,6 +27,7 @@ uniform float weight;   // of this sample in the mean
 uniform float step;     // of the iterate
 #ifdef GLOSSY
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+#include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 #include "gloss_update.glsl"
 #endif
@@ -66,7 +67,7 @@ void main() {
     source[i] = iterate;
 #ifdef GLOSSY
     for (bool glossy = is_glossy(i); glossy; glossy = false) {
-        vec3 emitted = surfaces[i].emission.rgb;
+        vec3 emitted = patch_source(i);
         radiance[i].rgb = emitted + update_gloss(i, new_sample, radiance[i].rgb - emitted, step);
     }
 #endif

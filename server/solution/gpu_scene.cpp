@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <numeric>
 
 namespace raybundle {
@@ -29,8 +30,21 @@ glm::vec2 octahedral_from_vector(const glm::vec3& n) {
 }
 
 /// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.
-float choose_radiance_unit(const PatchMesh& mesh, const glm::vec3& sky) {
+float choose_radiance_unit(const Scene& scene, const PatchMesh& mesh) {
+    const glm::vec3& sky = scene.sky_radiance;
     float largest = std::max({sky.r, sky.g, sky.b});
+    // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
+    // away from a lamp.
+    const float distance = 0.25F * glm::length(scene.bounds.extent());
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const glm::vec3 i =
+            light.intensity *
+            (light.profile ? static_cast<float>(light.profile->flux()) / (4.0F * glm::pi<float>())
+                           : 1.0F);
+        const float square =
+            light.kind == PunctualKind::directional ? 1.0F : std::max(distance * distance, 1e-12F);
+        largest = std::max(largest, std::max({i.r, i.g, i.b}) / (glm::pi<float>() * square));
+    }
     for (const glm::vec3& emission : mesh.emission) {
         largest = std::max({largest, emission.r, emission.g, emission.b});
     }
@@ -77,8 +91,9 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
       vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
       origin_(scene.bounds.centre()),
-      radiance_unit_(choose_radiance_unit(mesh, scene.sky_radiance)),
+      radiance_unit_(choose_radiance_unit(scene, mesh)),
       sky_(scene.sky_radiance / radiance_unit_),
+      punctual_lights_(scene.punctual_lights),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
@@ -233,6 +248,10 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
     define_if(!mesh.coverage.empty(), "ALPHA_MASK");
+    define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
+    define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                          [](const PunctualLight& light) { return light.profile != nullptr; }),
+              "IES");
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");
@@ -326,6 +345,14 @@ std::uint32_t GpuScene::vertex_base(Place place) const {
 
 glm::mat4 GpuScene::world_from_object(std::uint32_t object, Place place) const {
     return world_from_object_[static_cast<unsigned>(place) * object_count_ + object];
+}
+
+PlacedLight GpuScene::placed_light(std::size_t light) const {
+    const PunctualLight& punctual = punctual_lights_[light];
+    return place_light(
+        punctual, punctual.object == PunctualLight::no_object
+                      ? glm::translate(glm::mat4(1.0F), -origin_)
+                      : world_from_object(static_cast<std::uint32_t>(punctual.object), Place::now));
 }
 
 glm::mat4 GpuScene::now_from_before(std::uint32_t object) const {

@@ -37,7 +37,8 @@ class GpuScene {
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
-    /// radiance depends on direction), MAX_PHONG. What is absent is not even compiled.
+    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
+    /// profiles). What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -49,6 +50,11 @@ class GpuScene {
     [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
     [[nodiscard]] const glm::vec3& origin() const { return origin_; }
     [[nodiscard]] glm::vec3 sky() const { return sky_; }  ///< radiance units
+    [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
+        return punctual_lights_;
+    }
+    /// A punctual light in the shifted world, its object at its present place.
+    [[nodiscard]] PlacedLight placed_light(std::size_t light) const;
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// Of an object, shifted world, at a place.
     [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
@@ -76,6 +82,7 @@ class GpuScene {
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
     glm::vec3 sky_{0.0F};
+    std::vector<PunctualLight> punctual_lights_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
 

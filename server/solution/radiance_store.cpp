@@ -55,10 +55,17 @@ RadianceStore::RadianceStore(const GpuScene& scene)
         send_ = ShaderProgram({"transport_sent_radiance.comp"}, scene_.defines());
         turn_gloss_ = ShaderProgram({"solution_turn_gloss.comp"});
     }
+    if (!scene_.punctual_lights().empty()) {
+        first_shot_.emplace(scene_);
+        forget_ = ShaderProgram({"solution_forget.comp"}, scene_.defines());
+    }
     bind();
     const ShaderProgram emit({"solution_emit.comp"});
     emit.set("patch_count", patch_count_);
     emit.dispatch(patch_count_);
+    if (first_shot_) {
+        first_shot_->update();
+    }
     refresh_power();
 }
 
@@ -76,10 +83,39 @@ void RadianceStore::bind() const {
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+    if (first_shot_) {
+        first_shot_->bind();
+    }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_GLOSS);
         chain_.bind_storage(BINDING_CHAIN);
         glBindTextureUnit(UNIT_GLOSS, gloss_texture_.get());
+    }
+}
+
+void RadianceStore::reshoot(float phase_weight) {
+    if (!first_shot_) {
+        return;
+    }
+    const std::vector<glm::vec4> before = first_shot_->read_reflected();
+    first_shot_->update();
+    const std::vector<glm::vec4> after = first_shot_->read_reflected();
+    std::vector<glm::vec4> sent(patch_count_);
+    radiance_.read<glm::vec4>(sent);
+    double change = 0.0;
+    double all = 0.0;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        const double area = after[i].w;
+        change += area * static_cast<double>(luminance(glm::abs(glm::vec3(after[i] - before[i]))));
+        all += area * static_cast<double>(luminance(glm::vec3(sent[i])));
+    }
+    const double q = all > 0.0 ? std::min(change / all, 1.0) : 0.0;
+    forgetting_ = static_cast<float>(q * q) / phase_weight;
+    if (q > 0.0) {
+        forget_.set("patch_count", patch_count_);
+        forget_.set("forgetting", forgetting_);
+        forget_.set("change", static_cast<float>(q));
+        forget_.dispatch(patch_count_);
     }
 }
 
@@ -92,6 +128,9 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("step", bundle.step);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
+    if (first_shot_ && gloss_.bytes() > 0) {
+        first_shot_->set_uniforms(update_);
+    }
     update_.dispatch(patch_count_);
 }
 
@@ -192,6 +231,12 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
     for (glm::vec4& value : values) {
         value = glm::vec4(glm::vec3(value) * scene_.radiance_unit(), value.w);
     }
+    if (first_shot_) {
+        const std::vector<glm::vec3> first = first_shot_->read_irradiance();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] += glm::vec4(first[i] * scene_.radiance_unit(), 0.0F);
+        }
+    }
     return values;
 }
 
@@ -211,7 +256,7 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 }
 
 std::size_t RadianceStore::bytes() const {
-    std::size_t sum = 0;
+    std::size_t sum = first_shot_ ? first_shot_->bytes() : 0;
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
                                  &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
         sum += buffer->bytes();

@@ -205,6 +205,7 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
     store_.checkpoint();
     scene_.move_object(object, world_from_object);
     store_.turn_gloss(object, scene_.now_from_before(object));
+    store_.reshoot(static_cast<float>(SpecialPhase::iterations));
     for (BundleReceiver* receiver : receivers) {
         receiver->begin_special(object);
     }

@@ -88,6 +88,9 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }
+    if (!scene.punctual_lights().empty()) {
+        first_shot = ShaderProgram({"view_first_shot.comp"}, scene.defines());
+    }
 }
 
 ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
@@ -132,6 +135,9 @@ void ViewerImage::allocate() {
     if (scene_.reflectance().any_glossy()) {
         allocate_gloss();
     }
+    if (store_.first_shot() != nullptr) {
+        allocate_first_shot();
+    }
     has_picture_ = false;
 }
 
@@ -143,6 +149,22 @@ void ViewerImage::allocate_gloss() {
     gloss_delta_.clear();
     gloss_texture_ = create_buffer_texture("pixel gloss", GL_RGBA32F, gloss_);
     old_gloss_texture_ = create_buffer_texture("old pixel gloss", GL_RGBA32F, old_gloss_);
+}
+
+void ViewerImage::allocate_first_shot() {
+    const std::size_t values = scene_.reflectance().any_glossy() ? 2 : 1;
+    first_shot_ = Buffer("pixel first shot", values * pixel_count(size_) * sizeof(glm::vec4));
+    first_shot_texture_ = create_buffer_texture("pixel first shot", GL_RGBA32F, first_shot_);
+}
+
+/// Light of punctual lights at the pixels.
+void ViewerImage::shoot_first() const {
+    if (store_.first_shot() == nullptr) {
+        return;
+    }
+    const GlScope scope("pixel first shot");
+    store_.first_shot()->set_uniforms(programs_.first_shot);
+    programs_.first_shot.dispatch(pixel_count(size_));
 }
 
 void ViewerImage::create_pixel_textures() {
@@ -212,6 +234,7 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
             : moved_object == NO_PATCH           ? programs_.resolve_reprojected
                                                  : programs_.resolve_moved,
             kept_weight, moved_object);
+    shoot_first();
     batches_.clear();
     samples_ = 0;
     has_picture_ = true;
@@ -259,6 +282,10 @@ void ViewerImage::bind_pixels() const {
     glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
     if (specular_) {
         specular_->bind();
+    }
+    if (first_shot_.bytes() > 0) {
+        first_shot_.bind_storage(BINDING_PIXEL_FIRST_SHOT);
+        glBindTextureUnit(UNIT_PIXEL_FIRST_SHOT, first_shot_texture_.get());
     }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_PIXEL_GLOSS);
@@ -308,7 +335,7 @@ void ViewerImage::discard_sample(float sample_weight) {
 }
 
 void ViewerImage::begin_special(std::uint32_t moved_object) {
-    refresh_geometry(1.0F, moved_object);
+    refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
     delta_.clear();
     if (gloss_delta_.bytes() > 0) {
         gloss_delta_.clear();
@@ -461,7 +488,7 @@ std::size_t ViewerImage::bytes() const {
     std::size_t sum = pixel_count(size_) * 8;
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
-          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_}) {
+          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
         sum += buffer->bytes();
     }
     return sum;

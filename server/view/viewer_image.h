@@ -55,6 +55,7 @@ struct ViewPrograms {
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram correct, vertex_irradiance, statistics, probe;
+    ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
         ShaderProgram all, glossy;
@@ -122,6 +123,8 @@ class ViewerImage : public BundleReceiver {
                  std::uint32_t moved_object);
     void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
     void allocate_gloss();
+    void allocate_first_shot();
+    void shoot_first() const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
@@ -149,6 +152,8 @@ class ViewerImage : public BundleReceiver {
     Buffer vertex_irradiance_, statistics_buffer_, frame_, probe_buffer_;
     std::optional<SpecularGroups> specular_;  // only where the scene is specular
     Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
+    Buffer first_shot_;                       // only where it has punctual lights
+    Texture2D first_shot_texture_;
     Texture2D gloss_texture_, old_gloss_texture_;
     Texture2D surface_ids_, depths_;
     Texture2D pixel_texture_, old_pixel_texture_, irradiance_texture_, old_irradiance_texture_;
