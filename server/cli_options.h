@@ -84,6 +84,7 @@ struct Options {
     std::optional<double> error;
     std::string method = "combined";
     std::string stats;
+    std::string script;  // file
 
     // accuracy, besides those of render
     std::string accuracy_size = "128x128";

@@ -18,6 +18,7 @@ struct SpecialSettings {
     float noise = 0.15F;         ///< standard error of the increments to be content with, relative
     float most_weight = 1e30F;   ///< that any mean keeps, in samples
     bool scissored = true;       ///< transfer differences only where they are
+    bool skipped = false;        ///< no phase at all: iterate on from the old solution
 };
 
 /// By which colour the solution is best multiplied when emission goes from `before` to `after`

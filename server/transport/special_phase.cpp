@@ -102,7 +102,9 @@ void SpecialPhase::step(std::span<BundleReceiver* const> receivers) {
     if (done_) {
         return;
     }
-    if (bouncing_) {
+    if (settings_.skipped) {
+        finish(receivers);
+    } else if (bouncing_) {
         step_bounce(receivers);
     } else {
         step_source(receivers);
