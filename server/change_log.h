@@ -8,7 +8,9 @@
 
 #include "journal/session_journal.h"
 #include "raybundle.pb.h"
+#include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "scene_history.h"
 
 namespace raybundle {
 
@@ -25,10 +27,16 @@ class ChangeLog {
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
     /// Brings a scene as read from its file to the state of the journal.
-    void restore(Scene& scene);
+    void restore(Scene& scene, PatchMesh& mesh);
 
     /// Numbers the change and stores it. False: it could not be stored and must not be made.
     [[nodiscard]] bool record(v1::SceneChanged& change);
+
+    /// What the subject of a recorded change was before it and is after it.
+    void note_states(const v1::SceneChanged& before, const v1::SceneChanged& after) {
+        history_.note(before, after);
+    }
+    [[nodiscard]] const SceneHistory& history() const { return history_; }
 
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
     /// Whether the next change is expected to be stored.
@@ -39,6 +47,7 @@ class ChangeLog {
     bool working_ = true;
     std::optional<SessionJournal> journal_;
     std::uint32_t epoch_ = 0;
+    SceneHistory history_;
     std::uint64_t failures_ = 0;
 };
 

@@ -86,6 +86,7 @@ struct Options {
     std::string method = "combined";
     std::uint64_t bias_for_noise = 0;  // iterations planned
     std::string stats;
+    std::string script;  // file
 
     // accuracy, besides those of render
     std::string accuracy_size = "128x128";

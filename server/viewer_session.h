@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,9 @@ class ViewerSession {
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void apply_camera();
     void set_viewport(glm::uvec2 size);
+    /// Another solver takes over: its picture begins anew.
+    void set_solution(const GpuScene& scene, const RadianceStore& store,
+                      const ViewPrograms& programs);
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
 
@@ -43,7 +47,7 @@ class ViewerSession {
 
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
     void render(const FrameAdvice& advice, const v1::FrameHeader& figures, Clock::time_point now);
-    [[nodiscard]] bool frame_finished() const { return rendering_ && image_.finished(); }
+    [[nodiscard]] bool frame_finished() const { return rendering_ && image_->finished(); }
     /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
@@ -56,7 +60,7 @@ class ViewerSession {
     [[nodiscard]] bool paused() const { return paused_; }
     void set_paused(bool paused) { paused_ = paused; }
 
-    [[nodiscard]] ViewerImage& image() { return image_; }
+    [[nodiscard]] ViewerImage& image() { return *image_; }
     [[nodiscard]] double pixels() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -69,7 +73,7 @@ class ViewerSession {
     ViewerId viewer_;
     std::string name_;
     bool lossless_ = false;  // the client decodes PNG
-    ViewerImage image_;
+    std::unique_ptr<ViewerImage> image_;
     std::optional<Camera> wanted_camera_;
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "commands/bench_moves.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "gpu/gl_scope.h"
@@ -72,7 +73,10 @@ Json profile(int repeats, const std::function<void()>& work) {
 class SceneBench {
   public:
     SceneBench(const Options& options, Json& report)
-        : report_(report), seed_(options.seed), loaded_(load_scene(options)) {
+        : report_(report),
+          seed_(options.seed),
+          json_file_(options.json_file),
+          loaded_(load_scene(options)) {
         report_["scene"] = loaded_.scene.name;
         report_["patches"] = loaded_.mesh.patch_count();
         report_["loadSeconds"] = loaded_.seconds;
@@ -87,6 +91,8 @@ class SceneBench {
         patch_counts();
         walkthrough();
         moves();
+        const std::string svg = json_file_.empty() ? "" : json_file_ + ".moves.svg";
+        report_["moveCurves"] = bench_moves(loaded_, seed_, svg);
         convergence();
     }
 
@@ -272,6 +278,7 @@ class SceneBench {
 
     Json& report_;
     std::uint64_t seed_;
+    std::string json_file_;
     LoadedScene loaded_;
 };
 

@@ -94,6 +94,13 @@ int run_render(const Options& options) {
     require_picture_format(options.output);
     const glm::uvec2 size = parse_size(options.size);
     const RenderMethod method = parse_method(options.method);
+    if (!options.script.empty()) {
+        if (!std::holds_alternative<StrategyProbabilities>(method)) {
+            throw UsageError("--script: --method " + options.method +
+                             " renders single pictures only");
+        }
+        return run_render_script(std::get<StrategyProbabilities>(method), size, options);
+    }
     if (const auto* kind = std::get_if<ReferenceKind>(&method)) {
         return run_render_reference(*kind, size, options);
     }

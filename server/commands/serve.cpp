@@ -71,11 +71,11 @@ struct Control {
 std::optional<LoadedScene> serve_scene(const Options& options, LoadedScene loaded, Server& server,
                                        Control& control) {
     ChangeLog log = open_change_log(options, loaded);
-    log.restore(loaded.scene);
+    log.restore(loaded.scene, loaded.mesh);
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
     settings.min_frames_per_second = options.min_frames_per_second;
-    RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server, log);
+    RenderLoop loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log);
     const MetricsSource source(server, loop);
     if (server.port() == 0) {
         server.start();

@@ -113,7 +113,10 @@ struct Light {
     std::uint32_t id = 0;  ///< 1-based
     std::string name;
     int material = -1;         ///< index of the emitting material
-    glm::vec3 radiance{0.0F};  ///< cd/m², RGB
+    glm::vec3 radiance{0.0F};  ///< cd/m², RGB, while it is on
+    glm::vec3 colour{1.0F};    ///< of luminance 1, kept while radiance is 0
+    glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
+    bool on = true;
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.

@@ -35,7 +35,7 @@
 #define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
 #define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
-#define BINDING_CHECKPOINT 28      // vec2[]: luminance of the mean before the change, weight after it
+#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see solution_checkpoint.comp
 #define BINDING_PICK 29            // PickResult
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
 #define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
@@ -50,6 +50,10 @@
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
+#define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
+#define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
+#define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends
+#define BINDING_OLD_SURFACES 53       // PatchSurface[]: before the change
 
 #define BINDING_FIRST_SHOT 50         // vec4[2 * patches]: see patch_source.glsl
 #define BINDING_PUNCTUAL 51           // PunctualData[]

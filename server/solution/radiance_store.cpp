@@ -26,12 +26,11 @@ RadianceStore::RadianceStore(const GpuScene& scene)
       balance_("energy balance", sizeof(layout::Balance)),
       cdf_("selection cdf", std::size_t{patch_count_} * sizeof(float)),
       shooters_("shooters", max_shooters * sizeof(layout::Shooter)),
-      checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec2)),
+      checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec4)),
       statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
       update_({"solution_update.comp"}, scene.defines()),
-      correct_({"solution_correct.comp"}, scene.defines()),
       power_sum_({"solution_power_sum.comp"}, scene.defines()),
       power_scan_({"solution_power_scan.comp"}),
       power_density_({"solution_power_density.comp"}),
@@ -71,8 +70,9 @@ RadianceStore::RadianceStore(const GpuScene& scene)
 
 void RadianceStore::bind() const {
     scene_.bind();
-    radiance_.bind_storage(BINDING_RADIANCE);
-    glBindTextureUnit(UNIT_RADIANCE, radiance_texture_.get());
+    (other_ != nullptr ? *other_ : radiance_).bind_storage(BINDING_RADIANCE);
+    glBindTextureUnit(UNIT_RADIANCE,
+                      (other_texture_ != nullptr ? *other_texture_ : radiance_texture_).get());
     irradiance_.bind_storage(BINDING_IRRADIANCE);
     source_.bind_storage(BINDING_SOURCE);
     accumulator_.bind_storage(BINDING_ACCUMULATOR);
@@ -135,7 +135,7 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
 }
 
 void RadianceStore::send_along_bundle(Place place) const {
-    if (sent_.bytes() == 0) {
+    if (sent_.bytes() == 0 || other_ != nullptr) {
         return;
     }
     sent_.bind_storage(BINDING_SENT);
@@ -156,10 +156,16 @@ void RadianceStore::turn_gloss(std::uint32_t object, const glm::mat4& now_from_b
     turn_gloss_.dispatch(patch_count_);
 }
 
-void RadianceStore::correct(float phase_weight) const {
-    correct_.set("patch_count", patch_count_);
-    correct_.set("phase_weight", phase_weight);
-    correct_.dispatch(patch_count_);
+void RadianceStore::send_other(const Buffer& radiance, const Texture2D& texture) {
+    other_ = &radiance;
+    other_texture_ = &texture;
+    bind();
+}
+
+void RadianceStore::stop_sending_other() {
+    other_ = nullptr;
+    other_texture_ = nullptr;
+    bind();
 }
 
 void RadianceStore::refresh_power() const {
@@ -192,23 +198,37 @@ std::vector<layout::Shooter> RadianceStore::choose_shooters(std::span<const glm:
     return {chosen.begin(), chosen.end()};
 }
 
+void RadianceStore::adopt(const RadianceStore& other) const {
+    const auto copy = [](const Buffer& from, const Buffer& to) {
+        glCopyNamedBufferSubData(from.get(), to.get(), 0, 0, static_cast<GLsizeiptr>(to.bytes()));
+    };
+    copy(other.radiance_, radiance_);
+    copy(other.irradiance_, irradiance_);
+    copy(other.source_, source_);
+    copy(other.balance_, balance_);
+}
+
 void RadianceStore::checkpoint() const {
     checkpoint_.set("patch_count", patch_count_);
     checkpoint_.dispatch(patch_count_);
 }
 
-SolutionStatistics RadianceStore::statistics(float phase_iterations) const {
+glm::dvec4 RadianceStore::reduce(const ShaderProgram& program) const {
     statistics_buffer_.bind_storage(BINDING_STATISTICS);
-    statistics_.set("patch_count", patch_count_);
-    statistics_.set("relevance", relevant_change);
-    statistics_.set("phase_iterations", phase_iterations);
-    statistics_.dispatch(statistics_groups * 256);
+    program.set("patch_count", patch_count_);
+    program.dispatch(statistics_groups * 256);
     std::vector<glm::vec4> partial(statistics_groups);
     statistics_buffer_.read<glm::vec4>(partial);
     glm::dvec4 sum(0.0);
     for (const glm::vec4& p : partial) {
         sum += glm::dvec4(p);
     }
+    return sum;
+}
+
+SolutionStatistics RadianceStore::statistics() const {
+    statistics_.set("relevance", relevant_change);
+    const glm::dvec4 sum = reduce(statistics_);
     SolutionStatistics result;
     result.settled = sum.x > 0.0 ? std::clamp(1.0 - std::sqrt(sum.y / sum.x), 0.0, 1.0) : 1.0;
     return result;

@@ -57,19 +57,23 @@ class RadianceStore {
     }
     /// An object has turned: its glossy patches keep the directions of their light.
     void turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const;
-    /// Ends a special iteration phase of K bundles: adds its increments to the solution.
-    /// phase_weight: K times the weight of a sample.
-    void correct(float phase_weight) const;
+    /// From now on bundles carry this radiance (as BINDING_RADIANCE, with the texture on it)
+    /// instead of the solution's, until stop_sending_other(). Both must outlive that.
+    void send_other(const Buffer& radiance, const Texture2D& texture);
+    void stop_sending_other();
     /// New selection probabilities from the present solution.
     void refresh_power() const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
     /// solution_shooters.comp; at most 16.
     std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
 
+    /// Copies the solution of a store for the same patches; glossy parts stay as they are.
+    void adopt(const RadianceStore& other) const;
     /// Remembers the state before a change.
     void checkpoint() const;
-    /// phase_iterations: bundles of a special phase.
-    [[nodiscard]] SolutionStatistics statistics(float phase_iterations) const;
+    [[nodiscard]] SolutionStatistics statistics() const;
+    /// Sums of a reduction over all patches by statistics_groups groups of 256; see its shader.
+    [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const;
 
     /// Reads the counters back and clears them (synchronous, four numbers).
     layout::Counters take_counters() const;
@@ -93,8 +97,10 @@ class RadianceStore {
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
+    const Buffer* other_ = nullptr;
+    const Texture2D* other_texture_ = nullptr;
     Readback shooter_readback_;
-    ShaderProgram update_, correct_, power_sum_, power_scan_, power_density_, choose_;
+    ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
     ShaderProgram flux_sum_, balance_flux_;
     ShaderProgram checkpoint_, statistics_, turn_gloss_, send_, forget_;
 };

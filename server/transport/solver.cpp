@@ -62,7 +62,8 @@ std::uint64_t Solver::non_finite() const {
 }
 
 std::size_t Solver::bytes() const {
-    return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0);
+    return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0) +
+           (change_store_ ? change_store_->bytes() : 0);
 }
 
 void Solver::plan_group() {
@@ -96,6 +97,7 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
         last_strategy_.reset();
         phase_->step(receivers);
         if (phase_->done()) {
+            special_bundles_ = phase_->bundles();
             phase_.reset();
             scene_.settle();
             refresh_statistics();
@@ -196,24 +198,7 @@ void Solver::after_iteration() {
 }
 
 void Solver::refresh_statistics() {
-    statistics_ = store_.statistics(static_cast<float>(SpecialPhase::iterations));
-}
-
-void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_object,
-                         std::span<BundleReceiver* const> receivers) {
-    store_.bind();
-    store_.checkpoint();
-    scene_.move_object(object, world_from_object);
-    store_.turn_gloss(object, scene_.now_from_before(object));
-    store_.reshoot(static_cast<float>(SpecialPhase::iterations));
-    for (BundleReceiver* receiver : receivers) {
-        receiver->begin_special(object);
-    }
-    group_.clear();
-    group_next_ = 0;
-    since_change_ = 0;
-    statistics_.settled = 0.0;
-    phase_.emplace(scene_, store_, *coarse_, object, mix_bits(settings_.seed) + ++changes_);
+    statistics_ = store_.statistics();
 }
 
 }  // namespace raybundle

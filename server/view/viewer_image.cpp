@@ -73,6 +73,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       resolve_moved(make_resolve(scene, {"REPROJECT 1", "MOVED 1"})),
       compose_linear({"view_compose.comp"}, with(scene.defines(), "LINEAR 1")),
       correct({"view_correct.comp"}, scene.defines()),
+      scale({"view_scale.comp"}, scene.defines()),
+      scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
       vertex_irradiance({"view_vertex_irradiance.comp"}),
       statistics({"view_statistics.comp"}, scene.defines()),
       probe({"view_probe.comp"}, scene.defines()),
@@ -332,23 +334,6 @@ void ViewerImage::discard_sample(float sample_weight) {
     --samples_;
     parameters_.weights.x -= sample_weight;
     parameters_.weights.y -= sample_weight / BATCHES;
-}
-
-void ViewerImage::begin_special(std::uint32_t moved_object) {
-    refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
-    delta_.clear();
-    if (gloss_delta_.bytes() > 0) {
-        gloss_delta_.clear();
-    }
-}
-
-void ViewerImage::end_special(float phase_weight) {
-    upload_view();
-    bind_pixels();
-    batches_.clear();
-    parameters_.weights.y = 0.0F;
-    programs_.correct.set("phase_weight", phase_weight);
-    programs_.correct.dispatch(pixel_count(size_));
 }
 
 void ViewerImage::interpolate_vertices() {

@@ -54,7 +54,7 @@ struct ViewPrograms {
     Resolve resolve_new, resolve_reprojected, resolve_moved;
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
-    ShaderProgram correct, vertex_irradiance, statistics, probe;
+    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, probe;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
@@ -88,7 +88,10 @@ class ViewerImage : public BundleReceiver {
     void receive_planes(const Context& context) override;
     void discard_sample(float sample_weight) override;
     void begin_special(std::uint32_t moved_object) override;
-    void end_special(float phase_weight) override;
+    void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
+                        bool redraw) override;
+    void scale_special(float factor) override;
+    void end_special(float assumed_noise, float most_weight) override;
 
     /// Composes the picture with an exposure (EV: display white is 2^-exposure * a mid-grey scale;
     /// see display_factor()) and queues its readback. finished() and take() deliver it.
@@ -129,6 +132,7 @@ class ViewerImage : public BundleReceiver {
     void bind_pixels() const;
     void upload_view();
     void receive(const ViewPrograms::Receive& programs, const Context& context);
+    void clear_increments() const;
     void interpolate_vertices();
     void evaluate(std::span<const glm::vec4> partial);
 
