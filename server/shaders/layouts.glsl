@@ -50,9 +50,12 @@
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
+#define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
+#define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
+#define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -185,7 +188,7 @@ struct PixelSurface {
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // at the angle of view, unorm 4x8, square-root encoded
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
-    uint facet;        // and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
+    uint facet;        // also of black backs; and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
 
 #define PIXEL_EMITTER 0x80000000u
