@@ -63,8 +63,9 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;
         send_solutions();
+        const bool smoothed = smooth_pictures();
         const bool solved = solve();
-        if (!sent && !solved) {
+        if (!sent && !smoothed && !solved) {
             server_.inbox().wait_for(idle_wait);
         }
     }

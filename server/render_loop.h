@@ -68,6 +68,7 @@ class RenderLoop {
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     bool collect_frames();
     bool send_frames();
+    bool smooth_pictures();
     void send_solutions();
     bool solve();
     [[nodiscard]] bool idle() const;

@@ -115,6 +115,18 @@ bool RenderLoop::send_frames() {
     return any;
 }
 
+/// One slice of antialiasing for one viewer, so that a camera message waits for no more. True if
+/// there was something to do.
+bool RenderLoop::smooth_pictures() {
+    if (solver_.correcting()) {
+        return false;
+    }
+    const auto now = Clock::now();
+    return std::any_of(sessions_.begin(), sessions_.end(), [now](const auto& entry) {
+        return !entry.second->paused() && entry.second->smooth(now);
+    });
+}
+
 void RenderLoop::publish_figures(Clock::time_point now) {
     LoopFigures f;
     f.iterations = solver_->iterations();

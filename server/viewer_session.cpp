@@ -120,6 +120,15 @@ bool ViewerSession::moving(Clock::time_point now) const {
     return since_change_s(now) < moving_s;
 }
 
+bool ViewerSession::smooth(Clock::time_point now) {
+    if (wanted_camera_ || moving(now) || image_.smoothed()) {
+        return false;
+    }
+    image_.smooth_step();
+    changed_ = changed_ || image_.smoothed();
+    return true;
+}
+
 bool ViewerSession::due(Clock::time_point now) const {
     if (rendering_) {
         return false;

@@ -36,6 +36,9 @@ class ViewerSession {
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
 
+    /// One slice of antialiasing where the picture has been at rest for a while. True if there was
+    /// something to do.
+    bool smooth(Clock::time_point now);
     /// Something that the whole picture shows has changed: answer with a frame soon.
     void note_change();
     /// The camera or an object moved within the last moments.

@@ -184,6 +184,22 @@ class SceneBench {
             solver.step(receivers);
         });
         print("the same with an iteration in between", report_["frameAndIteration"]);
+        report_["geometry"] = measure(20, [&] { image.set_camera(camera); });
+        print("geometry buffer, 800x800", report_["geometry"]);
+        report_["geometryAndEdges"] = measure(20, [&] {
+            image.set_camera(camera);
+            image.smooth();
+        });
+        print("the same and all slices of antialiasing", report_["geometryAndEdges"]);
+        const auto resting = [&] {
+            image.compose(DisplayMode::photo, -6.0F);
+            image.take();
+        };
+        report_["smoothFrame"] = measure(40, resting);
+        print("frame at rest with smooth edges, read back", report_["smoothFrame"]);
+        image.set_camera(camera);
+        report_["plainFrame"] = measure(40, resting);
+        print("the same without", report_["plainFrame"]);
     }
 
     void moves() {

@@ -27,6 +27,7 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
     ProgressBar bar;
     Outcome outcome;
     const Stopwatch stopwatch;
+    image.smooth();
     constexpr std::uint64_t statistics_interval = 16;
     while (true) {
         solver.step(receivers);

@@ -50,18 +50,20 @@
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
+#define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
+#define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
 #define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
 #define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
 #define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends
 #define BINDING_OLD_SURFACES 53       // PatchSurface[]: before the change
-
-#define BINDING_FIRST_SHOT 50         // vec4[2 * patches]: see patch_source.glsl
-#define BINDING_PUNCTUAL 51           // PunctualData[]
-#define BINDING_PIXEL_FIRST_SHOT 52   // vec4[]: see view_first_shot.comp
-#define BINDING_IES 53                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
+#define BINDING_FIRST_SHOT 54         // vec4[2 * patches]: see patch_source.glsl
+#define BINDING_PUNCTUAL 55           // PunctualData[]
+#define BINDING_PIXEL_FIRST_SHOT 56   // vec4[]: see view_first_shot.comp
+#define BINDING_IES 57                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
+#define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -219,7 +221,7 @@ struct PixelSurface {
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // at the angle of view, unorm 4x8, square-root encoded
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
-    uint facet;        // and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
+    uint facet;        // also of black backs; and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
 
 #define PIXEL_EMITTER 0x80000000u

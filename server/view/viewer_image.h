@@ -14,6 +14,7 @@
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "view/camera_matrices.h"
+#include "view/edge_filter.h"
 #include "view/specular_groups.h"
 
 namespace raybundle {
@@ -65,6 +66,7 @@ struct ViewPrograms {
     };
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
+    EdgePrograms edges;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -81,6 +83,16 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] const Camera& camera() const { return camera_; }
     /// Samples taken since the camera last moved.
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
+
+    /// Antialiasing of a picture whose camera rests, in slices of one raster each. Frames of full
+    /// size and radiance have smooth edges once it is complete, until camera, size or an object
+    /// changes. Does one slice; false where nothing is left to do.
+    bool smooth_step();
+    void smooth() {
+        while (smooth_step()) {
+        }
+    }
+    [[nodiscard]] bool smoothed() const { return edges_->complete(); }
 
     // BundleReceiver
     void receive_hemicube(const Context& context) override;
@@ -101,7 +113,8 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] bool finished() const { return frame_readback_->ready(); }
     /// RGBA bytes, row 0 at the top; valid until the next compose().
     std::span<const std::uint8_t> take();
-    /// Linear radiance of all pixels, cd/m², row 0 at the top. Synchronous.
+    /// Linear radiance of all pixels, cd/m², row 0 at the top: at their centres, or once smoothed()
+    /// means over their areas. Synchronous.
     std::vector<glm::vec4> read_radiance();
     /// Mean irradiance at the pixels as accumulated (lx, w = weight), row 0 at the bottom.
     /// Synchronous.
@@ -128,6 +141,7 @@ class ViewerImage : public BundleReceiver {
     void allocate_gloss();
     void allocate_first_shot();
     void shoot_first() const;
+    void raster(const glm::mat4& clip_from_world) const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
@@ -154,6 +168,7 @@ class ViewerImage : public BundleReceiver {
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_, probe_buffer_;
+    std::optional<EdgeFilter> edges_;         // always
     std::optional<SpecularGroups> specular_;  // only where the scene is specular
     Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
     Buffer first_shot_;                       // only where it has punctual lights
