@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <numeric>
+
 #include "scene_messages.h"
 
 namespace raybundle {
@@ -22,18 +24,26 @@ ChangeLog::ChangeLog(const JournalSettings& settings) : required_(true) {
     }
 }
 
-void ChangeLog::restore(Scene& scene) {
+void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     if (!journal_) {
         return;
     }
+    std::vector<std::uint32_t> materials(scene.materials.size());
+    std::iota(materials.begin(), materials.end(), 0U);
+    bool surfaces = false;
     for (const v1::SceneChanged& change : journal_->changes()) {
-        const std::uint32_t object = change.move_object().object();
-        if (!change.has_move_object() || object < 1 || object > scene.objects.size()) {
+        if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET ||
+            problem_of(scene, change).code() != v1::Error::CODE_UNSPECIFIED) {
             spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
             continue;
         }
-        scene.objects[object - 1].transform = from_message(change.move_object().transform());
+        apply(scene, change);
+        surfaces |= !change.has_move_object();
     }
+    if (surfaces) {
+        refresh_surfaces(scene, materials, mesh);
+    }
+    history_ = SceneHistory(epoch_);
     spdlog::info("the session goes on at epoch {}", epoch_);
 }
 

@@ -9,7 +9,9 @@
 
 #include "journal/session_journal.h"
 #include "raybundle.pb.h"
+#include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "scene_history.h"
 
 namespace raybundle {
 
@@ -26,7 +28,7 @@ class ChangeLog {
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
     /// Brings a scene as read from its file to the state of the journal.
-    void restore(Scene& scene);
+    void restore(Scene& scene, PatchMesh& mesh);
 
     /// Numbers the change and stores it. False: it could not be stored and must not be made.
     [[nodiscard]] bool record(v1::SceneChanged& change);
@@ -36,6 +38,11 @@ class ChangeLog {
     [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
     /// Bodies of the notes that the journal holds, by number.
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
+    /// What the subject of a recorded change was before it and is after it.
+    void note_states(const v1::SceneChanged& before, const v1::SceneChanged& after) {
+        history_.note(before, after);
+    }
+    [[nodiscard]] const SceneHistory& history() const { return history_; }
 
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
     /// Whether the next change is expected to be stored.
@@ -46,6 +53,7 @@ class ChangeLog {
     bool working_ = true;
     std::optional<SessionJournal> journal_;
     std::uint32_t epoch_ = 0;
+    SceneHistory history_;
     std::uint64_t failures_ = 0;
 };
 

@@ -153,7 +153,16 @@ void add_render(CLI::App& app, Options& o) {
                    "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
                    "metropolis, photon-map")
         ->capture_default_str();
+    app.add_option(
+           "--bias-for-noise", o.bias_for_noise,
+           "Cut off rare bright contributions as fits so many planned iterations; the result "
+           "is then biased (0: never)")
+        ->check(CLI::Range(0.0, 1e9));
     app.add_option("--stats", o.stats, "Write statistics as JSON");
+    app.add_option("--script", o.script,
+                   "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "
+                   "iterations and error are those of each frame")
+        ->check(CLI::ExistingFile);
 }
 
 void add_accuracy(CLI::App& app, Options& o) {
@@ -220,7 +229,8 @@ void define_options(CLI::App& app, Options& options) {
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");
         } else {
-            command->add_option("--json", options.json_file, "Also write the results as JSON");
+            command->add_option("--json", options.json_file,
+                                "Also write the results as JSON (bench: plots beside it)");
         }
     }
     app.require_subcommand(0, 1);

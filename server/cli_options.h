@@ -44,7 +44,8 @@ struct Options {
     int gpu = -1;
     bool list_gpus = false;
     std::string unit = "m";
-    std::optional<float> sky;  // cd/m²
+    std::optional<float> sky;      // cd/m²
+    std::vector<std::string> ies;  // LIGHT=FILE
     std::string log_level = "info";
 
     std::string scene;
@@ -83,7 +84,9 @@ struct Options {
     std::optional<std::uint64_t> iterations;
     std::optional<double> error;
     std::string method = "combined";
+    std::uint64_t bias_for_noise = 0;  // iterations planned
     std::string stats;
+    std::string script;  // file
 
     // accuracy, besides those of render
     std::string accuracy_size = "128x128";

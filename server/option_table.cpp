@@ -47,6 +47,12 @@ std::string address_problem(const std::string& text) {
     }
 }
 
+std::string ies_problem(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const bool fits = equals != std::string::npos && equals > 0 && equals + 1 < text.size();
+    return fits ? "" : "'" + text + "' is not LIGHT=FILE, e.g. downlight=spot.ies";
+}
+
 std::string origin_problem(const std::string& text) {
     const std::size_t scheme = text.starts_with("https://") ? 8 : 7;
     const bool fits = (text.starts_with("http://") || text.starts_with("https://")) &&
@@ -87,6 +93,8 @@ constexpr std::array serve_table{
                 unit_problem, true},
     ServeOption{"sky", "Luminance of a uniform sky, cd/m²", &Options::sky, 0, no_limit, nullptr,
                 true},
+    ServeOption{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES file",
+                &Options::ies, 0, 0, ies_problem, true},
     ServeOption{"logLevel", "trace, debug, info, warn, error, off", &Options::log_level, 0, 0,
                 log_level_problem, true},
 };

@@ -15,7 +15,6 @@ namespace {
 constexpr int encoder_threads = 1;
 constexpr double solution_interval_s = 0.25;
 constexpr double rate_interval_s = 1.0;
-constexpr std::size_t max_pending_requests = 64;  // of one object; older ones are answered at once
 constexpr std::chrono::milliseconds idle_wait(50);
 constexpr const char* no_memory = "the server has no memory for a picture of this size";
 constexpr std::uint32_t max_width = 3840;
@@ -37,21 +36,21 @@ v1::ServerMessage ok() {
 
 }  // namespace
 
-RenderLoop::RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSettings& settings,
+RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings,
                        Server& server, ChangeLog& log)
     : scene_(std::move(scene)),
+      mesh_(std::move(mesh)),
       settings_(settings),
       server_(server),
       log_(log),
-      solver_(scene_, mesh, settings.solver),
-      programs_(solver_.scene()),
-      encoder_(encoder_threads,
-               [this](const EncodedFrame& frame) {
-                   metrics_.count_frame(frame.bytes.size());
-                   server_.send_frame(frame.viewer, frame.header, frame.bytes);
-                   server_.inbox().interrupt();
-               }),
-      review_(log, solver_.scene().patch_count()) {
+      solver_(std::make_unique<Solver>(scene_, mesh_, settings.solver)),
+      programs_(std::make_unique<ViewPrograms>(solver_->scene())),
+      encoder_(encoder_threads, [this](const EncodedFrame& frame) {
+          metrics_.count_frame(frame.bytes.size());
+          server_.send_frame(frame.viewer, frame.header, frame.bytes);
+          server_.inbox().interrupt();
+      }),
+      review_(log, solver_->scene().patch_count()) {
     epoch_ = log_.epoch();
 }
 
@@ -61,13 +60,14 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         for (const ClientEvent& event : server_.inbox().drain()) {
             handle(event);
         }
-        start_pending_move();
+        start_pending_change();
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;
         send_solutions();
         send_presence(Clock::now());
+        const bool smoothed = smooth_pictures();
         const bool solved = solve();
-        if (!sent && !solved) {
+        if (!sent && !smoothed && !solved) {
             server_.inbox().wait_for(idle_wait);
         }
     }
@@ -75,10 +75,8 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 
 void RenderLoop::refuse_waiting() {
     std::vector<ClientEvent> waiting = server_.inbox().drain();
-    for (const PendingMove& pending : pending_moves_) {
-        waiting.insert(waiting.end(), pending.requests.begin(), pending.requests.end());
-    }
-    pending_moves_.clear();
+    const std::vector<ClientEvent> changes = changes_.take_requests();
+    waiting.insert(waiting.end(), changes.begin(), changes.end());
     for (const ClientEvent& event : waiting) {
         if (event.kind == ClientEvent::Kind::message) {
             server_.reply_error(event, v1::Error::INTERNAL, "the server is stopping");
@@ -117,8 +115,8 @@ void RenderLoop::join(const ClientEvent& event) {
     }
     try {
         sessions_[event.viewer] =
-            std::make_unique<ViewerSession>(event.viewer, hello, solver_.scene(), solver_.store(),
-                                            programs_, scene_.cameras.front());
+            std::make_unique<ViewerSession>(event.viewer, hello, solver_->scene(), solver_->store(),
+                                            *programs_, scene_.cameras.front());
     } catch (const GpuError& error) {
         sessions_.erase(event.viewer);
         spdlog::error("no picture for viewer {}: {}", event.viewer, error.what());
@@ -170,8 +168,11 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 session.set_target(message.set_target());
                 break;
             case v1::ClientMessage::kMoveObject:
-                queue_move(event);
-                return;  // answered when the move is applied
+            case v1::ClientMessage::kSetLight:
+            case v1::ClientMessage::kSetMaterial:
+            case v1::ClientMessage::kUndo:
+                queue_change(event);
+                return;  // answered when the change is made
             case v1::ClientMessage::kProbe:
                 answer_probe(session, event);
                 return;
@@ -189,59 +190,6 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
         return;
     }
     server_.reply(event, ok());
-}
-
-void RenderLoop::queue_move(const ClientEvent& event) {
-    const std::uint32_t id = event.message.move_object().object();
-    const bool known = id >= 1 && id <= scene_.objects.size();
-    if (!known || !scene_.objects[id - 1].movable) {
-        server_.reply_error(event, known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
-                            "moveObject.object: no movable object " + std::to_string(id));
-        return;
-    }
-    // The newest place of an object wins; it keeps its turn among the objects.
-    for (PendingMove& pending : pending_moves_) {
-        if (pending.object == id - 1 && pending.requests.size() < max_pending_requests) {
-            pending.requests.push_back(event);
-            return;
-        }
-    }
-    pending_moves_.push_back({id - 1, {event}});
-}
-
-void RenderLoop::start_pending_move() {
-    if (pending_moves_.empty() || solver_.correcting()) {
-        return;
-    }
-    const PendingMove pending = std::move(pending_moves_.front());
-    pending_moves_.pop_front();
-    const v1::MoveObject& move = pending.requests.back().message.move_object();
-    v1::ServerMessage message;
-    message.mutable_scene_changed()->set_by(pending.requests.back().viewer);
-    *message.mutable_scene_changed()->mutable_move_object() = move;
-    if (!log_.record(*message.mutable_scene_changed())) {
-        for (const ClientEvent& request : pending.requests) {
-            server_.reply_error(request, v1::Error::INTERNAL,
-                                "the change could not be saved, so it was not made");
-        }
-        return;
-    }
-    epoch_ = log_.epoch();
-    Object& object = scene_.objects[pending.object];
-    object.transform = from_message(move.transform());
-    receivers_.clear();
-    for (const auto& [id, session] : sessions_) {
-        receivers_.push_back(&session->image());  // a change concerns also those who look away
-    }
-    solver_.move_object(pending.object, object.world_from_object(), receivers_);
-    iterations_at_change_ = solver_.iterations();
-    for (const ClientEvent& request : pending.requests) {
-        server_.reply(request, message);
-    }
-    server_.broadcast(message, pending.requests.back().viewer);
-    for (const auto& [id, session] : sessions_) {
-        session->note_change();
-    }
 }
 
 void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) {
@@ -281,8 +229,8 @@ void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) 
 v1::FrameHeader RenderLoop::figures() const {
     v1::FrameHeader header;
     header.set_epoch(epoch_);
-    header.set_iterations(static_cast<std::uint32_t>(solver_.iterations()));
-    header.set_settled(static_cast<float>(solver_.statistics().settled));
+    header.set_iterations(static_cast<std::uint32_t>(solver_->iterations()));
+    header.set_settled(static_cast<float>(solver_->statistics().settled));
     return header;
 }
 
@@ -298,9 +246,9 @@ void RenderLoop::send_solutions() {
         v1::ServerMessage message;
         v1::Solution* solution = message.mutable_solution();
         solution->set_epoch(epoch_);
-        solution->set_iterations(static_cast<std::uint32_t>(solver_.iterations()));
+        solution->set_iterations(static_cast<std::uint32_t>(solver_->iterations()));
         solution->set_iterations_per_second(static_cast<float>(iterations_per_second_));
-        solution->set_settled(static_cast<float>(solver_.statistics().settled));
+        solution->set_settled(static_cast<float>(solver_->statistics().settled));
         session->fill_solution(solution);
         server_.send(id, message);
     }
@@ -311,14 +259,15 @@ void RenderLoop::update_rate(Clock::time_point now) {
     if (elapsed < rate_interval_s) {
         return;
     }
-    iterations_per_second_ = static_cast<double>(solver_.iterations() - rate_iterations_) / elapsed;
-    rate_iterations_ = solver_.iterations();
+    iterations_per_second_ =
+        static_cast<double>(solver_->iterations() - rate_iterations_) / elapsed;
+    rate_iterations_ = solver_->iterations();
     rate_since_ = now;
     publish_figures(now);
 }
 
 bool RenderLoop::idle() const {
-    if (solver_.correcting()) {
+    if (solver_->correcting()) {
         return false;
     }
     const auto content = [](const auto& entry) {
@@ -327,7 +276,7 @@ bool RenderLoop::idle() const {
     };
     const auto paused = [](const auto& entry) { return entry.second->paused(); };
     if (std::all_of(sessions_.begin(), sessions_.end(), paused)) {
-        return solver_.iterations() - iterations_at_change_ >= settings_.idle_iterations;
+        return solver_->iterations() - iterations_at_change_ >= settings_.idle_iterations;
     }
     return std::all_of(sessions_.begin(), sessions_.end(), content);
 }
@@ -338,10 +287,10 @@ bool RenderLoop::solve() {
     }
     choose_receivers();
     const auto start = Clock::now();
-    solver_.step(receivers_);
+    solver_->step(receivers_);
     const double cost = milliseconds_since(start);
-    metrics_.note_step(solver_.last_strategy(), cost);
-    if (solver_.last_strategy()) {
+    metrics_.note_step(solver_->last_strategy(), cost);
+    if (solver_->last_strategy()) {
         cost_.note_iteration(cost, receiver_pixels_);
     }
     server_.set_ready(true);

@@ -4,12 +4,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "change_log.h"
+#include "change_queue.h"
 #include "loop_metrics.h"
 #include "net/server.h"
 #include "review_board.h"
@@ -39,8 +40,8 @@ struct RenderLoopSettings {
 /// of the time to iterations.
 class RenderLoop {
   public:
-    RenderLoop(Scene scene, const PatchMesh& mesh, const RenderLoopSettings& settings,
-               Server& server, ChangeLog& log);
+    RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings, Server& server,
+               ChangeLog& log);
 
     /// Runs until `stop` is set and the inbox is interrupted.
     void run(const std::atomic<bool>& stop);
@@ -54,17 +55,17 @@ class RenderLoop {
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// The newest wanted place of an object and everyone who asked for one since.
-    struct PendingMove {
-        std::uint32_t object = 0;  // index
-        std::vector<ClientEvent> requests;
-    };
-
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
     void join(const ClientEvent& event);
-    void queue_move(const ClientEvent& event);
-    void start_pending_move();
+    void queue_change(const ClientEvent& event);
+    void start_pending_change();
+    bool record(PendingChange& pending);
+    void start_undo(const PendingChange& pending);
+    void start_surfaces(std::vector<PendingChange> pending);
+    void replan(std::span<const std::uint32_t> reflecting);
+    void announce(const PendingChange& pending);
+    void gather_all();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
@@ -83,6 +84,7 @@ class RenderLoop {
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     bool collect_frames();
     bool send_frames();
+    bool smooth_pictures();
     void send_solutions();
     bool solve();
     [[nodiscard]] bool idle() const;
@@ -92,14 +94,17 @@ class RenderLoop {
     void publish_figures(Clock::time_point now);
 
     Scene scene_;
+    PatchMesh mesh_;
     RenderLoopSettings settings_;
     Server& server_;
     ChangeLog& log_;
-    Solver solver_;
-    ViewPrograms programs_;
+    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<ViewPrograms> programs_;
     std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
     std::vector<BundleReceiver*> receivers_;
-    std::deque<PendingMove> pending_moves_;
+    ChangeQueue changes_;
+    bool undo_failed_ = false;  // a change of the running undo could not be saved
+    std::uint64_t replans_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint64_t iterations_at_change_ = 0;
     double receiver_pixels_ = 0.0;

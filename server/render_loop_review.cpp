@@ -173,7 +173,7 @@ void RenderLoop::forget_leader(ViewerId viewer) {
 void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     const v1::AddPin& wanted = event.message.add_pin();
     const glm::vec3 position = from_message(wanted.position());
-    if (wanted.patch() >= solver_.scene().patch_count()) {
+    if (wanted.patch() >= solver_->scene().patch_count()) {
         server_.reply_error(event, v1::Error::NOT_FOUND,
                             "addPin.patch: no patch " + std::to_string(wanted.patch()));
         return;
@@ -181,7 +181,7 @@ void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     session.apply_camera();
     Pin pin;
     pin.patch = wanted.patch();
-    pin.patch_illuminance = luminance(solver_.store().read_irradiance(pin.patch));
+    pin.patch_illuminance = luminance(solver_->store().read_irradiance(pin.patch));
     v1::PinChanged& message = pin.message;
     message.set_by(event.viewer);
     message.set_by_name(session.name());
@@ -336,14 +336,14 @@ void RenderLoop::send_presence(Clock::time_point now) {
 
 /// Looks at the light of one pin, and tells everybody where it has changed.
 void RenderLoop::check_pin() {
-    if (solver_.correcting() || solver_.statistics().settled < pin_check_settled) {
+    if (solver_->correcting() || solver_->statistics().settled < pin_check_settled) {
         return;
     }
     Pin* pin = review_.next_pin();
     if (pin == nullptr) {
         return;
     }
-    if (update_change(*pin, luminance(solver_.store().read_irradiance(pin->patch)), epoch_)) {
+    if (update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_)) {
         v1::ServerMessage message;
         *message.mutable_pin_changed() = pin->message;
         server_.broadcast(message);

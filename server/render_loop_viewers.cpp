@@ -42,7 +42,7 @@ std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instea
 /// Who takes part in the next group of iterations: those who look, or all where nobody does. They
 /// must stay the same within a group and within a special phase.
 void RenderLoop::choose_receivers() {
-    if (solver_.correcting() || !solver_.between_groups()) {
+    if (solver_->correcting() || !solver_->between_groups()) {
         return;
     }
     const bool watched = std::any_of(sessions_.begin(), sessions_.end(),
@@ -92,7 +92,7 @@ bool RenderLoop::send_frames() {
     for (const auto& [id, session] : sessions_) {
         session->set_paused(server_.silence_ms(id) > silence_limit_ms);
         // While a change is being worked in, the picture is between two states: finish first.
-        if (solver_.correcting() || !session->due(now) || encoder_.busy(id)) {
+        if (solver_->correcting() || !session->due(now) || encoder_.busy(id)) {
             continue;
         }
         const FrameAdvice advice = server_.advise(id, session->demand(now));
@@ -115,14 +115,26 @@ bool RenderLoop::send_frames() {
     return any;
 }
 
+/// One slice of antialiasing for one viewer, so that a camera message waits for no more. True if
+/// there was something to do.
+bool RenderLoop::smooth_pictures() {
+    if (solver_->correcting()) {
+        return false;
+    }
+    const auto now = Clock::now();
+    return std::any_of(sessions_.begin(), sessions_.end(), [now](const auto& entry) {
+        return !entry.second->paused() && entry.second->smooth(now);
+    });
+}
+
 void RenderLoop::publish_figures(Clock::time_point now) {
     LoopFigures f;
-    f.iterations = solver_.iterations();
+    f.iterations = solver_->iterations();
     f.iterations_per_second = iterations_per_second_;
-    f.settled = solver_.statistics().settled;
+    f.settled = solver_->statistics().settled;
     f.epoch = epoch_;
-    f.non_finite = solver_.non_finite();
-    f.gl_bytes = solver_.bytes();
+    f.non_finite = solver_->non_finite();
+    f.gl_bytes = solver_->bytes();
     for (const auto& [id, session] : sessions_) {
         ++f.viewers;
         f.moving += session->moving(now) ? 1 : 0;

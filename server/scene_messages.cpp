@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "journal/change_sum.h"
+#include "scene/effects_plan.h"
+
 namespace raybundle {
 
 glm::vec3 from_message(const v1::Vec3& v) {
@@ -22,6 +25,36 @@ Transform from_message(const v1::Transform& transform) {
         result.scale = from_message(transform.scale());
     }
     return result;
+}
+
+LightEdit from_message(const v1::SetLight& light) {
+    LightEdit edit;
+    edit.light = light.light();
+    if (light.has_intensity()) {
+        edit.intensity = light.intensity();
+    }
+    if (light.has_colour()) {
+        edit.colour = from_message(light.colour());
+    }
+    if (light.has_on()) {
+        edit.on = light.on();
+    }
+    return edit;
+}
+
+MaterialEdit from_message(const v1::SetMaterial& material) {
+    MaterialEdit edit;
+    edit.material = material.material();
+    if (material.has_base_colour()) {
+        edit.base_colour = from_message(material.base_colour());
+    }
+    if (material.has_roughness()) {
+        edit.roughness = material.roughness();
+    }
+    if (material.has_metallic()) {
+        edit.metallic = material.metallic();
+    }
+    return edit;
 }
 
 void to_message(const glm::vec3& v, v1::Vec3* message) {
@@ -61,27 +94,99 @@ Bounds world_bounds(const Object& object) {
 
 namespace {
 
-void add_effect(v1::Scene* message, const char* name, bool active, const std::string& reason) {
-    v1::Effect* effect = message->add_effects();
-    effect->set_name(name);
-    effect->set_active(active);
-    effect->set_reason(reason);
+/// Punctual lights are numbered after the area lights.
+void describe_light(const PunctualLight& light, v1::Scene* message) {
+    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
+    v1::Light* out = message->add_lights();
+    const bool directional = light.kind == PunctualKind::directional;
+    const float intensity = luminance(light.intensity);
+    out->set_id(id);
+    out->set_name(light.name);
+    out->set_kind(directional                        ? v1::Light::DIRECTIONAL
+                  : light.kind == PunctualKind::spot ? v1::Light::SPOT
+                                                     : v1::Light::POINT);
+    out->set_intensity(intensity);
+    out->set_unit(directional ? v1::Light::LX : v1::Light::CD);
+    to_message(light.intensity / intensity, out->mutable_colour());
+    out->set_on(true);
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
-    add_effect(message, "diffuse", true, "every surface reflects diffusely");
-    const bool sky = luminance(scene.sky_radiance) > 0.0F;
-    add_effect(message, "sky", sky,
-               sky ? "uniform sky of " +
-                         std::to_string(static_cast<int>(luminance(scene.sky_radiance))) +
-                         " cd/m²" + (scene.lights.empty() ? ": the scene has no emitter" : "")
-                   : "no sky is set and the scene has emitters");
-    add_effect(message, "textures", !scene.textures.empty(),
-               scene.textures.empty() ? "no material has a texture"
-                                      : std::to_string(scene.textures.size()) + " textures");
+    for (const Effect& effect : plan_effects(scene, 0).effects) {
+        v1::Effect* out = message->add_effects();
+        out->set_name(effect.name);
+        out->set_active(effect.active);
+        out->set_reason(effect.reason);
+    }
+}
+
+v1::Error error(v1::Error::Code code, const std::string& message) {
+    v1::Error result;
+    result.set_code(code);
+    result.set_message(message);
+    return result;
 }
 
 }  // namespace
+
+v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
+    const std::uint32_t id = subject_of(change).second;
+    if (change.has_move_object()) {
+        const bool known = id >= 1 && id <= scene.objects.size();
+        if (known && scene.objects[id - 1].movable) {
+            return {};
+        }
+        return error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
+                     "moveObject.object: no movable object " + std::to_string(id));
+    }
+    const bool light = change.has_set_light();
+    const std::string problem = light ? problem_of(scene, from_message(change.set_light()))
+                                      : problem_of(scene, from_message(change.set_material()));
+    const std::size_t count = light ? scene.lights.size() : scene.materials.size();
+    const bool known = id >= 1 && id <= count;
+    return problem.empty()
+               ? v1::Error()
+               : error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
+                       (light ? "setLight.light: " : "setMaterial.material: ") + problem);
+}
+
+v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change) {
+    const std::uint32_t id = subject_of(change).second;
+    v1::SceneChanged state;
+    if (change.has_move_object()) {
+        state.mutable_move_object()->set_object(id);
+        to_message(scene.objects[id - 1].transform,
+                   state.mutable_move_object()->mutable_transform());
+    } else if (change.has_set_light()) {
+        const Light& light = scene.lights[id - 1];
+        v1::SetLight* message = state.mutable_set_light();
+        message->set_light(id);
+        message->set_intensity(luminance(light.radiance));
+        message->set_on(light.on);
+        to_message(light.colour, message->mutable_colour());
+    } else {
+        const Material& material = scene.materials[id - 1];
+        v1::SetMaterial* message = state.mutable_set_material();
+        message->set_material(id);
+        to_message(material.base_colour, message->mutable_base_colour());
+        if (!material.max_phong) {
+            message->set_roughness(material.roughness);
+            message->set_metallic(material.metallic);
+        }
+    }
+    return state;
+}
+
+void apply(Scene& scene, const v1::SceneChanged& change) {
+    if (change.has_move_object()) {
+        const v1::MoveObject& move = change.move_object();
+        scene.objects[move.object() - 1].transform = from_message(move.transform());
+    } else if (change.has_set_light()) {
+        apply(scene, from_message(change.set_light()));
+    } else {
+        apply(scene, from_message(change.set_material()));
+    }
+}
 
 void describe_scene(const Scene& scene, v1::Scene* message) {
     message->set_name(scene.name);
@@ -105,9 +210,11 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_kind(v1::Light::AREA);
         out->set_intensity(intensity);
         out->set_unit(v1::Light::CD_PER_M2);
-        to_message(intensity > 0.0F ? light.radiance / intensity : glm::vec3(1.0F),
-                   out->mutable_colour());
-        out->set_on(true);
+        to_message(light.colour, out->mutable_colour());
+        out->set_on(light.on);
+    }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        describe_light(light, message);
     }
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();
@@ -121,6 +228,9 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         v1::Material* out = message->add_materials();
         out->set_id(static_cast<std::uint32_t>(i) + 1);
         out->set_name(scene.materials[i].name);
+        to_message(scene.materials[i].base_colour, out->mutable_base_colour());
+        out->set_roughness(scene.materials[i].roughness);
+        out->set_metallic(scene.materials[i].metallic);
     }
     describe_effects(scene, message);
 }

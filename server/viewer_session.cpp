@@ -45,11 +45,11 @@ ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuS
                              const Camera& camera)
     : viewer_(viewer),
       name_(hello.name()),
-      image_(scene, store, programs, size_of(hello)),
+      image_(std::make_unique<ViewerImage>(scene, store, programs, size_of(hello))),
       last_change_(Clock::now()) {
     lossless_ =
         std::find(hello.codecs().begin(), hello.codecs().end(), v1::PNG) != hello.codecs().end();
-    image_.set_camera(camera);
+    image_->set_camera(camera);
 }
 
 double ViewerSession::since_change_s(Clock::time_point now) const {
@@ -62,7 +62,7 @@ void ViewerSession::note_change() {
 }
 
 void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t request_id) {
-    Camera camera = wanted_camera_.value_or(image_.camera());
+    Camera camera = wanted_camera_.value_or(image_->camera());
     camera.eye = from_message(message.eye());
     camera.target = from_message(message.target());
     camera.up = message.has_up() ? from_message(message.up()) : glm::vec3(0.0F, 1.0F, 0.0F);
@@ -80,23 +80,32 @@ void ViewerSession::adopt_camera(const Camera& camera) {
 }
 
 const Camera& ViewerSession::camera() const {
-    return wanted_camera_ ? *wanted_camera_ : image_.camera();
+    return wanted_camera_ ? *wanted_camera_ : image_->camera();
 }
 
 void ViewerSession::apply_camera() {
     if (wanted_camera_) {
-        image_.set_camera(*wanted_camera_);
+        image_->set_camera(*wanted_camera_);
         wanted_camera_.reset();
     }
 }
 
 double ViewerSession::pixels() const {
-    const glm::uvec2 size = image_.size();
+    const glm::uvec2 size = image_->size();
     return static_cast<double>(size.x) * static_cast<double>(size.y);
 }
 
 void ViewerSession::set_viewport(glm::uvec2 size) {
-    image_.resize(size);
+    image_->resize(size);
+    rendering_ = false;
+    note_change();
+}
+
+void ViewerSession::set_solution(const GpuScene& scene, const RadianceStore& store,
+                                 const ViewPrograms& programs) {
+    const Camera camera = image_->camera();
+    image_ = std::make_unique<ViewerImage>(scene, store, programs, image_->size());
+    image_->set_camera(camera);
     rendering_ = false;
     note_change();
 }
@@ -134,6 +143,15 @@ bool ViewerSession::moving(Clock::time_point now) const {
     return since_change_s(now) < moving_s;
 }
 
+bool ViewerSession::smooth(Clock::time_point now) {
+    if (wanted_camera_ || moving(now) || image_->smoothed()) {
+        return false;
+    }
+    image_->smooth_step();
+    changed_ = changed_ || image_->smoothed();
+    return true;
+}
+
 bool ViewerSession::due(Clock::time_point now) const {
     if (rendering_) {
         return false;
@@ -142,13 +160,13 @@ bool ViewerSession::due(Clock::time_point now) const {
     if (changed_) {
         return since_frame >= moving_interval_s;
     }
-    return image_.samples() > samples_at_frame_ &&
+    return image_->samples() > samples_at_frame_ &&
            since_frame >= refining_interval(since_change_s(now));
 }
 
 bool ViewerSession::target_met() {
     if (target_error_ > 0.0) {
-        const ImageStatistics& statistics = image_.statistics();
+        const ImageStatistics& statistics = image_->statistics();
         return statistics.known && statistics.error_high <= target_error_;
     }
     return target_seconds_ > 0.0 && since_change_s(Clock::now()) >= target_seconds_;
@@ -159,7 +177,7 @@ FrameDemand ViewerSession::demand(Clock::time_point now) const {
 }
 
 float ViewerSession::exposure() {
-    const float wanted = (auto_exposure_ ? image_.automatic_exposure() : 0.0F) + exposure_offset_;
+    const float wanted = (auto_exposure_ ? image_->automatic_exposure() : 0.0F) + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
     const float follow = shown_exposure_ ? 0.15F : 1.0F;
     const float before = shown_exposure_.value_or(wanted);
@@ -180,12 +198,12 @@ ColourScale ViewerSession::colour_scale(float exposure) const {
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
                            Clock::time_point now) {
     apply_camera();
-    const glm::uvec2 size = image_.size();
+    const glm::uvec2 size = image_->size();
     const auto scaled = [&](unsigned pixels) {
         return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));
     };
     const glm::uvec2 frame_size(scaled(size.x), scaled(size.y));
-    const ImageStatistics& statistics = image_.statistics();
+    const ImageStatistics& statistics = image_->statistics();
     header_ = figures;
     header_.set_frame(++frame_);
     header_.set_camera_id(camera_id_);
@@ -204,27 +222,27 @@ void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& fig
     if (mode_ != DisplayMode::photo) {
         header_.set_scale_maximum(scale.maximum);
     }
-    image_.compose(mode_, header_.exposure(), frame_size, scale);
+    image_->compose(mode_, header_.exposure(), frame_size, scale);
     rendering_ = true;
     changed_ = false;
     last_frame_ = now;
-    samples_at_frame_ = image_.samples();
+    samples_at_frame_ = image_->samples();
 }
 
 std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::take_frame() {
     rendering_ = false;
-    return {header_, image_.take()};
+    return {header_, image_->take()};
 }
 
 void ViewerSession::refresh_statistics(Clock::time_point now) {
     if (seconds(now - last_statistics_) >= statistics_interval_s) {
         last_statistics_ = now;
-        image_.request_statistics();
+        image_->request_statistics();
     }
 }
 
 void ViewerSession::fill_solution(v1::Solution* solution) {
-    const ImageStatistics& statistics = image_.statistics();
+    const ImageStatistics& statistics = image_->statistics();
     if (!statistics.known) {
         return;
     }

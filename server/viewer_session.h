@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -33,9 +34,15 @@ class ViewerSession {
     /// What it looks at, or will with its next frame.
     [[nodiscard]] const Camera& camera() const;
     void set_viewport(glm::uvec2 size);
+    /// Another solver takes over: its picture begins anew.
+    void set_solution(const GpuScene& scene, const RadianceStore& store,
+                      const ViewPrograms& programs);
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
 
+    /// One slice of antialiasing where the picture has been at rest for a while. True if there was
+    /// something to do.
+    bool smooth(Clock::time_point now);
     /// Something that the whole picture shows has changed: answer with a frame soon.
     void note_change();
     /// The camera or an object moved within the last moments.
@@ -47,7 +54,7 @@ class ViewerSession {
 
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
     void render(const FrameAdvice& advice, const v1::FrameHeader& figures, Clock::time_point now);
-    [[nodiscard]] bool frame_finished() const { return rendering_ && image_.finished(); }
+    [[nodiscard]] bool frame_finished() const { return rendering_ && image_->finished(); }
     /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
@@ -60,7 +67,7 @@ class ViewerSession {
     [[nodiscard]] bool paused() const { return paused_; }
     void set_paused(bool paused) { paused_ = paused; }
 
-    [[nodiscard]] ViewerImage& image() { return image_; }
+    [[nodiscard]] ViewerImage& image() { return *image_; }
     [[nodiscard]] double pixels() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -81,7 +88,7 @@ class ViewerSession {
     v1::Role role_ = v1::EDITOR;
     ViewerId following_ = 0;
     bool lossless_ = false;  // the client decodes PNG
-    ViewerImage image_;
+    std::unique_ptr<ViewerImage> image_;
     std::optional<Camera> wanted_camera_;
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;

@@ -9,7 +9,7 @@ import math
 import struct
 
 from .normals import Primitive, append_solid
-from .solid import Camera, Material, SceneModel, SceneObject, sub, unit
+from .solid import Camera, Light, Material, SceneModel, SceneObject, Vec, sub, unit
 from .surfaces import material_areas, radiance
 
 FLOAT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5123, 5125
@@ -111,19 +111,56 @@ def _add_object(document: _Document, thing: SceneObject) -> int:
     return document.append("nodes", node)
 
 
-def _add_camera(document: _Document, camera: Camera) -> int:
-    """glTF cameras look along -Z of their node: a turn about Y, then one about X."""
-    forward = unit(sub(camera.target, camera.eye))
+def _rotation_along(forward: Vec) -> list[float]:
+    """Quaternion (x, y, z, w) that turns -Z to a unit vector: about Y, then about X."""
     yaw, pitch = math.atan2(-forward[0], -forward[2]) / 2, math.asin(forward[1]) / 2
     rotation = [math.cos(yaw) * math.sin(pitch), math.sin(yaw) * math.cos(pitch),
                 -math.sin(yaw) * math.sin(pitch), math.cos(yaw) * math.cos(pitch)]
+    return [round(c, 9) + 0.0 for c in rotation]
+
+
+def _light_json(light: Light) -> dict[str, object]:
+    result: dict[str, object] = {"name": light.name, "type": light.kind,
+                                 "intensity": light.intensity, "color": list(light.colour)}
+    if light.kind == "spot":
+        result["spot"] = {"innerConeAngle": math.radians(light.inner_cone),
+                          "outerConeAngle": math.radians(light.outer_cone)}
+    return result
+
+
+def _add_lights(document: _Document) -> list[int]:
+    """Nodes of the lights; they share their definitions with none."""
+    definitions: dict[str, list[dict[str, object]]] = {}
+    nodes = []
+    for light in document.model.lights:
+        name = "EXT_lights_ies" if light.profile else "KHR_lights_punctual"
+        entries = definitions.setdefault(name, [])
+        use: dict[str, object] = {"light": len(entries)}
+        if light.profile:
+            entries.append({"name": light.name, "uri": light.profile})
+            use.update({"multiplier": light.intensity, "color": list(light.colour)})
+        else:
+            entries.append(_light_json(light))
+        nodes.append(document.append("nodes", {
+            "name": light.name, "translation": list(light.position),
+            "rotation": _rotation_along(unit(light.direction)), "extensions": {name: use}}))
+    if definitions:
+        document.extensions.update(definitions)
+        document.json["extensions"] = {name: {"lights": entries}
+                                       for name, entries in sorted(definitions.items())}
+    return nodes
+
+
+def _add_camera(document: _Document, camera: Camera) -> int:
+    """glTF cameras look along -Z of their node: a turn about Y, then one about X."""
+    rotation = _rotation_along(unit(sub(camera.target, camera.eye)))
     lens = document.append("cameras", {
         "name": camera.name, "type": "perspective",
         "perspective": {"yfov": math.radians(camera.vertical_fov),
                         "aspectRatio": camera.aspect_ratio, "znear": 0.05, "zfar": 100.0}})
     return document.append("nodes", {
         "name": camera.name, "camera": lens, "translation": list(camera.eye),
-        "rotation": [round(c, 9) + 0.0 for c in rotation],
+        "rotation": rotation,
         "extras": {"target": list(camera.target)}})
 
 
@@ -156,10 +193,11 @@ def scene_files(model: SceneModel) -> dict[str, bytes]:
     for material in model.materials:
         document.append("materials", _material_json(document, material, areas[material.name]))
     nodes = [_add_object(document, thing) for thing in model.objects]
+    nodes += _add_lights(document)
     nodes += [_add_camera(document, camera) for camera in model.cameras]
     document.append("scenes", {"name": model.name, "nodes": nodes})
     _add_textures(document)
-    files = dict(model.textures)
+    files = dict(model.textures) | model.files
     data = bytes(document.binary)
     if model.embed_buffer:
         uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode("ascii")

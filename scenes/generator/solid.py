@@ -145,6 +145,23 @@ class Material:
 
 
 @dataclass
+class Light:
+    """A light without extent: `kind` is point, spot or directional of KHR_lights_punctual (`intensity`
+    in cd or lx, cones in degrees), or ies: then `profile` names a file of the model.
+    """
+
+    name: str
+    kind: str
+    position: Vec
+    direction: Vec
+    intensity: float = 1.0
+    colour: Vec = (1.0, 1.0, 1.0)
+    inner_cone: float = 0.0
+    outer_cone: float = 45.0
+    profile: str = ""
+
+
+@dataclass
 class SceneModel:
     """All that a scene file holds. `textures` maps a file name to PNG bytes."""
 
@@ -154,4 +171,6 @@ class SceneModel:
     cameras: list[Camera]
     textures: dict[str, bytes] = field(default_factory=dict)
     embed_buffer: bool = False
+    lights: list[Light] = field(default_factory=list)
+    files: dict[str, bytes] = field(default_factory=dict)  # that the scene refers to besides
     position_step: float = 0.0  # positions are rounded to multiples of this, metres; 0: not at all

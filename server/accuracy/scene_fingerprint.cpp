@@ -35,6 +35,17 @@ class Hash {
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
+/// Adds the files that an array of the scene names.
+void add_files(const std::string& scene_file, const Json& array, const char* name, Hash& hash) {
+    for (const Json& entry : array.is_array() ? array : Json::array()) {
+        const bool named = entry.is_object() && entry.contains("uri") && entry["uri"].is_string();
+        const std::string uri = named ? entry["uri"].get<std::string>() : "";
+        if (!uri.empty() && uri.rfind("data:", 0) != 0) {
+            hash.add(read_uri(scene_file, std::string("/") + name, uri, most_bytes));
+        }
+    }
+}
+
 }  // namespace
 
 std::string scene_fingerprint(const std::string& scene_file, const std::string& how) {
@@ -42,18 +53,11 @@ std::string scene_fingerprint(const std::string& scene_file, const std::string& 
     hash.add(how);
     hash.add(read_file_bounded(scene_file, most_bytes, scene_file, ""));
     const Json json = read_gltf_container(scene_file).json;
-    for (const char* array : {"buffers", "images"}) {
-        if (!json.contains(array) || !json[array].is_array()) {
-            continue;
-        }
-        for (const Json& entry : json[array]) {
-            const bool named =
-                entry.is_object() && entry.contains("uri") && entry["uri"].is_string();
-            const std::string uri = named ? entry["uri"].get<std::string>() : "";
-            if (!uri.empty() && uri.rfind("data:", 0) != 0) {
-                hash.add(read_uri(scene_file, std::string("/") + array, uri, most_bytes));
-            }
-        }
+    add_files(scene_file, array_or_empty(json, "buffers"), "buffers", hash);
+    add_files(scene_file, array_or_empty(json, "images"), "images", hash);
+    if (json.contains("extensions") && json["extensions"].contains("EXT_lights_ies")) {
+        const Json& profiles = json["extensions"]["EXT_lights_ies"];
+        add_files(scene_file, array_or_empty(profiles, "lights"), "lights", hash);
     }
     return fmt::format("{:016x}", hash.value());
 }

@@ -31,17 +31,10 @@ void LayeredWindow::draw(const GpuScene& scene, const ParallelWindow& window, Pl
         return;
     }
     bind();
-    const auto pixels =
-        static_cast<std::size_t>(rectangle.width()) * static_cast<std::size_t>(rectangle.height());
     const GLuint zero = 0;
     glClearNamedBufferSubData(counters.get(), GL_R32UI, offsetof(layout::Counters, layers), 4,
                               GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-    clear_.set("first_column", static_cast<unsigned>(rectangle.x0));
-    clear_.set("first_row", static_cast<unsigned>(rectangle.y0));
-    clear_.set("columns", static_cast<unsigned>(rectangle.width()));
-    clear_.set("rows", static_cast<unsigned>(rectangle.height()));
-    clear_.set("window_width", static_cast<unsigned>(n_));
-    clear_.dispatch(pixels);
+    empty_lists(rectangle);
 
     const glm::mat4 clip_from_world = window.clip_from_world(1.0F / window.depth, 0.0F);
     const GlScope scope("layered raster");
@@ -56,9 +49,24 @@ void LayeredWindow::draw(const GpuScene& scene, const ParallelWindow& window, Pl
     storage_barrier();
 }
 
+void LayeredWindow::empty_lists(const PixelRectangle& rectangle) const {
+    if (rectangle.width() == n_ && rectangle.height() == n_) {
+        counts_.clear();
+        return;
+    }
+    clear_.set("first_column", static_cast<unsigned>(rectangle.x0));
+    clear_.set("first_row", static_cast<unsigned>(rectangle.y0));
+    clear_.set("columns", static_cast<unsigned>(rectangle.width()));
+    clear_.set("rows", static_cast<unsigned>(rectangle.height()));
+    clear_.set("window_width", static_cast<unsigned>(n_));
+    clear_.dispatch(static_cast<std::size_t>(rectangle.width()) *
+                    static_cast<std::size_t>(rectangle.height()));
+}
+
 void LayeredWindow::bind() const {
     counts_.bind_storage(BINDING_LAYER_COUNTS);
     surfaces_.bind_storage(BINDING_LAYER_SURFACES);
+    glBindTextureUnit(UNIT_LAYERS, list_texture_.get());
 }
 
 void LayeredWindow::grow(std::uint32_t capacity) {
@@ -72,6 +80,7 @@ void LayeredWindow::grow(std::uint32_t capacity) {
                        "resolution");
     }
     surfaces_ = Buffer("layer surfaces", bytes, 0);
+    list_texture_ = create_buffer_texture("layer surfaces", GL_RGBA32UI, surfaces_);
     capacity_ = capacity;
 }
 

@@ -33,9 +33,12 @@ class LayeredWindow {
     [[nodiscard]] std::size_t bytes() const { return counts_.bytes() + surfaces_.bytes(); }
 
   private:
+    void empty_lists(const PixelRectangle& rectangle) const;
+
     int n_;
     std::uint32_t capacity_ = 0;  // surfaces along a line
     Buffer counts_, surfaces_;
+    Texture2D list_texture_;  // the first four surfaces of every pixel
     Framebuffer framebuffer_;
     ShaderProgram raster_, clear_;
 };

@@ -90,6 +90,22 @@ void add_probabilities(std::vector<PlannedCurve>& curves, const PlannedCurve& ba
     }
 }
 
+/// Bias traded for noise over some horizons, and no separated main part.
+void add_variants(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
+    for (const std::uint64_t horizon : {50U, 500U, 5000U}) {
+        PlannedCurve curve = base;
+        curve.knob = "bias for noise";
+        curve.name = fmt::format("biased for {} iterations", horizon);
+        curve.solver.noise_horizon = horizon;
+        curves.push_back(curve);
+    }
+    PlannedCurve curve = base;
+    curve.knob = "main part";
+    curve.name = "without a separated main part";
+    curve.solver.main_part = false;
+    curves.push_back(curve);
+}
+
 /// Every knob of the first ray-bundle method, one at a time.
 void add_knobs(std::vector<PlannedCurve>& curves) {
     const auto found = std::find_if(curves.begin(), curves.end(),
@@ -100,6 +116,7 @@ void add_knobs(std::vector<PlannedCurve>& curves) {
     const PlannedCurve base = *found;
     add_patch_sizes(curves, base);
     add_resolutions(curves, base);
+    add_variants(curves, base);
     if (base.solver.probabilities.layered > 0.0F && base.solver.probabilities.perspective > 0.0F) {
         add_probabilities(curves, base);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/accuracy_measurement.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -45,8 +45,9 @@ PatchMesh mesh_with_edges(const Scene& scene, const Options& options, double sca
 
 /// What decides how a scene's files are read, for the cache's key.
 std::string reading_options(const Options& options) {
-    return fmt::format("{} {} {}", RAYBUNDLE_VERSION, options.unit,
-                       options.sky ? std::to_string(*options.sky) : "own sky");
+    return fmt::format("{} {} {} {}", RAYBUNDLE_VERSION, options.unit,
+                       options.sky ? std::to_string(*options.sky) : "own sky",
+                       fmt::join(options.ies, " "));
 }
 
 }  // namespace

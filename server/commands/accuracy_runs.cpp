@@ -87,6 +87,8 @@ Json bundle_settings(const PlannedCurve& curve, const RunSurroundings& around, c
             {"bundleResolution", bundles},
             {"probabilities",
              {s.probabilities.layered, s.probabilities.plane, s.probabilities.perspective}},
+            {"biasForNoise", s.noise_horizon},
+            {"mainPart", s.main_part},
             {"bytes", solver.bytes() + image.bytes()},
             {"seed", seed}};
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "commands/bench_moves.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "gpu/gl_scope.h"
@@ -24,6 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr glm::uvec2 picture_size(800, 800);
 constexpr glm::uvec2 small_picture(512, 512);
+constexpr std::size_t many_patches = 240'000;
 
 /// Milliseconds of `repeats` runs, GPU work included; median and 95th percentile.
 Json measure(int repeats, const std::function<void()>& work) {
@@ -71,7 +73,10 @@ Json profile(int repeats, const std::function<void()>& work) {
 class SceneBench {
   public:
     SceneBench(const Options& options, Json& report)
-        : report_(report), seed_(options.seed), loaded_(load_scene(options)) {
+        : report_(report),
+          seed_(options.seed),
+          json_file_(options.json_file),
+          loaded_(load_scene(options)) {
         report_["scene"] = loaded_.scene.name;
         report_["patches"] = loaded_.mesh.patch_count();
         report_["loadSeconds"] = loaded_.seconds;
@@ -83,8 +88,11 @@ class SceneBench {
         iterations("layered iteration, 800-pixel window", {1, 0, 0}, false);
         iterations("plane iteration, 800-pixel window", {0, 1, 0}, false);
         iterations("combined iteration with an 800x800 viewer", {}, true);
+        patch_counts();
         walkthrough();
         moves();
+        const std::string svg = json_file_.empty() ? "" : json_file_ + ".moves.svg";
+        report_["moveCurves"] = bench_moves(loaded_, seed_, svg);
         convergence();
     }
 
@@ -96,12 +104,47 @@ class SceneBench {
         return result;
     }
 
+    /// What ten times as many patches cost, with the bundles of the dissertation's figures.
+    void patch_counts() {
+        Scene copy = loaded_.scene;
+        TessellationSettings finer;
+        finer.target_patches = many_patches;
+        const PatchMesh many = tessellate(copy, finer);
+        for (const auto& [strategy, probabilities] :
+             {std::pair<std::string, StrategyProbabilities>{"perspective", {0, 0, 1}},
+              {"layered", {1, 0, 0}}}) {
+            double few_ms = 0.0;
+            for (const PatchMesh* mesh :
+                 std::initializer_list<const PatchMesh*>{&loaded_.mesh, &many}) {
+                const std::string name = fmt::format(
+                    "{} iteration, {} patches, {}", strategy, mesh->patch_count(),
+                    probabilities.layered > 0.0F ? "1000-pixel window" : "600-pixel hemicube");
+                iterations(name, probabilities, false, *mesh, {600, 1000});
+                const auto ms = report_["iteration"][name]["medianMs"].get<double>();
+                if (mesh == &many) {
+                    fmt::print("      {:.1f} times the patches cost {:.2f} times the time\n",
+                               static_cast<double>(many.patch_count()) /
+                                   static_cast<double>(loaded_.mesh.patch_count()),
+                               ms / few_ms);
+                    report_["manyPatches"][strategy] = ms / few_ms;
+                }
+                few_ms = ms;
+            }
+        }
+    }
+
     void iterations(const std::string& name, const StrategyProbabilities& probabilities,
                     bool viewed) {
+        iterations(name, probabilities, viewed, loaded_.mesh, SolverSettings{}.fine);
+    }
+
+    void iterations(const std::string& name, const StrategyProbabilities& probabilities,
+                    bool viewed, const PatchMesh& mesh, const BundleResolution& resolution) {
         SolverSettings s = settings(probabilities);
         s.coarse_iterations = 0;
+        s.fine = resolution;
         s.adapt_to_sky = false;
-        Solver solver(loaded_.scene, loaded_.mesh, s);
+        Solver solver(loaded_.scene, mesh, s);
         const ViewPrograms programs(solver.scene());
         ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
         image.set_camera(loaded_.scene.cameras.front());
@@ -141,6 +184,22 @@ class SceneBench {
             solver.step(receivers);
         });
         print("the same with an iteration in between", report_["frameAndIteration"]);
+        report_["geometry"] = measure(20, [&] { image.set_camera(camera); });
+        print("geometry buffer, 800x800", report_["geometry"]);
+        report_["geometryAndEdges"] = measure(20, [&] {
+            image.set_camera(camera);
+            image.smooth();
+        });
+        print("the same and all slices of antialiasing", report_["geometryAndEdges"]);
+        const auto resting = [&] {
+            image.compose(DisplayMode::photo, -6.0F);
+            image.take();
+        };
+        report_["smoothFrame"] = measure(40, resting);
+        print("frame at rest with smooth edges, read back", report_["smoothFrame"]);
+        image.set_camera(camera);
+        report_["plainFrame"] = measure(40, resting);
+        print("the same without", report_["plainFrame"]);
     }
 
     void moves() {
@@ -235,6 +294,7 @@ class SceneBench {
 
     Json& report_;
     std::uint64_t seed_;
+    std::string json_file_;
     LoadedScene loaded_;
 };
 

@@ -23,6 +23,9 @@ int run_serve(const Options& options);
 int run_render(const Options& options);
 /// The part of run_render() that needs no GL context.
 int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& options);
+/// The part of run_render() that follows a script.
+int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 size,
+                      const Options& options);
 int run_accuracy(const Options& options);
 int run_inspect(const Options& options);
 int run_bench(const Options& options);

@@ -1,19 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "commands/command.h"
+#include "commands/effect_costs.h"
+#include "gpu/egl_context.h"
 #include "scene/scene_report.h"
 
 namespace raybundle {
+namespace {
+
+void print_plan(std::ostream& out, const EffectsPlan& plan) {
+    out << fmt::format("effects     {} bytes a patch\n", plan.bytes_per_patch);
+    for (const Effect& effect : plan.effects) {
+        out << fmt::format("  {} {:<20} {}\n", effect.active ? "on " : "off", effect.name,
+                           effect.reason);
+        if (!effect.active) {
+            continue;
+        }
+        out << fmt::format("      {:<20} {}, share at most {:.3g}, {} bytes a patch", "",
+                           effect.path_class, effect.share_bound, effect.bytes_per_patch);
+        if (effect.ms_per_iteration) {
+            out << fmt::format(", {:.2f} ms an iteration", *effect.ms_per_iteration);
+        }
+        out << "\n";
+    }
+}
+
+}  // namespace
 
 int run_inspect(const Options& options) {
     const LoadedScene loaded = load_scene(options);
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
+    EffectsPlan plan = plan_effects(loaded.scene, loaded.mesh.patch_count());
+    try {
+        measure_effects(options, loaded, plan);
+    } catch (const GpuError& error) {
+        spdlog::warn("the costs of the effects are not measured: {}", error.what());
+    }
     if (options.json_to_stdout) {
-        std::cout << scene_report_json(loaded.scene, report).dump(2) << "\n";
+        nlohmann::json json = scene_report_json(loaded.scene, report);
+        json.update(effects_plan_json(plan));
+        std::cout << json.dump(2) << "\n";
     } else {
         print_scene_report(std::cout, loaded.scene, report);
+        print_plan(std::cout, plan);
     }
     return exit_done;
 }

@@ -15,6 +15,7 @@ LoadedScene load_scene(const Options& options) {
     SceneSettings settings;
     settings.metres_per_unit = metres_per_unit(options.unit);
     settings.sky_luminance = options.sky;
+    settings.ies = options.ies;
     LoadedScene loaded;
     loaded.scene = load_gltf(options.scene, settings);
     loaded.digest = file_digest(options.scene).value_or("");
@@ -28,7 +29,8 @@ LoadedScene load_scene(const Options& options) {
     }
     spdlog::info("{}: {} triangles, {} patches, {} objects, {} lights, {:.2f} s", loaded.scene.name,
                  loaded.scene.triangles.size(), loaded.mesh.patch_count(),
-                 loaded.scene.objects.size(), loaded.scene.lights.size(), loaded.seconds);
+                 loaded.scene.objects.size(),
+                 loaded.scene.lights.size() + loaded.scene.punctual_lights.size(), loaded.seconds);
     return loaded;
 }
 

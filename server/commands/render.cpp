@@ -7,6 +7,7 @@
 #include "commands/command.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
+#include "scene/effects_plan.h"
 #include "transport/solver.h"
 #include "view/image_file.h"
 #include "view/viewer_image.h"
@@ -26,6 +27,7 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
     ProgressBar bar;
     Outcome outcome;
     const Stopwatch stopwatch;
+    image.smooth();
     constexpr std::uint64_t statistics_interval = 16;
     while (true) {
         solver.step(receivers);
@@ -61,6 +63,8 @@ void write_picture(ViewerImage& image, const std::string& path) {
 
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
                       const LoadedScene& loaded, const ViewerImage& image, const Outcome& outcome) {
+    const nlohmann::json plan =
+        effects_plan_json(plan_effects(loaded.scene, loaded.mesh.patch_count()));
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", context.renderer()},
@@ -78,7 +82,9 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"relativeError", outcome.statistics.relative_error},
         {"errorLow", outcome.statistics.error_low},
         {"errorHigh", outcome.statistics.error_high},
+        {"biased", options.bias_for_noise > 0},
         {"nonFinite", solver.non_finite()},
+        {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};
     write_file(options.stats, json.dump(2) + "\n");
 }
@@ -89,12 +95,20 @@ int run_render(const Options& options) {
     require_picture_format(options.output);
     const glm::uvec2 size = parse_size(options.size);
     const RenderMethod method = parse_method(options.method);
+    if (!options.script.empty()) {
+        if (!std::holds_alternative<StrategyProbabilities>(method)) {
+            throw UsageError("--script: --method " + options.method +
+                             " renders single pictures only");
+        }
+        return run_render_script(std::get<StrategyProbabilities>(method), size, options);
+    }
     if (const auto* kind = std::get_if<ReferenceKind>(&method)) {
         return run_render_reference(*kind, size, options);
     }
     SolverSettings settings;
     settings.seed = options.seed;
     settings.probabilities = std::get<StrategyProbabilities>(method);
+    settings.noise_horizon = options.bias_for_noise;
     const EglContext context = create_egl_context({options.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);

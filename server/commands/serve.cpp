@@ -71,13 +71,16 @@ struct Control {
 std::optional<LoadedScene> serve_scene(const Options& options, const EglContext& context,
                                        LoadedScene loaded, Server& server, Control& control) {
     ChangeLog log = open_change_log(options, loaded);
-    log.restore(loaded.scene);
+    log.restore(loaded.scene, loaded.mesh);
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
+    // Somebody waits for the frame after a change: what it lacks the iterations that follow bring.
+    settings.solver.special.most_bundles = settings.solver.special.bundles;
+    settings.solver.special.bounces = 3;
     settings.min_frames_per_second = options.min_frames_per_second;
     settings.renderer = context.renderer();
     settings.software_rendering = context.is_software();
-    RenderLoop loop(std::move(loaded.scene), loaded.mesh, settings, server, log);
+    RenderLoop loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log);
     const MetricsSource source(server, loop);
     if (server.port() == 0) {
         server.start();

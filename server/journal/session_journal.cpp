@@ -9,26 +9,13 @@
 #include <fstream>
 #include <memory>
 
+#include "journal/change_sum.h"
+
 namespace raybundle {
 namespace {
 
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kPageBytes = 4096;
-
-/// Number of the object, light or material that a change is about.
-std::int64_t subject_of(const v1::SceneChanged& change) {
-    switch (change.change_case()) {
-        case v1::SceneChanged::kMoveObject:
-            return change.move_object().object();
-        case v1::SceneChanged::kSetLight:
-            return change.set_light().light();
-        case v1::SceneChanged::kSetMaterial:
-            return change.set_material().material();
-        case v1::SceneChanged::CHANGE_NOT_SET:
-            break;
-    }
-    return 0;
-}
 
 /// Moves the database and its companions out of the way; returns the new name.
 std::string move_aside(const std::string& file) {
@@ -158,14 +145,10 @@ v1::SceneChanged SessionJournal::take_earlier(const v1::SceneChanged& change,
 
 void SessionJournal::append(const v1::SceneChanged& change) {
     try {
-        const std::int64_t subject = subject_of(change);
+        const std::int64_t subject = subject_of(change).second;
         SqliteTransaction transaction(*database_);
         v1::SceneChanged sum = take_earlier(change, subject);
-        if (change.has_move_object()) {
-            sum = change;  // a place replaces the one before it; other changes add up
-        } else {
-            sum.MergeFrom(change);
-        }
+        add_change(change, sum);
         auto insert = database_->prepare("INSERT INTO change VALUES(?, ?, ?, ?, ?)");
         insert.bind(1, session_);
         insert.bind(2, std::int64_t{change.epoch()});

@@ -97,6 +97,7 @@ v1::Role required_role(v1::ClientMessage::BodyCase body) {
         case Body::kMoveObject:
         case Body::kSetLight:
         case Body::kSetMaterial:
+        case Body::kUndo:
             return v1::EDITOR;
         case Body::kAddPin:
         case Body::kRemovePin:

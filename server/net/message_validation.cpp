@@ -306,6 +306,7 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
             return check_body(message.probe_grid(), check);
         case Body::kFollow:
         case Body::kPing:
+        case Body::kUndo:
         case Body::BODY_NOT_SET:
             return;
     }

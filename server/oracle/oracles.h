@@ -49,8 +49,12 @@ double enclosure_indirect(float albedo, const OracleSettings& settings);
 double cube_form_factor(bool opposite, const OracleSettings& settings);
 /// Form factor between facing unit squares at a distance.
 double squares_form_factor(float distance, const OracleSettings& settings);
-/// Illuminance, lx, at height h under a disc of radius a and flux Phi, facing it.
+/// Mean illuminance, lx, of a small square at distance h under a disc of radius a and flux Phi,
+/// facing it.
 double disc_illuminance(float radius, float height, float flux, const OracleSettings& settings);
+/// The same in closed form (point to parallel disc off its axis, Howell's catalogue B-17), averaged
+/// over the square.
+double exact_disc_illuminance(double radius, double height, double flux);
 /// Largest irradiance in the dark one of two rooms that share a wall of the given thickness, lx.
 double dark_room_irradiance(float wall_thickness, const OracleSettings& settings);
 /// Largest irradiance in a room of albedo 0.8 without any emitter.

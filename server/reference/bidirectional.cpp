@@ -14,11 +14,6 @@ bool is_black(const glm::dvec3& value) {
     return value == glm::dvec3(0.0);
 }
 
-/// Density of a vertex for a draw per solid angle at `from`.
-double density_at(const PathVertex& vertex, double density, const glm::dvec3& from) {
-    return vertex.kind == Kind::sky ? density : per_area(density, from, vertex.point);
-}
-
 }  // namespace
 
 glm::dvec3 Bidirectional::radiance(const glm::dvec3& direction, PixelSampler& sampler,
@@ -126,13 +121,9 @@ glm::dvec3 Bidirectional::next_event(const Subpath& eye, std::size_t eye_count,
     if (is_black(value) || !lights_.arrives(lit.point, *light)) {
         return glm::dvec3(0.0);
     }
-    PathVertex end;
-    end.kind = light->emitter ? Kind::emitter : Kind::sky;
-    end.point = light->emitter.value_or(SurfacePoint{});
-    end.forward =
-        light->emitter ? lights_.area_density(end.point.patch) : lights_.sky_direction_density();
+    const PathVertex end = subpaths_.light_vertex(light->punctual, light->emitter, light->origin);
     Densities d = known({end}, 1, eye, eye_count);
-    d.eye[0] = density_at(end, lit.lobe->density(light->direction), lit.point.position);
+    d.eye[0] = vertex_density(end, lit.lobe->density(light->direction), lit.point.position);
     d.light[1] = subpaths_.emission_density(end, lit.point, -light->direction);
     if (eye_count > 2) {
         d.light[2] = per_area(lit.lobe->reverse_density(light->direction), lit.point.position,
@@ -162,7 +153,8 @@ glm::dvec3 Bidirectional::joined(const Subpath& light, std::size_t light_count, 
     Densities d = known(light, s, eye, eye_count);
     d.light[s] = per_area(y.lobe->density(direction), y.point.position, z.point);
     d.eye[s - 1] = per_area(z.lobe->density(-direction), z.point.position, y.point);
-    d.eye[s - 2] = density_at(light[s - 2], y.lobe->reverse_density(direction), y.point.position);
+    d.eye[s - 2] =
+        vertex_density(light[s - 2], y.lobe->reverse_density(direction), y.point.position);
     if (eye_count > 2) {
         d.light[s + 1] = per_area(z.lobe->reverse_density(-direction), z.point.position,
                                   eye[eye_count - 2].point);
@@ -195,7 +187,7 @@ void Bidirectional::join_with_eye(const Subpath& light, std::size_t light_count,
     eye[0].forward = 1.0;
     Densities d = known(light, s, eye, 1);
     d.eye[s - 1] = per_area(camera_.density(-to_eye), camera_.origin(), y.point);
-    d.eye[s - 2] = density_at(light[s - 2], seen.density(y.towards), y.point.position);
+    d.eye[s - 2] = vertex_density(light[s - 2], seen.density(y.towards), y.point.position);
     const Frame& frame = s == 2 ? seen.frame() : light[1].lobe->frame();
     d.connect = connect_ratio(light[0], light[1].point, frame, light[1].towards);
     splats.push_back({film->pixel, value * weight(d, s) * camera_.pixel_share()});

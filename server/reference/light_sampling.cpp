@@ -30,6 +30,20 @@ double sky_share(const RayScene& scene, double emitted) {
     return std::clamp(flux / (flux + emitted), least_share, 1.0 - least_share);
 }
 
+/// Flux of a light into the scene, cd/m² times own area; of a directional one through the scene's
+/// bounding sphere.
+double flux_of(const RayScene& scene, const PlacedLight& light) {
+    if (light.kind != PunctualKind::directional) {
+        return luminance(glm::vec3(light.flux())) / scene.square_metres();
+    }
+    return 0.25 * pi * scene.diameter() * scene.diameter() * luminance(glm::vec3(light.intensity));
+}
+
+/// Directions of a light with a position are drawn evenly within a cone of this solid angle, sr.
+double solid_angle_of(const PlacedLight& light) {
+    return 2.0 * pi * (light.kind == PunctualKind::spot ? 1.0 - light.outer_cosine : 2.0);
+}
+
 }  // namespace
 
 LightSampling::LightSampling(const RayScene& scene)
@@ -57,18 +71,109 @@ LightSampling::LightSampling(const RayScene& scene)
     }
     emitters_ = DiscreteDistribution(weights);
     sky_probability_ = sky_share(scene, total_power);
+    choose_punctual_lights(total_power);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-        density_per_area_[patches_[i]] =
-            (1.0 - sky_probability_) * emitters_.probability(i) / scene.patch_area(patches_[i]);
+        density_per_area_[patches_[i]] = (1.0 - punctual_probability_ - sky_probability_) *
+                                         emitters_.probability(i) / scene.patch_area(patches_[i]);
     }
+}
+
+/// Takes their share of the samples from the others'. emitted: power of all emitters, own space.
+void LightSampling::choose_punctual_lights(double emitted) {
+    std::vector<double> fluxes;
+    double total = 0.0;
+    for (const PunctualLight& light : scene_.scene().punctual_lights) {
+        punctual_.push_back(place_light(scene_.scene(), light));
+        fluxes.push_back(flux_of(scene_, punctual_.back()));
+        total += fluxes.back();
+    }
+    if (punctual_.empty()) {
+        return;
+    }
+    for (double& flux : fluxes) {
+        flux = (1.0 - defensive_share) * flux / total +
+               defensive_share / static_cast<double>(punctual_.size());
+    }
+    choice_ = DiscreteDistribution(fluxes);
+    const bool alone = emitters_.empty() && !(sky_probability_ > 0.0);
+    punctual_probability_ =
+        alone ? 1.0 : std::clamp(total / (total + emitted), least_share, 1.0 - least_share);
+    sky_probability_ *= 1.0 - punctual_probability_;
+}
+
+std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from,
+                                                          double choice) const {
+    const std::size_t index = choice_.sample(choice);
+    const PlacedLight& light = punctual_[index];
+    LightSample result;
+    result.punctual = static_cast<int>(index);
+    result.density = punctual_probability(result.punctual);
+    if (light.kind == PunctualKind::directional) {
+        result.direction = -light.direction();
+        result.radiance = light.intensity;
+        return result;
+    }
+    result.origin = scene_.from_world(light.position);
+    const glm::dvec3 offset = *result.origin - from.position;
+    const double square = glm::dot(offset, offset);
+    if (!(square > 0.0)) {
+        return std::nullopt;
+    }
+    result.direction = offset / std::sqrt(square);
+    result.radiance = light.towards(-result.direction) / (square * scene_.square_metres());
+    return result;
+}
+
+EmittedParticle LightSampling::emit_punctual(double choice, const glm::dvec2& at,
+                                             const glm::dvec2& direction) const {
+    const std::size_t index = choice_.sample(choice);
+    const PlacedLight& light = punctual_[index];
+    EmittedParticle particle;
+    particle.punctual = static_cast<int>(index);
+    const double probability = punctual_probability(particle.punctual);
+    if (light.kind == PunctualKind::directional) {
+        particle.distant = true;
+        particle.direction = light.direction();
+        particle.origin = on_disc(particle.direction, at);
+        particle.power = light.intensity / (probability * sky_disc_density());
+        return particle;
+    }
+    const double solid_angle = solid_angle_of(light);
+    const double z = 1.0 - direction.y * solid_angle / (2.0 * pi);
+    const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
+    const double angle = 2.0 * pi * direction.x;
+    particle.direction =
+        Frame(light.direction()).to_world({r * std::cos(angle), r * std::sin(angle), z});
+    particle.origin = scene_.from_world(light.position);
+    particle.power =
+        light.towards(particle.direction) * (solid_angle / (probability * scene_.square_metres()));
+    return particle;
+}
+
+double LightSampling::punctual_direction_density(int light) const {
+    return 1.0 / solid_angle_of(punctual_[static_cast<std::size_t>(light)]);
+}
+
+/// Point, evenly distributed, of a disc as large as the scene's bounding sphere, in front of it for
+/// light of that direction.
+glm::dvec3 LightSampling::on_disc(const glm::dvec3& direction, const glm::dvec2& at) const {
+    const double radius = 0.5 * scene_.diameter();
+    const double from_axis = radius * std::sqrt(at.y);
+    return Frame(direction).to_world(
+        {from_axis * std::cos(2.0 * pi * at.x), from_axis * std::sin(2.0 * pi * at.x), -radius});
 }
 
 EmittedParticle LightSampling::emit(double choice, const glm::dvec2& at,
                                     const glm::dvec2& direction) const {
-    if (emitters_.empty() || choice < sky_probability_) {
+    if (choice < punctual_probability_) {
+        return emit_punctual(choice / punctual_probability_, at, direction);
+    }
+    const double others = choice - punctual_probability_;
+    if (emitters_.empty() || others < sky_probability_) {
         return emit_from_sky(at, direction);
     }
-    const double rest = (choice - sky_probability_) / (1.0 - sky_probability_);
+    const double rest =
+        (others - sky_probability_) / (1.0 - punctual_probability_ - sky_probability_);
     const std::uint32_t patch = patches_[emitters_.sample(rest)];
     EmittedParticle particle;
     particle.emitter = scene_.point_on_patch(patch, uniform_triangle(at));
@@ -85,11 +190,9 @@ EmittedParticle LightSampling::emit_from_sky(const glm::dvec2& at,
     const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
     const double angle = 2.0 * pi * direction.x;
     EmittedParticle particle;
+    particle.distant = true;
     particle.direction = {r * std::cos(angle), r * std::sin(angle), z};
-    const double from_axis = radius * std::sqrt(at.y);
-    particle.origin = Frame(particle.direction)
-                          .to_world({from_axis * std::cos(2.0 * pi * at.x),
-                                     from_axis * std::sin(2.0 * pi * at.x), -radius});
+    particle.origin = on_disc(particle.direction, at);
     particle.power = 4.0 * pi * pi * radius * radius / sky_probability_ * sky_;
     return particle;
 }
@@ -105,8 +208,14 @@ double LightSampling::sky_disc_density() const {
 
 std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const Frame& receiver,
                                                  double choice, const glm::dvec2& at) const {
-    if (choice >= sky_probability_) {
-        return sample_emitter(from, (choice - sky_probability_) / (1.0 - sky_probability_), at);
+    if (choice < punctual_probability_) {
+        return sample_punctual(from, choice / punctual_probability_);
+    }
+    const double others = choice - punctual_probability_;
+    if (others >= sky_probability_) {
+        return sample_emitter(
+            from, (others - sky_probability_) / (1.0 - punctual_probability_ - sky_probability_),
+            at);
     }
     const glm::dvec3 local = cosine_hemisphere(at);
     LightSample light;
@@ -140,6 +249,9 @@ std::optional<LightSample> LightSampling::sample_emitter(const SurfacePoint& fro
 }
 
 bool LightSampling::arrives(const SurfacePoint& from, const LightSample& light) const {
+    if (light.origin) {
+        return scene_.sees_point(from, *light.origin);
+    }
     return light.emitter ? scene_.mutually_visible(from, *light.emitter)
                          : scene_.sees_sky(from, light.direction);
 }

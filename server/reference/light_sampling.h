@@ -17,26 +17,43 @@ struct LightSample {
     glm::dvec3 direction{0.0};            ///< from the receiver, unit
     glm::dvec3 radiance{0.0};             ///< towards the receiver, cd/m², occlusion not included
     double density = 0.0;                 ///< of this direction, per solid angle, 1/sr
-    std::optional<SurfacePoint> emitter;  ///< nothing: the sky
+    std::optional<SurfacePoint> emitter;  ///< nothing: the sky, or a punctual light
+    /// Index into Scene::punctual_lights, or no_light. Then radiance is illuminance (lx) of a
+    /// surface that faces the light, and density the probability of its choice.
+    int punctual = no_light;
+    std::optional<glm::dvec3> origin;  ///< of a punctual light that is not directional
+
+    static constexpr int no_light = -1;
+
+    /// What the balance heuristic divides by; other: density, 1/sr, with which another technique
+    /// draws the direction. None meets a punctual light.
+    [[nodiscard]] double combined_density(double other) const {
+        return punctual == no_light ? density + other : density;
+    }
 };
 
 /// A random point and direction from which light sets out, with the power that a particle carries
 /// from there: flux in cd/m² times own area, so that the mean over particles is the scene's flux.
 struct EmittedParticle {
-    std::optional<SurfacePoint> emitter;  ///< nothing: the sky, from `origin`
+    std::optional<SurfacePoint> emitter;  ///< nothing: from `origin`
     glm::dvec3 origin{0.0};
-    glm::dvec3 direction{0.0};  ///< unit
+    int punctual = LightSample::no_light;  ///< the punctual light, else the sky
+    bool distant = false;                  ///< it came from infinitely far away
+    glm::dvec3 direction{0.0};             ///< unit
     glm::dvec3 power{0.0};
 };
 
 /// Random choice of light sources. Emitting patches are chosen by their power, with a defensive
 /// share of 10 % by area so that no dim one is starved, and a point on them uniformly; the uniform
-/// sky by the flux it could send into the scene.
+/// sky by the flux it could send into the scene. Punctual lights, chosen by their flux, get a share
+/// of the samples by power too.
 class LightSampling {
   public:
     explicit LightSampling(const RayScene& scene);
 
-    [[nodiscard]] bool empty() const { return emitters_.empty() && !(sky_probability_ > 0.0); }
+    [[nodiscard]] bool empty() const {
+        return emitters_.empty() && !(sky_probability_ > 0.0) && punctual_.empty();
+    }
     /// For next-event estimation; a direction of the sky by its cosine. receiver: frame about the
     /// normal whose cosine counts. choice and at: uniform random numbers.
     [[nodiscard]] std::optional<LightSample> sample(const SurfacePoint& from, const Frame& receiver,
@@ -55,6 +72,12 @@ class LightSampling {
     }
     /// Densities of a line from the sky, as emit() draws it: of its direction, 1/sr, and of its
     /// place across it, 1/own area.
+    /// Probability of a punctual light's choice, the same for sample() and emit().
+    [[nodiscard]] double punctual_probability(int light) const {
+        return punctual_probability_ * choice_.probability(static_cast<std::size_t>(light));
+    }
+    /// Density, 1/sr, with which emit() draws a direction of a punctual light that has a position.
+    [[nodiscard]] double punctual_direction_density(int light) const;
     [[nodiscard]] double sky_direction_density() const;
     [[nodiscard]] double sky_disc_density() const;
 
@@ -63,10 +86,16 @@ class LightSampling {
                                        const glm::dvec2& direction) const;
 
   private:
+    void choose_punctual_lights(double emitted);
     [[nodiscard]] EmittedParticle emit_from_sky(const glm::dvec2& at,
                                                 const glm::dvec2& direction) const;
     [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
                                                             const glm::dvec2& at) const;
+    [[nodiscard]] std::optional<LightSample> sample_punctual(const SurfacePoint& from,
+                                                             double choice) const;
+    [[nodiscard]] EmittedParticle emit_punctual(double choice, const glm::dvec2& at,
+                                                const glm::dvec2& direction) const;
+    [[nodiscard]] glm::dvec3 on_disc(const glm::dvec3& direction, const glm::dvec2& at) const;
 
     const RayScene& scene_;
     std::vector<std::uint32_t> patches_;    // that emit
@@ -74,6 +103,9 @@ class LightSampling {
     std::vector<double> density_per_area_;  // of all patches, 1/area; 0: not chosen
     double sky_probability_ = 0.0;
     glm::dvec3 sky_;
+    std::vector<PlacedLight> punctual_;
+    DiscreteDistribution choice_;  // over punctual_
+    double punctual_probability_ = 0.0;
 };
 
 }  // namespace raybundle

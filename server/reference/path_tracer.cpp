@@ -99,7 +99,7 @@ glm::dvec3 PathTracer::next_event(const SurfacePoint& point, const Scattering& s
     if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
         return glm::dvec3(0.0);
     }
-    return value / (light->density + scattering.density(light->direction));
+    return value / light->combined_density(scattering.density(light->direction));
 }
 
 }  // namespace raybundle

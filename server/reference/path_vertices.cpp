@@ -12,12 +12,19 @@ namespace {
 constexpr std::size_t max_vertices = 1U << 12U;  // far beyond what Russian roulette lets live
 constexpr std::size_t certain_vertices = 4;      // before Russian roulette begins
 
-/// Density of a vertex for a draw per solid angle at `from`.
-double density_of(const PathVertex& vertex, double density, const glm::dvec3& from) {
-    return vertex.kind == PathVertex::Kind::sky ? density : per_area(density, from, vertex.point);
-}
-
 }  // namespace
+
+double vertex_density(const PathVertex& vertex, double density, const glm::dvec3& from) {
+    switch (vertex.kind) {
+        case PathVertex::Kind::sky:
+            return density;
+        case PathVertex::Kind::point_light:
+        case PathVertex::Kind::directional_light:
+            return 0.0;
+        default:
+            return per_area(density, from, vertex.point);
+    }
+}
 
 double per_area(double density, const glm::dvec3& from, const SurfacePoint& to) {
     const glm::dvec3 offset = to.position - from;
@@ -59,12 +66,13 @@ Subpath SubpathSampler::from_light(PixelSampler& sampler) const {
     const double choice = sampler.next();
     const glm::dvec2 at = sampler.next_pair();
     const EmittedParticle particle = lights_.emit(choice, at, sampler.next_pair());
+    std::optional<glm::dvec3> origin;
+    if (!particle.distant) {
+        origin = particle.origin;
+    }
     PathVertex& light = path[0];
-    light.kind = particle.emitter ? PathVertex::Kind::emitter : PathVertex::Kind::sky;
+    light = light_vertex(particle.punctual, particle.emitter, origin);
     light.towards = particle.direction;
-    light.point = particle.emitter.value_or(SurfacePoint{});
-    light.forward = particle.emitter ? lights_.area_density(particle.emitter->patch)
-                                     : lights_.sky_direction_density();
     if (particle.power == glm::dvec3(0.0)) {
         return path;
     }
@@ -85,9 +93,30 @@ Subpath SubpathSampler::from_light(PixelSampler& sampler) const {
     return path;
 }
 
+PathVertex SubpathSampler::light_vertex(int punctual, const std::optional<SurfacePoint>& emitter,
+                                        const std::optional<glm::dvec3>& origin) const {
+    PathVertex vertex;
+    if (punctual != LightSample::no_light) {
+        vertex.kind = origin ? PathVertex::Kind::point_light : PathVertex::Kind::directional_light;
+        vertex.point.position = origin.value_or(glm::dvec3(0.0));
+        vertex.punctual = punctual;
+        vertex.forward = lights_.punctual_probability(punctual);
+        return vertex;
+    }
+    vertex.kind = emitter ? PathVertex::Kind::emitter : PathVertex::Kind::sky;
+    vertex.point = emitter.value_or(SurfacePoint{});
+    vertex.forward =
+        emitter ? lights_.area_density(emitter->patch) : lights_.sky_direction_density();
+    return vertex;
+}
+
 double SubpathSampler::emission_density(const PathVertex& light, const SurfacePoint& lit,
                                         const glm::dvec3& direction) const {
-    if (light.kind == PathVertex::Kind::sky) {
+    if (light.kind == PathVertex::Kind::point_light) {
+        return per_area(lights_.punctual_direction_density(light.punctual), light.point.position,
+                        lit);
+    }
+    if (light.kind == PathVertex::Kind::sky || light.kind == PathVertex::Kind::directional_light) {
         return lights_.sky_disc_density() * std::abs(glm::dot(direction, lit.normal));
     }
     const double cosine = std::max(glm::dot(direction, light.point.normal), 0.0);
@@ -120,13 +149,13 @@ void SubpathSampler::extend(Subpath& path, glm::dvec3 direction, PixelSampler& s
         }
         vertex.kind = hit ? PathVertex::Kind::surface : PathVertex::Kind::sky;
         vertex.point = hit.value_or(SurfacePoint{});
-        vertex.forward = density_of(vertex, next->density, last.point.position);
+        vertex.forward = vertex_density(vertex, next->density, last.point.position);
         if (hit && !hit->absorbs()) {
             vertex.lobe.emplace(scene_, *hit, NormalKind::geometric, -direction);
         }
         PathVertex& before = path[path.size() - 2];
         before.backward =
-            density_of(before, last.lobe->reverse_density(direction), last.point.position);
+            vertex_density(before, last.lobe->reverse_density(direction), last.point.position);
         path.push_back(vertex);
     }
 }

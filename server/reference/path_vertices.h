@@ -15,12 +15,14 @@ namespace raybundle {
 
 /// A vertex of a subpath that sets out from the eye or from a light (Veach 1997, ch. 10).
 ///
-/// Densities are per area of the ray scene's own space, but per solid angle for the sky.
+/// Densities are per area of the ray scene's own space, but per solid angle for the sky. Punctual
+/// lights are chosen with a probability, and no other vertex ever draws them: its density is 0.
 struct PathVertex {
-    enum class Kind { eye, emitter, surface, sky };
+    enum class Kind { eye, emitter, surface, sky, point_light, directional_light };
 
     Kind kind = Kind::surface;
-    SurfacePoint point;              ///< eye: the position alone; sky: nothing
+    SurfacePoint point;                    ///< eye, point light: the position alone; sky: nothing
+    int punctual = LightSample::no_light;  ///< index of a punctual light
     glm::dvec3 towards{0.0};         ///< unit, to the previous vertex; sky: the way it was met
     glm::dvec3 throughput{1.0};      ///< of the subpath up to here, scattering here not included
     double forward = 0.0;            ///< density with which its own subpath draws it
@@ -29,6 +31,9 @@ struct PathVertex {
 };
 
 using Subpath = std::vector<PathVertex>;
+
+/// Density of a vertex for a draw per solid angle at `from`, in the vertex's own measure.
+double vertex_density(const PathVertex& vertex, double density, const glm::dvec3& from);
 
 /// A density per solid angle at `from`, as one per area at `to`.
 double per_area(double density, const glm::dvec3& from, const SurfacePoint& to);
@@ -46,6 +51,10 @@ class SubpathSampler {
     /// From a light; the first vertex is the emitter's or the sky. Its last vertex reflects.
     [[nodiscard]] Subpath from_light(PixelSampler& sampler) const;
 
+    /// The first vertex of a light subpath, or the end of an eye subpath that is joined with a
+    /// light, from what LightSampling has drawn: punctual light, or emitter, or else the sky.
+    [[nodiscard]] PathVertex light_vertex(int punctual, const std::optional<SurfacePoint>& emitter,
+                                          const std::optional<glm::dvec3>& origin) const;
     /// Density per area at a vertex that a light illuminates, in the direction to it.
     [[nodiscard]] double emission_density(const PathVertex& light, const SurfacePoint& lit,
                                           const glm::dvec3& direction) const;

@@ -44,7 +44,7 @@ glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering&
     if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
         return glm::dvec3(0.0);
     }
-    return value / (light->density + scattering.density(light->direction));
+    return value / light->combined_density(scattering.density(light->direction));
 }
 
 /// Emission of what a direction drawn at a point has met.

@@ -34,7 +34,7 @@ glm::dvec3 RayCaster::sampled(const SurfacePoint& point, const Scattering& scatt
         return glm::dvec3(0.0);
     }
     const double other = scattering.is_lambert() ? 0.0 : scattering.density(light->direction);
-    return value / (light->density + other);
+    return value / light->combined_density(other);
 }
 
 /// Reflection of light that a direction of the lobe meets.

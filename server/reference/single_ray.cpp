@@ -74,14 +74,18 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
         return 0;
     }
     glm::dvec3 direction = particle.direction;
-    std::optional<SurfacePoint> source = particle.emitter;  // nothing: the sky
-    std::optional<SurfacePoint> hit =
-        source ? scene_.trace_from(*source, direction) : scene_.trace(particle.origin, direction);
+    std::optional<glm::dvec3> source;  // nothing: infinitely far away
+    if (!particle.distant) {
+        source = particle.emitter ? particle.emitter->position : particle.origin;
+    }
+    std::optional<SurfacePoint> hit = particle.emitter
+                                          ? scene_.trace_from(*particle.emitter, direction)
+                                          : scene_.trace(particle.origin, direction);
     std::uint64_t rays = 1;
     for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
         const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
         const auto inverse_distance =
-            static_cast<float>(source ? 1.0 / glm::distance(source->position, hit->position) : 0.0);
+            static_cast<float>(source ? 1.0 / glm::distance(*source, hit->position) : 0.0);
         receive(
             *hit, scattering, batch, power,
             {glm::vec3(power), glm::vec3(hit->position), glm::vec3(-direction), inverse_distance},
@@ -93,8 +97,8 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
             break;
         }
         direction = next->direction;
-        source = hit;
-        hit = scene_.trace_from(*source, direction);
+        source = hit->position;
+        hit = scene_.trace_from(*hit, direction);
     }
     return rays;
 }

@@ -33,6 +33,7 @@ GltfDocument::GltfDocument(const std::string& path)
 GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
       model_(read_checked_model(path, container.json)),
+      extensions_(value_or(container.json, "extensions", Json(Json::object()))),
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),
                model_.bufferViews) {
     check_accessors(*this);

@@ -26,6 +26,10 @@ class GltfDocument {
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Its buffers and images hold no bytes: see view_bytes() and decode_image().
     [[nodiscard]] const tinygltf::Model& model() const { return model_; }
+    /// The extension of that name of the whole file, an object, or nullptr.
+    [[nodiscard]] const Json* extension(const char* name) const {
+        return find_member(extensions_, name);
+    }
     [[nodiscard]] std::span<const std::uint8_t> view_bytes(int view) const {
         return buffers_.view(view);
     }
@@ -41,6 +45,7 @@ class GltfDocument {
 
     std::string path_;
     tinygltf::Model model_;
+    Json extensions_;
     GltfBuffers buffers_;
     std::vector<std::string> notices_;
 };

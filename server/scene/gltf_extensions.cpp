@@ -12,11 +12,12 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 10> fully_read = {
+constexpr std::array<std::string_view, 13> fully_read = {
     "KHR_mesh_quantization",   "KHR_texture_transform",      "KHR_materials_emissive_strength",
     "KHR_materials_specular",  "KHR_draco_mesh_compression", "KHR_node_visibility",
     "EXT_meshopt_compression", "EXT_mesh_gpu_instancing",    "EXT_texture_webp",
-    "KHR_xmp_json_ld",
+    "KHR_xmp_json_ld",         "KHR_lights_punctual",        "EXT_lights_ies",
+    "KHR_materials_ior",
 };
 
 struct Approximation {
@@ -24,12 +25,11 @@ struct Approximation {
 };
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
-constexpr std::array<Approximation, 6> approximated = {{
-    {"KHR_lights_punctual", "point, spot and directional lights are not supported yet: ignored"},
+constexpr std::array<Approximation, 5> approximated = {{
     {"KHR_materials_unlit", "unlit materials are lit like all others"},
     {"KHR_materials_variants", "the default material variants are used"},
     {"KHR_materials_pbrSpecularGlossiness",
-     "the diffuse colour is used, the specular part is ignored"},
+     "colours and glossiness are used, the specular-glossiness texture is ignored"},
     {"KHR_animation_pointer", "animations are ignored: the rest pose is used"},
     {"KHR_texture_basisu",
      "KTX2 images cannot be decoded: the fallback images of the textures are used"},

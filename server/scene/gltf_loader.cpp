@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <new>
 
 #include "scene/default_camera.h"
@@ -13,6 +14,7 @@
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_geometry.h"
+#include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_node_tree.h"
 #include "scene/gltf_objects.h"
@@ -42,10 +44,37 @@ void name_materials(Scene& scene) {
     }
 }
 
+/// Gives the punctual lights of a name the distribution of a file, "LIGHT=FILE"; their colour
+/// stays.
+void apply_ies(const std::string& choice, Scene& scene) {
+    const std::size_t equals = choice.find('=');
+    const std::string name = choice.substr(0, equals);
+    std::shared_ptr<const IesProfile> profile;
+    std::string names;
+    for (PunctualLight& light : scene.punctual_lights) {
+        names += (names.empty() ? "'" : ", '") + light.name + "'";
+        if (light.name != name || light.kind == PunctualKind::directional) {
+            continue;
+        }
+        if (!profile) {
+            profile = std::make_shared<const IesProfile>(read_ies(choice.substr(equals + 1)));
+        }
+        light.kind = PunctualKind::point;
+        light.intensity /= luminance(light.intensity);
+        light.profile = profile;
+    }
+    if (!profile) {
+        throw SceneError(scene.path, "",
+                         fmt::format("--ies: there is no point light or spot '{}'; punctual "
+                                     "lights: {}",
+                                     name, names.empty() ? "none" : names));
+    }
+}
+
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
-    } else if (scene.lights.empty()) {
+    } else if (!has_emitter(scene)) {
         scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
         document.note(
             fmt::format("nothing in the scene emits light: it is lit by a uniform sky "
@@ -84,8 +113,12 @@ Scene load_checked(const std::string& path, const SceneSettings& settings) {
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
         read_geometry(document, tree, settings.metres_per_unit);
-    bake_objects(document, tree, geometries, plan_objects(document, tree, geometries),
-                 default_material, scene);
+    const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
+    bake_objects(document, tree, geometries, plans, default_material, scene);
+    read_punctual_lights(document, tree, plans, scene);
+    for (const std::string& choice : settings.ies) {
+        apply_ies(choice, scene);
+    }
     scene.removed.duplicate_faces = remove_duplicate_faces(scene);
     if (scene.removed.duplicate_faces > 0) {
         document.note(

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -26,6 +27,7 @@ struct SceneSettings {
     float metres_per_unit = 1.0F;           ///< --unit
     std::optional<float> sky_luminance;     ///< --sky, cd/m²
     float default_sky_luminance = 1000.0F;  ///< where a scene has no emitter at all, cd/m²
+    std::vector<std::string> ies;           ///< --ies, LIGHT=FILE
 };
 
 /// Reads a .gltf or .glb file. Throws SceneError; never returns a half-read scene.

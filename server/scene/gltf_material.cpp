@@ -36,6 +36,12 @@ tinygltf::TextureInfo base_colour_info(const tinygltf::Material& material) {
     return info;
 }
 
+/// Reflectance of a dielectric at normal incidence; 0 stands for an infinite index.
+float ior_reflectance(float ior) {
+    const float root = ior == 0.0F ? 1.0F : (ior - 1.0F) / (ior + 1.0F);
+    return root * root;
+}
+
 int uv_set_of(const tinygltf::TextureInfo& info) {
     const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
     return transform == nullptr ? info.texCoord : integer_or(*transform, "texCoord", info.texCoord);
@@ -91,6 +97,7 @@ class MaterialReader {
             material.specular = number_or(*specular, "specularFactor", 1.0F);
             material.specular_colour = vector_or(*specular, "specularColorFactor", glm::vec3(1.0F));
         }
+        read_index_of_refraction(source, material);
         material.max_phong = read_max_phong(source.extras);
         material.double_sided = source.doubleSided;
         note_unused(source);
@@ -105,6 +112,9 @@ class MaterialReader {
             colour = vector_or(*diffuse, "diffuseFactor", colour);
             material.metallic = 0.0F;
             material.roughness = 1.0F - number_or(*diffuse, "glossinessFactor", 1.0F);
+            // It states the reflectance at normal incidence.
+            material.specular_colour =
+                vector_or(*diffuse, "specularFactor", glm::vec3(1.0F)) / ior_reflectance(1.5F);
         } else {
             const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
             colour = vector_or(pbr.baseColorFactor, colour);
@@ -115,6 +125,14 @@ class MaterialReader {
         material.alpha = colour.a;
         if (const tinygltf::TextureInfo info = base_colour_info(source); info.index >= 0) {
             material.base_colour_texture = slot(info);
+        }
+    }
+
+    /// KHR_materials_ior, as a factor of the reflectance that specular_colour stands for.
+    static void read_index_of_refraction(const tinygltf::Material& source, Material& material) {
+        if (const auto* extension = find_extension(source.extensions, "KHR_materials_ior")) {
+            const float ior = number_or(*extension, "ior", 1.5F);
+            material.specular_colour *= ior_reflectance(ior) / ior_reflectance(1.5F);
         }
     }
 

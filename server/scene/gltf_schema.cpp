@@ -31,6 +31,7 @@ constexpr double huge = 3.0e38;      // the largest float, roughly
 constexpr double max_bytes = 4.3e9;  // far above what is ever allocated
 // tinygltf keeps the integers of sparse accessors and extensions in 32 bits.
 constexpr double max_int = 2147483647.0;
+constexpr double right_angle = 1.5708;  // rad, rounded up
 constexpr bool required = true;
 
 constexpr Rule object(std::string_view path, bool is_required = false) {
@@ -131,6 +132,8 @@ constexpr Rule rules[] = {
     object(specular_glossiness),
     numbers("materials[].extensions.KHR_materials_pbrSpecularGlossiness.diffuseFactor", 4, 0, huge),
     number("materials[].extensions.KHR_materials_pbrSpecularGlossiness.glossinessFactor", 0, 1),
+    numbers("materials[].extensions.KHR_materials_pbrSpecularGlossiness.specularFactor", 3, 0, 1),
+    number("materials[].extensions.KHR_materials_ior.ior", 0, 1e6),
 
     object("meshes[]"),
     text("meshes[].name"),
@@ -165,6 +168,25 @@ constexpr Rule rules[] = {
     number("nodes[].weights[]", -1e6, 1e6),
     index("nodes[].extensions.EXT_mesh_gpu_instancing.attributes.*", "accessors"),
     flag("nodes[].extensions.KHR_node_visibility.visible"),
+
+    integer("nodes[].extensions.KHR_lights_punctual.light", 0, 1e9, required),
+    object("extensions"),
+    object("extensions.KHR_lights_punctual.lights[]"),
+    text("extensions.KHR_lights_punctual.lights[].name"),
+    choice("extensions.KHR_lights_punctual.lights[].type", "point|spot|directional", required),
+    numbers("extensions.KHR_lights_punctual.lights[].color", 3, 0, 1e9),
+    number("extensions.KHR_lights_punctual.lights[].intensity", 0, 1e12),
+    number("extensions.KHR_lights_punctual.lights[].range", 0, huge),
+    number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", 0, right_angle),
+    number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", 0, right_angle),
+
+    integer("nodes[].extensions.EXT_lights_ies.light", 0, 1e9, required),
+    number("nodes[].extensions.EXT_lights_ies.multiplier", 0, 1e12),
+    numbers("nodes[].extensions.EXT_lights_ies.color", 3, 0, 1e9),
+    object("extensions.EXT_lights_ies.lights[]"),
+    text("extensions.EXT_lights_ies.lights[].name"),
+    text("extensions.EXT_lights_ies.lights[].uri"),
+    index("extensions.EXT_lights_ies.lights[].bufferView", "bufferViews"),
 
     text("scenes[].name"),
     index("scenes[].nodes[]", "nodes"),

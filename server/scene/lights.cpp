@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/lights.h"
 
+#include <algorithm>
 #include <string>
 
 #include "scene/patch_colour.h"
@@ -56,9 +57,15 @@ std::vector<Light> find_lights(const Scene& scene) {
             continue;
         }
         const std::string& name = scene.materials[m].name;
+        const glm::vec3 radiance(emitter.power / emitter.area);
+        const glm::vec3& factor = scene.materials[m].emission;
+        glm::vec3 texture(0.0F);
+        for (int c = 0; c < 3; ++c) {
+            texture[c] = factor[c] > 0.0F ? radiance[c] / factor[c] : 1.0F;
+        }
         lights.push_back({static_cast<std::uint32_t>(lights.size() + 1),
-                          name.empty() ? emitter.object->name : name, static_cast<int>(m),
-                          glm::vec3(emitter.power / emitter.area)});
+                          name.empty() ? emitter.object->name : name, static_cast<int>(m), radiance,
+                          radiance / std::max(luminance(radiance), 1e-30F), texture});
     }
     return lights;
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/punctual_light.h"
+
 namespace raybundle {
 
 /// Axis-aligned box; empty while min > max.
@@ -111,7 +113,10 @@ struct Light {
     std::uint32_t id = 0;  ///< 1-based
     std::string name;
     int material = -1;         ///< index of the emitting material
-    glm::vec3 radiance{0.0F};  ///< cd/m², RGB
+    glm::vec3 radiance{0.0F};  ///< cd/m², RGB, while it is on
+    glm::vec3 colour{1.0F};    ///< of luminance 1, kept while radiance is 0
+    glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
+    bool on = true;
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
@@ -145,11 +150,25 @@ struct Scene {
     std::vector<Object> objects;  ///< at least one
     std::vector<Camera> cameras;  ///< at least one: a framing default where the file has none
     std::vector<Light> lights;
+    std::vector<PunctualLight> punctual_lights;  ///< none of them black
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
     Bounds bounds;                 ///< world space
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };
+
+/// Whether anything but a sky emits light.
+inline bool has_emitter(const Scene& scene) {
+    return !scene.lights.empty() || !scene.punctual_lights.empty();
+}
+
+/// The light in the world, its object at its initial place.
+inline PlacedLight place_light(const Scene& scene, const PunctualLight& light) {
+    return place_light(
+        light, light.object == PunctualLight::no_object
+                   ? glm::mat4(1.0F)
+                   : scene.objects[static_cast<std::size_t>(light.object)].world_from_object());
+}
 
 /// Rec. 709 luminance of a linear RGB colour.
 inline float luminance(const glm::vec3& rgb) {

@@ -52,6 +52,18 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
 }
 
+const char* name_of(PunctualKind kind) {
+    switch (kind) {
+        case PunctualKind::spot:
+            return "spot";
+        case PunctualKind::directional:
+            return "directional";
+        case PunctualKind::point:
+            break;
+    }
+    return "point";
+}
+
 void print_lists(std::ostream& out, const Scene& scene) {
     out << fmt::format("objects     {}\n", scene.objects.size());
     for (const Object& object : scene.objects) {
@@ -66,10 +78,16 @@ void print_lists(std::ostream& out, const Scene& scene) {
                            material.base_colour_texture.texture >= 0 ? " * texture" : "",
                            material.double_sided ? ", double sided" : "");
     }
-    out << fmt::format("lights      {}\n", scene.lights.size());
+    out << fmt::format("lights      {}\n", scene.lights.size() + scene.punctual_lights.size());
     for (const Light& light : scene.lights) {
         out << fmt::format("  {:4} {}  {:.4g} cd/m²  (RGB {})\n", light.id, light.name,
                            luminance(light.radiance), text_of(light.radiance));
+    }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        out << fmt::format("       {}  {}  {:.4g} {}  (RGB {})\n", light.name, name_of(light.kind),
+                           luminance(light.intensity),
+                           light.kind == PunctualKind::directional ? "lx" : "cd",
+                           text_of(light.intensity));
     }
     out << fmt::format("cameras     {}\n", scene.cameras.size());
     for (const Camera& camera : scene.cameras) {
@@ -128,6 +146,15 @@ Json lights_json(const Scene& scene) {
                           {"name", light.name},
                           {"luminance", luminance(light.radiance)},
                           {"radiance", json_of(light.radiance)}});
+    }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const bool directional = light.kind == PunctualKind::directional;
+        result.push_back(
+            {{"id", result.size() + 1},
+             {"name", light.name},
+             {"kind", name_of(light.kind)},
+             {directional ? "illuminance" : "luminousIntensity", luminance(light.intensity)},
+             {"intensity", json_of(light.intensity)}});
     }
     return result;
 }

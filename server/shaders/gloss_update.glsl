@@ -5,6 +5,9 @@
 #include "scene_geometry.glsl"
 #include "gloss.glsl"
 #include "random_hash.glsl"
+#ifdef FIRST_SHOT
+#include "first_shot.glsl"
+#endif
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
 layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
 uniform bool perspective;        // the bundle that the sample came by
@@ -21,6 +24,26 @@ LightSource incoming_source(uint patch_id, vec3 normal) {
     return source;
 }
 
+#ifdef FIRST_SHOT
+/// Light of one of the punctual lights, drawn evenly, at a random point of the patch, so that its mean is what all of
+/// them bring. Its main part is known (patch_source.glsl): it is only a proposal for the chain.
+vec3 propose_punctual(uint patch_id, vec3 normal, out LightSource source) {
+    vec3 u = random_numbers_of(patch_id, iteration_number ^ 0x5bd1e995u);
+    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).xyz;
+    float root = sqrt(u.x);
+    vec3 point = world_position(t.x) * (1.0 - root) + world_position(t.y) * (root * (1.0 - u.y)) +
+                 world_position(t.z) * (root * u.y);
+    uint k = min(uint(u.z * float(punctual_count)), punctual_count - 1u);
+    vec3 w_in;
+    vec3 arriving = punctual_irradiance(k, point, normal, normal, NO_HIT, w_in);
+    source = LightSource(punctual[k].axis_z.xyz, 0.0);
+    if (punctual[k].map.z != PUNCTUAL_DIRECTIONAL) {
+        source = source_at(punctual[k].position.xyz, centroid_of(t, 0u));
+    }
+    return arriving * float(punctual_count);
+}
+#endif
+
 /// Takes irradiance I of this iteration (0 where nothing came) with the step of the iterate. reflected: main
 /// part L_d of the reflected radiance so far; returns the new one.
 vec3 update_gloss(uint patch_id, vec3 irradiance, vec3 reflected, float step) {
@@ -36,12 +59,28 @@ vec3 update_gloss(uint patch_id, vec3 irradiance, vec3 reflected, float step) {
         vec3 magnitude = abs(irradiance);
         importance = max(magnitude.r, max(magnitude.g, magnitude.b)) * at_in.w;
     }
+    float picked = importance;  // of the proposal, of all that came in in this iteration
+#ifdef FIRST_SHOT
+    LightSource punctual_source;
+    vec3 direct = propose_punctual(patch_id, normal, punctual_source);
+    for (bool lit = direct != vec3(0.0); lit; lit = false) {
+        Brdf brdf = patch_brdf(patch_id);
+        vec4 at_in = brdf_at(brdf, dot(normal, punctual_source.direction));
+        float other = max(direct.r, max(direct.g, direct.b)) * at_in.w;
+        importance += other;
+        if (random_numbers_of(patch_id, iteration_number).y * importance < other) {
+            irradiance = direct;
+            source = punctual_source;
+            picked = other;
+        }
+    }
+#endif
     vec2 state = chain[patch_id];  // s_m, C
     float scale = state.y + (importance - state.y) * step;
     uvec4 g = gloss[patch_id];
     float chance = random_numbers_of(patch_id, iteration_number).x;
     if (importance > 0.0 && chance * state.x < importance) {
-        g = pack_gloss(irradiance * (scale / importance), source);
+        g = pack_gloss(irradiance * (scale / picked), source);
         state.x = importance;
     } else {
         float change = state.y > 0.0 ? scale / state.y : 0.0;

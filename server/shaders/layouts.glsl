@@ -21,7 +21,7 @@
 #define BINDING_SHOOTERS 11        // Shooter[]
 #define BINDING_COUNTERS 12        // Counters
 #define BINDING_LAYER_COUNTS 13    // uint[window pixels]: surfaces that the pixel's line meets
-#define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: the k-th of a pixel at k * pixels + pixel
+#define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: see layers.glsl
 #define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
 #define BINDING_MATERIALS 16       // MaterialData[]
 #define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures
@@ -35,7 +35,7 @@
 #define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
 #define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
-#define BINDING_CHECKPOINT 28      // vec2[]: luminance of the mean before the change, weight after it
+#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see solution_checkpoint.comp
 #define BINDING_PICK 29            // PickResult[]
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
 #define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
@@ -50,9 +50,20 @@
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
+#define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
+#define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
+#define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
+#define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
+#define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends
+#define BINDING_OLD_SURFACES 53       // PatchSurface[]: before the change
+#define BINDING_FIRST_SHOT 54         // vec4[2 * patches]: see patch_source.glsl
+#define BINDING_PUNCTUAL 55           // PunctualData[]
+#define BINDING_PIXEL_FIRST_SHOT 56   // vec4[]: see view_first_shot.comp
+#define BINDING_IES 57                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
+#define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -77,6 +88,10 @@
 #define UNIT_GLOSS 17             // rgba32f
 #define UNIT_PIXEL_GLOSS 18       // rgba32f
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
+#define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
+
+#define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
+#define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -121,7 +136,8 @@ struct Shooter {
     float density;   // p_j / A_j, 1/m^2
     uint object;
     uint glossy;     // 1: its radiance depends on direction
-    uint pad0, pad1;
+    float probability;  // p_j
+    uint pad0;
 };
 
 struct Counters {
@@ -179,13 +195,33 @@ struct Reflectance {
     vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w: 1: glossy, see ReflectanceTables
 };
 
+// Directions of an IES profile on the GPU: half degrees from its aim, 2.5 degrees round it.
+#define IES_ROWS 361
+#define IES_COLUMNS 145
+
+#define PUNCTUAL_POINT 0u
+#define PUNCTUAL_SPOT 1u
+#define PUNCTUAL_DIRECTIONAL 2u
+#define NO_PROFILE 0xffffffffu
+
+// A punctual light in the shifted world, see scene/punctual_light.h.
+struct PunctualData {
+    vec4 position;   // w: half width of its map: tangent, or m (directional)
+    vec4 axis_x;     // of its map; w: cosine of the inner cone
+    vec4 axis_y;     // w: cosine of the outer cone
+    vec4 axis_z;     // opposite to its direction
+    vec4 intensity;  // cd or lx, in radiance units
+    uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
+    uvec4 profile;   // x: IES profile, or NO_PROFILE
+};
+
 struct PixelSurface {
     vec3 position;   // world space
     uint patch_id;   // NO_PATCH: background
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // at the angle of view, unorm 4x8, square-root encoded
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
-    uint facet;        // and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
+    uint facet;        // also of black backs; and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
 
 #define PIXEL_EMITTER 0x80000000u
@@ -206,10 +242,11 @@ struct BundleParameters {
     vec4 origin;         // perspective: shooting point; parallel: window's origin; w = near distance
     vec4 axis_x;         // unit; w: perspective: how far from their centres pixels sample, pixels; plane: its z, m
     vec4 axis_y;         // the same along y; w of parallel bundles: R, the depth of the window's slab, m
-    vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle
+    vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle; w: p_j of the shooter
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
-    vec4 weights;        // sign/weight of the transfer, iteration weight w, pixel size (m or tangent), batch
+    vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
+                         // limit of density.glsl, 0 = none; batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
     mat4 before_from_now;  // rotation of the object that is elsewhere at place 1

@@ -3,6 +3,7 @@
 // defensive share for area and for emitted power, so that nothing bright is starved and a black scene
 // still samples.
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+#include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 /// Per block of POWER_BLOCK patches: xyz = power, area, emitted power; w = probability of all blocks
@@ -11,15 +12,24 @@ layout(std430, binding = BINDING_POWER) buffer PowerBuffer { vec4 blocks[]; };
 
 
 const float pi = 3.14159265359;
+// CHANGE: what a special phase sends, of either sign, and no more shooters than that needs.
+#ifdef CHANGE
+const float defensive_share = 0.0;
+#else
 const float defensive_share = 0.1;
+#endif
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 /// Power, area, emitted power of a patch (luminance, radiance units * m^2).
 vec3 patch_power(uint i) {
-    float emitted = pi * max(luminance(surfaces[i].emission.rgb), 0.0);
+    float emitted = pi * max(luminance(patch_source(i)), 0.0);
     float area = patches[i].area;
+#ifdef CHANGE
+    return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitted * area);
+#else
     return vec3(pi * max(luminance(radiance[i].rgb), 0.0) * area, area, emitted * area);
+#endif
 }
 
 /// Probability of (sums of) patch_power, given the totals.

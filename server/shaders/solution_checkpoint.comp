@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remembers the state before a change: luminance and weight of the mean irradiance.
+// Remembers the state before a change: x = luminance of the mean irradiance, y = its weight. The phase then
+// replaces y by the weight that it leaves, and sets z = variance of its increments, w = that over the square
+// of the increment, 0: nothing has come in (solution_correct.comp).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
-layout(std430, binding = BINDING_CHECKPOINT) writeonly buffer CheckpointBuffer { vec2 checkpoint[]; };
+layout(std430, binding = BINDING_CHECKPOINT) writeonly buffer CheckpointBuffer { vec4 checkpoint[]; };
 uniform uint patch_count;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < patch_count) {
-        checkpoint[i] = vec2(dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722)), irradiance[i].w);
+        float before = dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722));
+        checkpoint[i] = vec4(before, irradiance[i].w, 0.0, 0.0);
     }
 }

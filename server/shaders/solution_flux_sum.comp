@@ -3,6 +3,7 @@
 #include "layouts.glsl"
 layout(local_size_x = POWER_BLOCK) in;
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+#include "patch_source.glsl"
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
@@ -19,11 +20,11 @@ FluxSums patch_flux(uint i) {
     FluxSums f;
     f.incident = area * source[i];
 #ifdef GLOSSY  // the albedo of glossy patches is not one number
-    f.reflected = (pi * area) * (radiance[i] - surfaces[i].emission);
+    f.reflected = (pi * area) * vec4(radiance[i].rgb - patch_source(i), 0.0);
 #else
     f.reflected = surfaces[i].albedo * f.incident;
 #endif
-    f.emitted = (pi * area) * surfaces[i].emission;
+    f.emitted = (pi * area) * vec4(patch_source(i), 0.0);
     return f;
 }
 

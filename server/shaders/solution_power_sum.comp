@@ -19,7 +19,7 @@ void main() {
     sums[lane] = vec3(0.0);
     if (i < patch_count) {
         source[i].rgb *= balance.scale.rgb;
-        vec3 emitted = surfaces[i].emission.rgb;
+        vec3 emitted = patch_source(i);
         vec3 reflected = surfaces[i].albedo.rgb * source[i].rgb / pi;
 #ifdef GLOSSY
         for (bool glossy = is_glossy(i); glossy; glossy = false) {

@@ -72,7 +72,7 @@ void main() {
 #else
     s.glossy = 0u;
 #endif
+    s.probability = s.density * patches[id].area;
     s.pad0 = 0u;
-    s.pad1 = 0u;
     shooters[i] = s;
 }

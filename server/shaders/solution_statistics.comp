@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the
 // correction since the last change (since loading: of everything), y = its estimated squared error.
-// Of a patch that a special phase of K bundles has left with weight w0 and that has weight w now,
-//   error^2 = correction^2 ((w0/w)^2 / K + s^2 (w - w0)/w^2),
+// Of a patch that a special phase has left with weight w0 and an error of this variance, and that has
+// weight w now,
+//   error^2 = variance (w0/w)^2 + (s E)^2 (w - w0)/w^2,
 // the phase's error fading as new samples of relative deviation s come in; after loading w0 = 0.
 #include "layouts.glsl"
 layout(local_size_x = 256) in;
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
-layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec2 checkpoint[]; };
+layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec4 checkpoint[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
 uniform float relevance;         // changes below this share of the value count as noise
-uniform float phase_iterations;  // K
 
 const float sample_deviation = 0.5;  // s
 
@@ -27,11 +27,13 @@ void main() {
         float correction = now - checkpoint[i].x;
         float weight = irradiance[i].w;
         if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
-            float size = patches[i].area * correction * correction;
             float kept = min(checkpoint[i].y / weight, 1.0);
-            sum.x += size;
-            sum.y += size * (kept * kept / phase_iterations +
-                             sample_deviation * sample_deviation * (1.0 - kept) / weight);
+            float deviation = sample_deviation * now;
+            float fresh = deviation * deviation * (1.0 - kept) / weight;
+            // An error cannot be worse than having done nothing.
+            float error = min(checkpoint[i].z * kept * kept + fresh, correction * correction);
+            sum.x += patches[i].area * correction * correction;
+            sum.y += patches[i].area * error;
         }
     }
     sums[lane] = sum;

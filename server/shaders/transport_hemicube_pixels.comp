@@ -66,7 +66,8 @@ void main() {
 #endif
         float cos_x = max(-dot(x.normal, offset) / r, 0.0);
         if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
-            value = sent_radiance(offset / r) * (cos_x * cosine_over_density(r, d.z / r, bundle.densities.w));
+            float irradiance = cos_x * cosine_over_density(r, d.z / r, bundle.densities.w);
+            value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
         }
     }
     receive(index, x, -offset / r, value);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layered parallel bundle to patches (ch. 4.3, 4.3.1): consecutive, mutually facing surfaces exchange
-// radiance both ways:  irradiance_i += L(y) (pixel area / A_i) / d(omega)   (cos_x dA_x = pixel area).
-// Lines that meet nothing carry the sky's radiance.
+// Layered parallel bundle to patches (ch. 4.3, 4.3.1, "software z-buffer"): consecutive, mutually facing
+// surfaces exchange radiance both ways.
 //
 // Each pixel's list is sorted by depth first. Surfaces that coincide are ordered so that the one facing
 // the window comes first: then a thin wall is a wall, not a gap that two surfaces exchange light through
@@ -9,47 +8,66 @@
 // never shows.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
-#include "accumulator.glsl"
-#include "density.glsl"
-#include "scene_geometry.glsl"
-#include "facets.glsl"
-#include "layers.glsl"
-#ifdef THIN_WALLS
-#include "crease.glsl"
-#endif
-layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
-uniform uint first_column;
+uniform uint first_column;  // the rectangle of the window that is transferred
 uniform uint first_row;
-uniform uint columns;
+uniform uint last_column;   // one past the end
+uniform uint run_columns;   // runs of run_length pixels a row
 uniform uint rows;
-uniform uint row_stride;  // rows are sampled: every row_stride-th from row_phase on
-uniform uint row_phase;
-uniform uint patch_base;
-uniform uint facet_base;
-uniform uint vertex_base;
-uniform uint slot;  // of the iteration in its group
-
-/// A line of the bundle and what it carries.
-struct Line {
-    uint pixel;
-    vec3 point;        // in the window's plane
-    float pixel_area;  // m^2
-};
+uniform uint slot;          // of the iteration in its group
+#include "parallel_runs.glsl"
+#include "layers.glsl"
+layout(binding = UNIT_LAYERS) uniform usamplerBuffer layer_texels;  // the first four surfaces of a pixel
 
 /// A surface that a line meets.
 struct Hit {
     float depth;
+    float step;  // of the depth from pixel to pixel along the row
     uint surface;
 };
 
-bool before(Hit a, Hit b) { return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface; }
+const Hit no_hit = Hit(beyond_all, 0.0, NO_HIT);
 
-Hit load_hit(Line line, uint k) {
-    uint surface = layer_surfaces[layer_slot(k, line.pixel)];
-    return Hit(plane_depth(facet_plane(facet_base + (surface >> 1)), line.point), surface);
+// What this invocation works on.
+int first_column_of_run = 0;
+uvec4 sorted_lists[run_length];  // nearest four surfaces of every pixel, NO_HIT where there are fewer
+int pair_index = 0;              // of the pair being transferred: its surface ahead is number pair_index + 1
+
+uint pixel_index(ivec2 texel) { return uint(texel.y) * bundle.resolution.x + uint(texel.x); }
+
+uint nth(uvec4 list, int k) { return k <= 0 ? list.x : k == 1 ? list.y : k == 2 ? list.z : list.w; }
+
+/// Whether radiance may pass between two consecutive surfaces, either of which may be NO_HIT.
+bool face_each_other(uvec2 pair) {
+#ifdef SKY
+    return pair != uvec2(NO_HIT);
+#elif defined(DOUBLE_SIDED)
+    return pair.y != NO_HIT;
+#else
+    return pair.y != NO_HIT && faces_far(pair.x) && !faces_far(pair.y);
+#endif
 }
 
-void store_hit(Line line, uint k, Hit hit) { layer_surfaces[layer_slot(k, line.pixel)] = hit.surface; }
+uvec2 load_pair(ivec2 texel) {
+    uvec4 list = sorted_lists[texel.x - first_column_of_run];
+    uvec2 pair = uvec2(pair_index < 0 ? NO_HIT : nth(list, pair_index), nth(list, pair_index + 1));
+    // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
+    for (bool deep = pair_index >= 3; deep; deep = false) {
+        uint pixel = pixel_index(texel);
+        uint k = uint(pair_index);
+        uint count = layer_counts[pixel];
+        pair.x = k < count ? layer_surfaces[layer_slot(k, pixel)] : NO_HIT;
+        pair.y = k + 1u < count ? layer_surfaces[layer_slot(k + 1u, pixel)] : NO_HIT;
+    }
+    return face_each_other(pair) ? pair : uvec2(NO_HIT);
+}
+
+bool before(Hit a, Hit b) { return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface; }
+
+Hit make_hit(uint surface, vec3 point, vec3 pixel_step) {
+    vec4 plane = facet_plane(facet_base + (surface >> 1));
+    float depth = plane_depth(plane, point);
+    return Hit(depth, plane_depth(plane, point + pixel_step) - depth, surface);
+}
 
 void order(inout Hit a, inout Hit b) {
     if (before(b, a)) {
@@ -66,10 +84,13 @@ bool coincide(uint surface_a, uint surface_b) {
     return dot(a.xyz, b.xyz) < -0.999999 && abs(a.w + b.w) <= bundle.sky.w;
 }
 
+/// Depths of coinciding surfaces may differ by this much, m: rounding, magnified at grazing angles.
+float coincidence_range() { return 16.0 * bundle.weights.z; }
+
 /// Puts the surface that faces the window before the one it coincides with.
 void order_coincident(inout Hit a, inout Hit b) {
 #ifdef THIN_WALLS
-    if (faces_far(a.surface) && !faces_far(b.surface) && b.depth <= a.depth + 16.0 * bundle.weights.z &&
+    if (faces_far(a.surface) && !faces_far(b.surface) && b.depth <= a.depth + coincidence_range() &&
         coincide(a.surface, b.surface)) {
         uint surface = a.surface;
         a.surface = b.surface;
@@ -78,152 +99,128 @@ void order_coincident(inout Hit a, inout Hit b) {
 #endif
 }
 
-/// Insertion sort of a long list, in memory.
-void sort_list(Line line, uint count) {
+/// Insertion sort of a list that is longer than four, in memory. Returns its first four.
+uvec4 sort_long_list(uint pixel, uint count, vec3 point) {
     for (uint i = 1u; i < count; ++i) {
-        Hit hit = load_hit(line, i);
+        Hit hit = make_hit(layer_surfaces[layer_slot(i, pixel)], point, vec3(0.0));
         uint k = i;
         for (; k > 0u; --k) {
-            Hit other = load_hit(line, k - 1u);
+            Hit other = make_hit(layer_surfaces[layer_slot(k - 1u, pixel)], point, vec3(0.0));
             if (!before(hit, other)) {
                 break;
             }
-            store_hit(line, k, other);
+            layer_surfaces[layer_slot(k, pixel)] = other.surface;
         }
-        store_hit(line, k, hit);
+        layer_surfaces[layer_slot(k, pixel)] = hit.surface;
     }
 #ifdef THIN_WALLS
     for (uint i = 0u; i + 1u < count; ++i) {
-        Hit a = load_hit(line, i);
+        Hit a = make_hit(layer_surfaces[layer_slot(i, pixel)], point, vec3(0.0));
         for (uint k = i + 1u; k < count && faces_far(a.surface); ++k) {
-            Hit b = load_hit(line, k);
+            Hit b = make_hit(layer_surfaces[layer_slot(k, pixel)], point, vec3(0.0));
+            if (b.depth > a.depth + coincidence_range()) {
+                break;
+            }
             order_coincident(a, b);
-            store_hit(line, k, b);
+            layer_surfaces[layer_slot(k, pixel)] = b.surface;
         }
-        store_hit(line, i, a);
+        layer_surfaces[layer_slot(i, pixel)] = a.surface;
     }
 #endif
+    return uvec4(layer_surfaces[layer_slot(0u, pixel)], layer_surfaces[layer_slot(1u, pixel)],
+                 layer_surfaces[layer_slot(2u, pixel)], layer_surfaces[layer_slot(3u, pixel)]);
 }
 
-/// 0 where the line passes too close to a crease of the triangle, else the factor that makes up for it.
-float crease_factor(uint triangle, vec3 point) {
-#ifdef THIN_WALLS
-    uint flags = crease_flags(triangle);
-    vec3 axis = bundle.axis_z.xyz;
-    return near_crease(triangle, flags, vertex_base, point, axis, snap_distance * bundle.weights.z)
-               ? 0.0
-               : crease_compensation(triangle, flags, vertex_base, axis, bundle.weights.z);
+/// Up to four surfaces of a line. The next pixel of the row often has the same ones in the same order.
+struct ShortList {
+    uvec4 unsorted;
+    Hit h0, h1, h2, h3;
+};
+
+void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
+    list.h0 = make_hit(list.unsorted.x, point, pixel_step);
+    list.h1 = make_hit(list.unsorted.y, point, pixel_step);
+    list.h2 = no_hit;
+    list.h3 = no_hit;
+    for (bool more = list.unsorted.z != NO_HIT; more; more = false) {
+        list.h2 = make_hit(list.unsorted.z, point, pixel_step);
+    }
+    for (bool more = list.unsorted.w != NO_HIT; more; more = false) {
+        list.h3 = make_hit(list.unsorted.w, point, pixel_step);
+    }
+    order(list.h0, list.h1);
+    order(list.h2, list.h3);
+    order(list.h0, list.h2);
+    order(list.h1, list.h3);
+    order(list.h1, list.h2);
+    order_coincident(list.h0, list.h1);
+    order_coincident(list.h0, list.h2);
+    order_coincident(list.h0, list.h3);
+    order_coincident(list.h1, list.h2);
+    order_coincident(list.h1, list.h3);
+    order_coincident(list.h2, list.h3);
+}
+
+/// Goes to the next pixel. Returns whether the order still holds.
+bool advance(inout ShortList list) {
+    list.h0.depth += list.h0.step;
+    list.h1.depth += list.h1.step;
+    list.h2.depth += list.h2.step;
+    list.h3.depth += list.h3.step;
+    return list.h0.depth < list.h1.depth && (list.h2.surface == NO_HIT || list.h1.depth < list.h2.depth) &&
+           (list.h3.surface == NO_HIT || list.h2.depth < list.h3.depth);
+}
+
+/// Which pairs of a row of pixels have something to transfer.
+struct Pairs {
+    uint near;  // bits: k + 1 for pair_index k, -1..2
+    int last;   // greatest pair_index
+};
+
+/// Sorts the lists of pixels [first.x, end) of a row into sorted_lists, longer ones in memory too.
+Pairs sort_lists(ivec2 first, int end) {
+    vec3 point = window_point(uvec2(first));
+    vec3 pixel_step = bundle.weights.z * bundle.axis_x.xyz;
+    Pairs pairs = Pairs(0u, -1);
+    ShortList list = ShortList(uvec4(NO_HIT), no_hit, no_hit, no_hit, no_hit);
+    for (ivec2 texel = first; texel.x < end; ++texel.x, point += pixel_step) {
+        uint pixel = pixel_index(texel);
+        uint count = layer_counts[pixel];
+        uvec4 unsorted = uvec4(NO_HIT);
+        for (bool held = count > 0u && count <= 4u; held; held = false) {
+            unsorted = texelFetch(layer_texels, int(pixel));
+        }
+        unsorted.y = count > 1u ? unsorted.y : NO_HIT;
+        unsorted.z = count > 2u ? unsorted.z : NO_HIT;
+        unsorted.w = count > 3u ? unsorted.w : NO_HIT;
+        bool same = unsorted == list.unsorted && advance(list);
+        list.unsorted = unsorted;
+        uvec4 sorted = unsorted;
+        for (bool at_hand = count > 1u && count <= 4u; at_hand; at_hand = false) {
+            for (bool changed = !same; changed; changed = false) {
+                sort_short_list(list, point, pixel_step);
+            }
+            sorted = uvec4(list.h0.surface, list.h1.surface, list.h2.surface, list.h3.surface);
+        }
+        for (bool in_memory = count > 4u; in_memory; in_memory = false) {
+            sorted = sort_long_list(pixel, count, point);
+        }
+        sorted_lists[texel.x - first.x] = sorted;
+        pairs.near |= face_each_other(uvec2(NO_HIT, sorted.x)) ? 1u : 0u;
+        pairs.near |= face_each_other(sorted.xy) ? 2u : 0u;
+        pairs.near |= face_each_other(sorted.yz) ? 4u : 0u;
+        pairs.near |= face_each_other(sorted.zw) ? 8u : 0u;
+#ifdef SKY
+        pairs.last = max(pairs.last, int(count) - 1);
 #else
-    return 1.0;
+        pairs.last = max(pairs.last, int(count) - 2);
 #endif
+    }
+    return pairs;
 }
 
-void deposit(uint patch_id, vec3 irradiance) {
-    vec3 value = irradiance * (patch_attributes(patch_base + patch_id).y * bundle.weights.x);
-    accumulate(patch_id, 0u, value.r);
-    accumulate(patch_id, 1u, value.g);
-    accumulate(patch_id, 2u, value.b);
-}
-
-uint triangle_of(Line line, Facet facet, float depth) {
-    return triangle_at(facet, line.point + depth * bundle.axis_z.xyz);
-}
-
-/// Whether any radiance passes between two consecutive surfaces.
-bool face_each_other(Hit a, Hit b) {
-#ifdef DOUBLE_SIDED
-    return b.depth < beyond_all && b.depth - a.depth > bundle.sky.w;
-#else
-    return faces_far(a.surface) && !faces_far(b.surface) && b.depth < beyond_all && b.depth - a.depth > bundle.sky.w;
-#endif
-}
-
-void exchange(Line line, Hit hit_a, Hit hit_b) {
-    Facet facet_a = load_facet(facet_base + (hit_a.surface >> 1));
-    Facet facet_b = load_facet(facet_base + (hit_b.surface >> 1));
-    uint triangle_a = triangle_of(line, facet_a, hit_a.depth);
-    uint triangle_b = triangle_of(line, facet_b, hit_b.depth);
-    uint a = patch_of_surface(2u * triangle_a + side_of_surface(hit_a.surface, true));
-    uint b = patch_of_surface(2u * triangle_b + side_of_surface(hit_b.surface, false));
-    if (a == NO_PATCH || b == NO_PATCH) {
-        return;
-    }
-    float r = hit_b.depth - hit_a.depth;
-    float cos_a = abs(dot(facet_a.plane.xyz, bundle.axis_z.xyz));
-    float cos_b = abs(dot(facet_b.plane.xyz, bundle.axis_z.xyz));
-    float area = line.pixel_area * crease_factor(triangle_a, line.point) * crease_factor(triangle_b, line.point);
-    vec4 la = texelFetch(radiance_texels, int(a));
-    vec4 lb = texelFetch(radiance_texels, int(b));
-    // 1/d(omega) for x on a, y on b, and the other way round.
-    deposit(a, lb.rgb * (area * cosine_over_density(r, cos_b, lb.w)));
-    deposit(b, la.rgb * (area * cosine_over_density(r, cos_a, la.w)));
-}
-
-#ifdef SKY
-void receive_sky(Line line, Hit hit, bool far) {
-    Facet facet = load_facet(facet_base + (hit.surface >> 1));
-    uint id = patch_of_surface(2u * triangle_of(line, facet, hit.depth) + side_of_surface(hit.surface, far));
-    float density = sky_density(hit.depth, far);
-    if (id != NO_PATCH && density > 0.0) {
-        deposit(id, bundle.sky.rgb * (line.pixel_area / density));
-    }
-}
-#endif
-
-void transfer(Line line, uint count) {
-    const uint held = 4u;  // surfaces kept at hand; longer lists are sorted in memory
-    Hit nothing = Hit(beyond_all, NO_HIT);
-    Hit h1 = nothing;
-    Hit h2 = nothing;
-    Hit h3 = nothing;
-    // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
-    for (bool in_memory = count > held; in_memory; in_memory = false) {
-        sort_list(line, count);
-    }
-    Hit h0 = load_hit(line, 0u);
-    for (bool more = count > 1u; more; more = false) {
-        h1 = load_hit(line, 1u);
-    }
-    for (bool more = count > 2u; more; more = false) {
-        h2 = load_hit(line, 2u);
-    }
-    for (bool more = count > 3u; more; more = false) {
-        h3 = load_hit(line, 3u);
-    }
-    if (count <= held) {
-        order(h0, h1);
-        order(h2, h3);
-        order(h0, h2);
-        order(h1, h3);
-        order(h1, h2);
-        order_coincident(h0, h1);
-        order_coincident(h0, h2);
-        order_coincident(h0, h3);
-        order_coincident(h1, h2);
-        order_coincident(h1, h3);
-        order_coincident(h2, h3);
-    }
-#ifdef SKY
-    receive_sky(line, h0, false);
-#endif
-    for (uint k = 1u; k < count; ++k) {
-        for (bool open = face_each_other(h0, h1); open; open = false) {
-            exchange(line, h0, h1);
-        }
-        h0 = h1;
-        h1 = h2;
-        h2 = h3;
-        h3 = nothing;
-        for (bool more = k + held - 1u < count; more; more = false) {
-            h3 = load_hit(line, k + held - 1u);
-        }
-    }
-#ifdef SKY
-    receive_sky(line, h0, true);
-#endif
-}
-
-void main() {
+/// True where the lists have no room for all surfaces: nothing is transferred then.
+bool note_overflow() {
     bool overflowed = counters.layers > layer_capacity();
     if (gl_GlobalInvocationID.x == 0u) {
         counters.overflowed = overflowed ? 1u : 0u;
@@ -232,20 +229,25 @@ void main() {
             counters.overflow_mask |= 1u << slot;
         }
     }
-    uint row = gl_GlobalInvocationID.x / columns;
-    uint column = gl_GlobalInvocationID.x - row * columns;
-    row = row_stride * row + row_phase;
-    if (row >= rows || overflowed) {
+    return overflowed;
+}
+
+void main() {
+    // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
+    uint block = gl_GlobalInvocationID.x >> 3;
+    uint row_block = block / run_columns;
+    uint row = row_stride * (row_block * 8u + (gl_GlobalInvocationID.x & 7u)) + row_phase;
+    if (note_overflow() || row >= rows) {
         return;
     }
-    uvec2 at = uvec2(first_column + column, first_row + row);
-    Line line;
-    line.pixel = at.y * bundle.resolution.x + at.x;
-    uint count = layer_counts[line.pixel];
-    if (count == 0u) {
-        return;
+    ivec2 first = ivec2(first_column + (block - row_block * run_columns) * run_length, first_row + row);
+    int end = min(first.x + int(run_length), int(last_column));
+    first_column_of_run = first.x;
+    Pairs pairs = sort_lists(first, end);
+    for (pair_index = -1; pair_index <= pairs.last; ++pair_index) {
+        bool present = pair_index >= 3 || (pairs.near >> (pair_index + 1) & 1u) != 0u;
+        for (; present; present = false) {
+            exchange_row(first, end);
+        }
     }
-    line.point = window_point(at);
-    line.pixel_area = bundle.weights.z * bundle.weights.z * float(row_stride);
-    transfer(line, count);
 }

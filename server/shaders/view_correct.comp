@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // End of a special iteration phase for a viewer: the signed increments join the pixels' means; where
-// they are large the weight shrinks, as in solution_correct.comp.
+// they are uncertain the weight shrinks, as in solution_correct.comp. How uncertain, relative to their size,
+// the pixel's patch has measured.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "pixel_sum.glsl"
+#include "corrected_weight.glsl"
+layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec4 checkpoint[]; };
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer { vec4 pixel_irradiance[]; };
 layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pixel_delta[]; };
@@ -11,9 +15,8 @@ layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pix
 layout(std430, binding = BINDING_PIXEL_GLOSS) buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
 layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer { vec4 pixel_gloss_delta[]; };
 #endif
-uniform float phase_weight;  // see solution_correct.comp
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+uniform float most_weight;    // see solution_correct.comp
+uniform float assumed_noise;  // variance over square of an increment that the patch has not seen
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
@@ -23,16 +26,18 @@ void main() {
     vec3 increment = pixel_delta[index].rgb;
     vec4 sum = pixel_irradiance[index];
     float old_weight = pixel_weight(sum, view.weights.x);
-    if (increment == vec3(0.0) || old_weight <= 0.0) {
+    if ((increment == vec3(0.0) && old_weight <= most_weight) || old_weight <= 0.0) {
         return;
     }
-    vec3 mean = pixel_mean(sum, view.weights.x);
-    float before = luminance(mean);
+    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
+    float noise = patch_id == NO_PATCH ? 0.0 : checkpoint[patch_id].w;
+    noise = noise > 0.0 ? min(noise, 1.0) : assumed_noise;
+    vec3 mean = max(pixel_mean(sum, view.weights.x) + increment, 0.0);
     float change = luminance(abs(increment));
-    float q = before > 0.0 ? min(change / before, 1.0) : 1.0;
     // The common weight stays: a weight below it is a negative one of the pixel's own.
-    float weight = old_weight / (1.0 + old_weight * q * q / phase_weight);
-    pixel_irradiance[index] = vec4(max(mean + increment, 0.0) * weight, weight - view.weights.x);
+    float weight =
+        min(old_weight * kept_weight(old_weight, luminance(mean), noise * change * change), most_weight);
+    pixel_irradiance[index] = vec4(mean * weight, weight - view.weights.x);
 #ifdef GLOSSY
     vec4 gloss = pixel_gloss[index];
     vec3 gloss_mean = pixel_mean(gloss, view.weights.x) + pixel_gloss_delta[index].rgb;

@@ -9,6 +9,9 @@ layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance
 #ifdef GLOSSY
 layout(binding = UNIT_PIXEL_GLOSS) uniform samplerBuffer pixel_gloss_texels;
 #endif
+#ifdef FIRST_SHOT
+layout(binding = UNIT_PIXEL_FIRST_SHOT) uniform samplerBuffer pixel_first_shot_texels;
+#endif
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
@@ -43,7 +46,11 @@ vec3 blended_irradiance(uint index, PixelSurface p) {
     vec4 own = texelFetch(pixel_irradiance_texels, int(index));
     float weight = pixel_weight(own, view.weights.x);
     float confidence = weight / (weight + view.display.z);
-    return mix(object_space_irradiance(p), pixel_mean(own, view.weights.x), confidence);
+    vec3 blended = mix(object_space_irradiance(p), pixel_mean(own, view.weights.x), confidence);
+#ifdef FIRST_SHOT
+    blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
+#endif
+    return blended;
 }
 
 vec3 pixel_albedo(PixelSurface p) {
@@ -62,7 +69,11 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
     for (bool glossy = (p.facet & PIXEL_GLOSSY) != 0u; glossy; glossy = false) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);
-        reflected = max(reflected + own.rgb / max(weight + view.display.z, 1e-6), 0.0);
+        vec3 gloss = own.rgb / max(weight + view.display.z, 1e-6);
+#ifdef FIRST_SHOT
+        gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
+#endif
+        reflected = max(reflected + gloss, 0.0);
     }
 #endif
     return emitted + reflected;

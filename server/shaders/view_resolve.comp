@@ -122,7 +122,7 @@ void main() {
     uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, direction);
     if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
         pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
-        pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : 0u);
+        pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : surface >> 1 | PIXEL_BACK);
         pixel_irradiance[index] = vec4(0.0);
         return;
     }

@@ -13,6 +13,13 @@ uniform float unsampled_error;   // relative error to assume where no batches ex
 uniform float fresh_share;       // batches with less than this share of the weight say nothing
 shared vec4 sums[64];
 
+/// Variance of the mean of all batches over the mean square deviation of single ones. Batches are dealt out of one
+/// low-discrepancy sequence: the error falls like n^-a, so that with m batches it is m^-2a / (1 - m^-2a); 1/(m - 1)
+/// for independent ones, a = 1/2. Measured against path tracing, Cornell box, 1 to 20 s: a = 0.8; 0.75 is cautious.
+const float convergence = 0.75;
+const float whole_over_batch = pow(float(BATCHES), -2.0 * convergence);
+const float variance_of_mean = whole_over_batch / (1.0 - whole_over_batch);
+
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
     if (at.x >= view.size.x || at.y >= view.size.y) {
@@ -39,7 +46,7 @@ vec4 probe_statistics(uint probe) {
         square += value * value;
     }
     mean /= float(BATCHES);
-    float variance = max(square / float(BATCHES) - mean * mean, 0.0) / float(BATCHES - 1);
+    float variance = max(square / float(BATCHES) - mean * mean, 0.0) * variance_of_mean;
     // The batches may be younger than the mean that is shown.
     variance *= min(float(BATCHES) * batch_weight / weight, 1.0);
     float reflectance = luminance(pixel_albedo(p)) * inverse_pi;

@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <numeric>
 
 namespace raybundle {
@@ -28,13 +29,26 @@ glm::vec2 octahedral_from_vector(const glm::vec3& n) {
             (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F)};
 }
 
-/// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.
-float choose_radiance_unit(const PatchMesh& mesh, const glm::vec3& sky) {
+/// Largest radiance that something sends of its own, cd/m².
+float largest_emission(const Scene& scene, const PatchMesh& mesh) {
+    const glm::vec3& sky = scene.sky_radiance;
     float largest = std::max({sky.r, sky.g, sky.b});
+    // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
+    // away from a lamp.
+    const float distance = 0.25F * glm::length(scene.bounds.extent());
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const glm::vec3 i =
+            light.intensity *
+            (light.profile ? static_cast<float>(light.profile->flux()) / (4.0F * glm::pi<float>())
+                           : 1.0F);
+        const float square =
+            light.kind == PunctualKind::directional ? 1.0F : std::max(distance * distance, 1e-12F);
+        largest = std::max(largest, std::max({i.r, i.g, i.b}) / (glm::pi<float>() * square));
+    }
     for (const glm::vec3& emission : mesh.emission) {
         largest = std::max({largest, emission.r, emission.g, emission.b});
     }
-    return largest > 0.0F ? std::exp2(std::round(std::log2(largest))) : 1.0F;
+    return largest;
 }
 
 /// Whether a triangle's vertex normals bend away from its plane.
@@ -77,8 +91,9 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
       vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
       origin_(scene.bounds.centre()),
-      radiance_unit_(choose_radiance_unit(mesh, scene.sky_radiance)),
+      radiance_unit_(unit_for(largest_emission(scene, mesh))),
       sky_(scene.sky_radiance / radiance_unit_),
+      punctual_lights_(scene.punctual_lights),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
@@ -127,7 +142,12 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
     objects_ = Buffer("object matrices", world_from_object_.size() * sizeof(glm::mat4));
 }
 
-void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
+/// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.
+float GpuScene::unit_for(float largest) {
+    return largest > 0.0F ? std::exp2(std::round(std::log2(largest))) : 1.0F;
+}
+
+void GpuScene::upload_surfaces(const PatchMesh& mesh) {
     std::vector<layout::PatchSurface> surfaces;
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
@@ -136,10 +156,34 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
                                       mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
                             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
+    if (surfaces_.bytes() == 0) {
+        surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
+    } else {
+        surfaces_.write<layout::PatchSurface>(surfaces, 0);
+    }
+}
+
+layout::MaterialData GpuScene::material_data(const Material& material) const {
+    layout::MaterialData data{};
+    data.base_colour = glm::vec4(material.base_colour, 0.0F);
+    data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
+    const TextureSlot& slot = material.base_colour_texture;
+    if (slot.texture >= 0) {
+        const glm::mat3& m = slot.uv_from_mesh_uv;
+        data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
+        data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
+        data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
+        data.texture_info = texture_info_[static_cast<std::size_t>(slot.texture)];
+    }
+    return data;
+}
+
+void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
+    upload_surfaces(mesh);
     std::vector<std::uint32_t> texels;
-    std::vector<std::uint32_t> texture_offset;
     for (const Texture& texture : scene.textures) {
-        texture_offset.push_back(static_cast<std::uint32_t>(texels.size()));
+        texture_info_.emplace_back(texels.size(), texture.width, texture.height,
+                                   (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U));
         for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4) {
             texels.push_back(static_cast<std::uint32_t>(texture.rgba[i]) |
                              static_cast<std::uint32_t>(texture.rgba[i + 1]) << 8U |
@@ -149,23 +193,8 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     }
     std::vector<layout::MaterialData> materials;
     for (const Material& material : scene.materials) {
-        layout::MaterialData data{};
-        data.base_colour = glm::vec4(material.base_colour, 0.0F);
-        data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
-        const TextureSlot& slot = material.base_colour_texture;
-        if (slot.texture >= 0) {
-            const auto index = static_cast<std::size_t>(slot.texture);
-            const Texture& texture = scene.textures[index];
-            const glm::mat3& m = slot.uv_from_mesh_uv;
-            data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
-            data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
-            data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
-            data.texture_info = {texture_offset[index], texture.width, texture.height,
-                                 (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U)};
-        }
-        materials.push_back(data);
+        materials.push_back(material_data(material));
     }
-    surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
     materials_ = Buffer::from<layout::MaterialData>("materials", materials);
     texels_ = Buffer::from<std::uint32_t>("texels", texels);
 }
@@ -180,6 +209,10 @@ void GpuScene::upload_reflectors(const PatchMesh& mesh) {
         const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
         reflectors.push_back(
             with_bits(mesh.base_colour[i], reflectance_.glossy(material) ? material : NOT_GLOSSY));
+    }
+    if (reflectors_.bytes() > 0) {
+        reflectors_.write<glm::vec4>(reflectors, 0);
+        return;
     }
     reflectors_ = Buffer::from<glm::vec4>("reflectors", reflectors);
     reflector_texture_ = create_buffer_texture("reflectors", GL_RGBA32F, reflectors_);
@@ -233,6 +266,10 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
     define_if(!mesh.coverage.empty(), "ALPHA_MASK");
+    define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
+    define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                          [](const PunctualLight& light) { return light.profile != nullptr; }),
+              "IES");
     define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
     define_if(thin_walls_, "THIN_WALLS");
@@ -326,6 +363,14 @@ std::uint32_t GpuScene::vertex_base(Place place) const {
 
 glm::mat4 GpuScene::world_from_object(std::uint32_t object, Place place) const {
     return world_from_object_[static_cast<unsigned>(place) * object_count_ + object];
+}
+
+PlacedLight GpuScene::placed_light(std::size_t light) const {
+    const PunctualLight& punctual = punctual_lights_[light];
+    return place_light(
+        punctual, punctual.object == PunctualLight::no_object
+                      ? glm::translate(glm::mat4(1.0F), -origin_)
+                      : world_from_object(static_cast<std::uint32_t>(punctual.object), Place::now));
 }
 
 glm::mat4 GpuScene::now_from_before(std::uint32_t object) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,15 @@ class GpuScene {
 
     /// Keeps the present place as `before` and puts one object elsewhere. Uploads matrices only.
     void move_object(std::uint32_t object, const glm::mat4& world_from_object);
+    /// Takes over the colours that some materials and their patches have now. Each must be covered
+    /// by reflectance(). The unit of radiance stays.
+    void update_surfaces(const Scene& scene, const PatchMesh& mesh,
+                         std::span<const std::uint32_t> materials);
+    /// Another unit of radiance: a power of two, cd/m². Only surfaces and sky are converted.
+    void set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh);
+    /// Unit for a brightest emission, or sky, of so much, cd/m².
+    static float unit_for(float largest);
+    [[nodiscard]] const Buffer& surfaces() const { return surfaces_; }
     /// Forgets `before`: both places are the present one.
     void settle();
 
@@ -37,7 +47,8 @@ class GpuScene {
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
-    /// radiance depends on direction), MAX_PHONG. What is absent is not even compiled.
+    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
+    /// profiles). What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -49,6 +60,11 @@ class GpuScene {
     [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
     [[nodiscard]] const glm::vec3& origin() const { return origin_; }
     [[nodiscard]] glm::vec3 sky() const { return sky_; }  ///< radiance units
+    [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
+        return punctual_lights_;
+    }
+    /// A punctual light in the shifted world, its object at its present place.
+    [[nodiscard]] PlacedLight placed_light(std::size_t light) const;
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// Of an object, shifted world, at a place.
     [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
@@ -63,6 +79,8 @@ class GpuScene {
   private:
     void upload_geometry(const Scene& scene, const PatchMesh& mesh);
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
+    void upload_surfaces(const PatchMesh& mesh);
+    [[nodiscard]] layout::MaterialData material_data(const Material& material) const;
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
     void upload_reflectors(const PatchMesh& mesh);
@@ -76,6 +94,7 @@ class GpuScene {
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
     glm::vec3 sky_{0.0F};
+    std::vector<PunctualLight> punctual_lights_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
 
@@ -84,7 +103,8 @@ class GpuScene {
     FacetRaster facets_;
     Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;
     Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
-    Buffer reflectors_;  // only where some patch is glossy
+    std::vector<glm::uvec4> texture_info_;  // of the scene's textures, see MaterialData
+    Buffer reflectors_;                     // only where some patch is glossy
     Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
     Texture2D reflector_texture_;
     std::vector<std::string> defines_;

@@ -26,12 +26,11 @@ RadianceStore::RadianceStore(const GpuScene& scene)
       balance_("energy balance", sizeof(layout::Balance)),
       cdf_("selection cdf", std::size_t{patch_count_} * sizeof(float)),
       shooters_("shooters", max_shooters * sizeof(layout::Shooter)),
-      checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec2)),
+      checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec4)),
       statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
       update_({"solution_update.comp"}, scene.defines()),
-      correct_({"solution_correct.comp"}, scene.defines()),
       power_sum_({"solution_power_sum.comp"}, scene.defines()),
       power_scan_({"solution_power_scan.comp"}),
       power_density_({"solution_power_density.comp"}),
@@ -55,17 +54,25 @@ RadianceStore::RadianceStore(const GpuScene& scene)
         send_ = ShaderProgram({"transport_sent_radiance.comp"}, scene_.defines());
         turn_gloss_ = ShaderProgram({"solution_turn_gloss.comp"});
     }
+    if (!scene_.punctual_lights().empty()) {
+        first_shot_.emplace(scene_);
+        forget_ = ShaderProgram({"solution_forget.comp"}, scene_.defines());
+    }
     bind();
     const ShaderProgram emit({"solution_emit.comp"});
     emit.set("patch_count", patch_count_);
     emit.dispatch(patch_count_);
+    if (first_shot_) {
+        first_shot_->update();
+    }
     refresh_power();
 }
 
 void RadianceStore::bind() const {
     scene_.bind();
-    radiance_.bind_storage(BINDING_RADIANCE);
-    glBindTextureUnit(UNIT_RADIANCE, radiance_texture_.get());
+    (other_ != nullptr ? *other_ : radiance_).bind_storage(BINDING_RADIANCE);
+    glBindTextureUnit(UNIT_RADIANCE,
+                      (other_texture_ != nullptr ? *other_texture_ : radiance_texture_).get());
     irradiance_.bind_storage(BINDING_IRRADIANCE);
     source_.bind_storage(BINDING_SOURCE);
     accumulator_.bind_storage(BINDING_ACCUMULATOR);
@@ -76,10 +83,39 @@ void RadianceStore::bind() const {
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+    if (first_shot_) {
+        first_shot_->bind();
+    }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_GLOSS);
         chain_.bind_storage(BINDING_CHAIN);
         glBindTextureUnit(UNIT_GLOSS, gloss_texture_.get());
+    }
+}
+
+void RadianceStore::reshoot(float phase_weight) {
+    if (!first_shot_) {
+        return;
+    }
+    const std::vector<glm::vec4> before = first_shot_->read_reflected();
+    first_shot_->update();
+    const std::vector<glm::vec4> after = first_shot_->read_reflected();
+    std::vector<glm::vec4> sent(patch_count_);
+    radiance_.read<glm::vec4>(sent);
+    double change = 0.0;
+    double all = 0.0;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        const double area = after[i].w;
+        change += area * static_cast<double>(luminance(glm::abs(glm::vec3(after[i] - before[i]))));
+        all += area * static_cast<double>(luminance(glm::vec3(sent[i])));
+    }
+    const double q = all > 0.0 ? std::min(change / all, 1.0) : 0.0;
+    forgetting_ = static_cast<float>(q * q) / phase_weight;
+    if (q > 0.0) {
+        forget_.set("patch_count", patch_count_);
+        forget_.set("forgetting", forgetting_);
+        forget_.set("change", static_cast<float>(q));
+        forget_.dispatch(patch_count_);
     }
 }
 
@@ -92,11 +128,14 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("step", bundle.step);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
+    if (first_shot_ && gloss_.bytes() > 0) {
+        first_shot_->set_uniforms(update_);
+    }
     update_.dispatch(patch_count_);
 }
 
 void RadianceStore::send_along_bundle(Place place) const {
-    if (sent_.bytes() == 0) {
+    if (sent_.bytes() == 0 || other_ != nullptr) {
         return;
     }
     sent_.bind_storage(BINDING_SENT);
@@ -117,10 +156,16 @@ void RadianceStore::turn_gloss(std::uint32_t object, const glm::mat4& now_from_b
     turn_gloss_.dispatch(patch_count_);
 }
 
-void RadianceStore::correct(float phase_weight) const {
-    correct_.set("patch_count", patch_count_);
-    correct_.set("phase_weight", phase_weight);
-    correct_.dispatch(patch_count_);
+void RadianceStore::send_other(const Buffer& radiance, const Texture2D& texture) {
+    other_ = &radiance;
+    other_texture_ = &texture;
+    bind();
+}
+
+void RadianceStore::stop_sending_other() {
+    other_ = nullptr;
+    other_texture_ = nullptr;
+    bind();
 }
 
 void RadianceStore::refresh_power() const {
@@ -153,23 +198,37 @@ std::vector<layout::Shooter> RadianceStore::choose_shooters(std::span<const glm:
     return {chosen.begin(), chosen.end()};
 }
 
+void RadianceStore::adopt(const RadianceStore& other) const {
+    const auto copy = [](const Buffer& from, const Buffer& to) {
+        glCopyNamedBufferSubData(from.get(), to.get(), 0, 0, static_cast<GLsizeiptr>(to.bytes()));
+    };
+    copy(other.radiance_, radiance_);
+    copy(other.irradiance_, irradiance_);
+    copy(other.source_, source_);
+    copy(other.balance_, balance_);
+}
+
 void RadianceStore::checkpoint() const {
     checkpoint_.set("patch_count", patch_count_);
     checkpoint_.dispatch(patch_count_);
 }
 
-SolutionStatistics RadianceStore::statistics(float phase_iterations) const {
+glm::dvec4 RadianceStore::reduce(const ShaderProgram& program) const {
     statistics_buffer_.bind_storage(BINDING_STATISTICS);
-    statistics_.set("patch_count", patch_count_);
-    statistics_.set("relevance", relevant_change);
-    statistics_.set("phase_iterations", phase_iterations);
-    statistics_.dispatch(statistics_groups * 256);
+    program.set("patch_count", patch_count_);
+    program.dispatch(statistics_groups * 256);
     std::vector<glm::vec4> partial(statistics_groups);
     statistics_buffer_.read<glm::vec4>(partial);
     glm::dvec4 sum(0.0);
     for (const glm::vec4& p : partial) {
         sum += glm::dvec4(p);
     }
+    return sum;
+}
+
+SolutionStatistics RadianceStore::statistics() const {
+    statistics_.set("relevance", relevant_change);
+    const glm::dvec4 sum = reduce(statistics_);
     SolutionStatistics result;
     result.settled = sum.x > 0.0 ? std::clamp(1.0 - std::sqrt(sum.y / sum.x), 0.0, 1.0) : 1.0;
     return result;
@@ -191,6 +250,12 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
     irradiance_.read<glm::vec4>(values);
     for (glm::vec4& value : values) {
         value = glm::vec4(glm::vec3(value) * scene_.radiance_unit(), value.w);
+    }
+    if (first_shot_) {
+        const std::vector<glm::vec3> first = first_shot_->read_irradiance();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] += glm::vec4(first[i] * scene_.radiance_unit(), 0.0F);
+        }
     }
     return values;
 }
@@ -217,7 +282,7 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 }
 
 std::size_t RadianceStore::bytes() const {
-    std::size_t sum = 0;
+    std::size_t sum = first_shot_ ? first_shot_->bytes() : 0;
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
                                  &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
         sum += buffer->bytes();

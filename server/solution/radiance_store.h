@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "gpu/layouts.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
+#include "solution/first_shot.h"
 #include "solution/gpu_scene.h"
 
 namespace raybundle {
@@ -42,21 +44,36 @@ class RadianceStore {
     /// In glossy scenes: what all patches send along the parallel bundle whose parameters are bound
     /// takes the place of the radiance, UNIT_RADIANCE, until the next bind().
     void send_along_bundle(Place place) const;
+    /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
+    /// the means lose weight by how much of all light that is. phase_weight: as for correct().
+    void reshoot(float phase_weight);
+    /// Share of its weight that a mean of this weight has kept in the last reshoot().
+    [[nodiscard]] float kept_share(float weight) const {
+        return 1.0F / (1.0F + weight * forgetting_);
+    }
+    /// Of punctual lights, or nothing where the scene has none.
+    [[nodiscard]] const FirstShot* first_shot() const {
+        return first_shot_ ? &*first_shot_ : nullptr;
+    }
     /// An object has turned: its glossy patches keep the directions of their light.
     void turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const;
-    /// Ends a special iteration phase of K bundles: adds its increments to the solution.
-    /// phase_weight: K times the weight of a sample.
-    void correct(float phase_weight) const;
+    /// From now on bundles carry this radiance (as BINDING_RADIANCE, with the texture on it)
+    /// instead of the solution's, until stop_sending_other(). Both must outlive that.
+    void send_other(const Buffer& radiance, const Texture2D& texture);
+    void stop_sending_other();
     /// New selection probabilities from the present solution.
     void refresh_power() const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
     /// solution_shooters.comp; at most 16.
     std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
 
+    /// Copies the solution of a store for the same patches; glossy parts stay as they are.
+    void adopt(const RadianceStore& other) const;
     /// Remembers the state before a change.
     void checkpoint() const;
-    /// phase_iterations: bundles of a special phase.
-    [[nodiscard]] SolutionStatistics statistics(float phase_iterations) const;
+    [[nodiscard]] SolutionStatistics statistics() const;
+    /// Sums of a reduction over all patches by statistics_groups groups of 256; see its shader.
+    [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const;
 
     /// Reads the counters back and clears them (synchronous, four numbers).
     layout::Counters take_counters() const;
@@ -78,12 +95,16 @@ class RadianceStore {
     std::uint32_t patch_count_, block_count_;
     Buffer radiance_, irradiance_, source_, accumulator_, counters_;
     Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
-    Buffer gloss_, chain_, sent_;  // only where the scene is glossy
+    float forgetting_ = 0.0F;
+    std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
+    Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
+    const Buffer* other_ = nullptr;
+    const Texture2D* other_texture_ = nullptr;
     Readback shooter_readback_;
-    ShaderProgram update_, correct_, power_sum_, power_scan_, power_density_, choose_;
+    ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
     ShaderProgram flux_sum_, balance_flux_;
-    ShaderProgram checkpoint_, statistics_, turn_gloss_, send_;
+    ShaderProgram checkpoint_, statistics_, turn_gloss_, send_, forget_;
 };
 
 }  // namespace raybundle

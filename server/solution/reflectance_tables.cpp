@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
@@ -59,28 +58,60 @@ layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_t
 }  // namespace
 
 ReflectanceTables::ReflectanceTables(const Scene& scene) {
-    std::map<Key, std::size_t> known;
     bool max_phong = false;
     for (const Material& material : scene.materials) {
-        const Brdf brdf = representative(scene, material);
-        const auto [it, inserted] = known.try_emplace(key_of(brdf), tables_.size());
-        if (inserted) {
-            tables_.emplace_back(brdf);
-        }
-        table_of_material_.push_back(it->second);
+        table_of_material_.push_back(table_for(scene, material));
         models_.push_back(reflectance_model(material));
-        specular_ |= brdf.lobe.kind != LobeKind::none;
+        const LobeKind kind = models_.back().lobe.kind;
+        specular_ |= kind != LobeKind::none;
         any_glossy_ |= glossy(models_.size() - 1);
-        max_phong |= brdf.lobe.kind == LobeKind::max_phong;
+        max_phong |= kind == LobeKind::max_phong;
     }
     if (max_phong) {
         defines_.emplace_back("MAX_PHONG 1");
     }
-    upload(scene);
+    upload();
 }
 
-void ReflectanceTables::upload(const Scene& scene) {
-    const std::size_t records = texels_per_record * scene.materials.size();
+/// Index of the table of a material, which is integrated where none is like it.
+std::size_t ReflectanceTables::table_for(const Scene& scene, const Material& material) {
+    const Brdf brdf = representative(scene, material);
+    const Key key = key_of(brdf);
+    const auto known = std::find(keys_.begin(), keys_.end(), key);
+    if (known != keys_.end()) {
+        return static_cast<std::size_t>(known - keys_.begin());
+    }
+    keys_.push_back(key);
+    tables_.emplace_back(brdf);
+    return tables_.size() - 1;
+}
+
+bool ReflectanceTables::covers(const Scene& scene, std::size_t material) const {
+    const Brdf brdf = representative(scene, scene.materials[material]);
+    if (brdf.lobe.kind == LobeKind::none || any_glossy_) {
+        return true;
+    }
+    return specular_ && ReflectanceTable(brdf).mean_importance() <= gloss_threshold;
+}
+
+void ReflectanceTables::update(const Scene& scene, std::size_t material) {
+    // The old table goes where nobody else has it: while a colour is dragged there would be more
+    // and more of them.
+    const std::size_t old = table_of_material_[material];
+    const bool shared = std::count(table_of_material_.begin(), table_of_material_.end(), old) > 1;
+    const Brdf brdf = representative(scene, scene.materials[material]);
+    if (!shared && std::find(keys_.begin(), keys_.end(), key_of(brdf)) == keys_.end()) {
+        keys_[old] = key_of(brdf);
+        tables_[old] = ReflectanceTable(brdf);
+    } else {
+        table_of_material_[material] = table_for(scene, scene.materials[material]);
+    }
+    models_[material] = reflectance_model(scene.materials[material]);
+    upload();
+}
+
+void ReflectanceTables::upload() {
+    const std::size_t records = texels_per_record * models_.size();
     const std::size_t texels = records + reflectance_nodes * tables_.size();
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
@@ -91,7 +122,7 @@ void ReflectanceTables::upload(const Scene& scene) {
                        " texels of reflectance do not fit into a buffer texture");
     }
     std::vector<layout::Reflectance> record;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    for (std::size_t i = 0; i < models_.size(); ++i) {
         record.push_back(
             record_of(models_[i], records + reflectance_nodes * table_of_material_[i], glossy(i)));
     }

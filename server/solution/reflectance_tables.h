@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ class ReflectanceTables {
     /// Integrates the tables on the CPU, about 6 ms for each distinct glossy BRDF, and uploads
     /// them. Throws GpuError if they exceed what a buffer texture holds.
     explicit ReflectanceTables(const Scene& scene);
+
+    /// Whether a material as it is in the scene now needs no macro of GpuScene::defines() that the
+    /// shaders were not compiled with.
+    [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
+    /// Takes over a material that has changed; it must be covered.
+    void update(const Scene& scene, std::size_t material);
 
     void bind() const;  ///< the buffer texture, to UNIT_REFLECTANCE
     /// Macros that brdf.glsl wants for this scene: MAX_PHONG.
@@ -46,9 +53,11 @@ class ReflectanceTables {
     [[nodiscard]] std::size_t bytes() const { return buffer_.bytes(); }
 
   private:
-    void upload(const Scene& scene);
+    void upload();
+    std::size_t table_for(const Scene& scene, const Material& material);
 
     std::vector<ReflectanceTable> tables_;
+    std::vector<std::array<float, 13>> keys_;  // of the tables
     std::vector<std::size_t> table_of_material_;
     std::vector<std::string> defines_;
     std::vector<ReflectanceModel> models_;

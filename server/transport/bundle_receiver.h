@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
 
 #include "solution/gpu_scene.h"
 
@@ -32,8 +34,15 @@ class BundleReceiver {
     virtual void discard_sample(float sample_weight) = 0;
     /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special(std::uint32_t moved_object) = 0;
-    /// All increments of the special phase have been received.
-    virtual void end_special(float phase_weight) = 0;
+    /// Surfaces have changed: what has been received so far is multiplied by `scale`. reflecting:
+    /// materials whose reflection is another. redraw: what is seen looks different by itself.
+    virtual void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
+                                bool redraw) = 0;
+    /// The increments so far count less: there will be more bundles than planned.
+    virtual void scale_special(float factor) = 0;
+    /// All increments of the special phase have been received. assumed_noise: their variance over
+    /// their square where the patches know nothing of it. most_weight: that anything keeps.
+    virtual void end_special(float assumed_noise, float most_weight) = 0;
 };
 
 }  // namespace raybundle

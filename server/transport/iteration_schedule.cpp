@@ -105,8 +105,10 @@ IterationSample IterationSchedule::next() {
 
 void IterationSchedule::sample_window(IterationSample& sample, const RandomisedHalton& numbers,
                                       std::uint64_t k) {
-    sample.row_phase = numbers.sample(rows, k) < 0.5 ? 0 : 1;
-    sample.direction = uniform_direction(numbers.sample(polar, k), numbers.sample(azimuth, k));
+    sample.row_phase = numbers.sample(rows, k);
+    // Light goes both ways: half of the sphere says it all, and more evenly.
+    sample.direction =
+        uniform_direction(0.5 * numbers.sample(polar, k), numbers.sample(azimuth, k));
     sample.angle = turn_range * numbers.sample(window_turn, k);
     sample.shift = {static_cast<float>(numbers.sample(shift_x, k)),
                     static_cast<float>(numbers.sample(shift_y, k))};
@@ -126,7 +128,7 @@ void IterationSchedule::sample_plane(IterationSample& sample, std::uint64_t k) c
 void IterationSchedule::sample_shooter(IterationSample& sample, std::uint64_t k) const {
     sample.strategy = Strategy::perspective;
     // A dimension of its own: the parity of k would go hand in hand with the choice of the patch.
-    sample.row_phase = numbers_.sample(rows, k) < 0.5 ? 0 : 1;
+    sample.row_phase = numbers_.sample(rows, k);
     const auto [leading, trailing] = split(numbers_.sample(choose_patch, k));
     sample.shooter_numbers = {leading, trailing, static_cast<float>(numbers_.sample(point_u, k)),
                               static_cast<float>(numbers_.sample(point_v, k))};

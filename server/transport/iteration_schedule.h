@@ -14,21 +14,22 @@ enum class Strategy { layered, plane, perspective };
 
 /// Probabilities of the strategies (ch. 6.2): the densities of all receivers use the same numbers.
 struct StrategyProbabilities {
-    float layered = 0.15F;      ///< P1
-    float plane = 0.0F;         ///< P2
-    float perspective = 0.85F;  ///< P3
+    float layered = 0.3F;      ///< P1
+    float plane = 0.0F;        ///< P2
+    float perspective = 0.7F;  ///< P3
 };
 
 /// The random numbers of one iteration.
 struct IterationSample {
     Strategy strategy = Strategy::perspective;
     unsigned batch = 0;  ///< which of the interleaved batches it belongs to, for the error estimate
-    glm::vec4 shooter_numbers{0.0F};        ///< perspective: see solution_shooters.comp
-    unsigned row_phase = 0;                 ///< which pixel rows sum for the patches
-    double angle = 0.0;                     ///< of the bundle about its z axis, radians
-    glm::vec3 direction{0.0F, 0.0F, 1.0F};  ///< parallel: uniform over the sphere
-    double plane = 0.0;     ///< where the plane splits the scene, share of R, [0, 1)
-    glm::vec2 shift{0.0F};  ///< of the samples in their pixels, [0, 1)
+    glm::vec4 shooter_numbers{0.0F};  ///< perspective: see solution_shooters.comp
+    double row_phase = 0.0;           ///< which pixel rows sum for the patches, [0, 1)
+    double angle = 0.0;               ///< of the bundle about its z axis, radians
+    glm::vec3 direction{0.0F, 0.0F,
+                        1.0F};  ///< parallel: uniform over half of the sphere, or all of it
+    double plane = 0.0;         ///< where the plane splits the scene, share of R, [0, 1)
+    glm::vec2 shift{0.0F};      ///< of the samples in their pixels, [0, 1)
 };
 
 /// Hands out iterations: one low-discrepancy sequence per strategy, dealt out to interleaved

@@ -62,7 +62,8 @@ std::uint64_t Solver::non_finite() const {
 }
 
 std::size_t Solver::bytes() const {
-    return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0);
+    return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0) +
+           (change_store_ ? change_store_->bytes() : 0);
 }
 
 void Solver::plan_group() {
@@ -96,6 +97,7 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
         last_strategy_.reset();
         phase_->step(receivers);
         if (phase_->done()) {
+            special_bundles_ = phase_->bundles();
             phase_.reset();
             scene_.settle();
             refresh_statistics();
@@ -121,8 +123,14 @@ float Solver::sample_weight() const {
 
 /// Step of the transferred iterate, see solution_update.comp.
 float Solver::iterate_step() const {
-    constexpr float exponent = 0.66F;
-    constexpr float smallest = 1.0F / 256.0F;
+    if (!settings_.main_part) {
+        return 1.0F;
+    }
+    // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
+    // unless the energy balance sets it. Only perspective bundles tell it what flux escapes.
+    const bool balanced = scene_.sky() == glm::vec3(0.0F) && probabilities_.perspective > 0.0F;
+    const float exponent = balanced ? 0.8F : 0.66F;
+    constexpr float smallest = 1.0F / 2048.0F;
     const auto age = static_cast<float>(changes_ == 0 ? iterations_ + 1
                                                       : std::min(iterations_, since_change_ + 32));
     return std::max(std::pow(age, -exponent), smallest);
@@ -136,6 +144,7 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.context.sample_weight = sample_weight();
     settings.batch = planned.sample.batch;
     settings.slot = slot;
+    settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
     settings.row_phase = planned.sample.row_phase;
     last_strategy_ = planned.sample.strategy;
     if (planned.sample.strategy == Strategy::perspective) {
@@ -189,23 +198,7 @@ void Solver::after_iteration() {
 }
 
 void Solver::refresh_statistics() {
-    statistics_ = store_.statistics(static_cast<float>(SpecialPhase::iterations));
-}
-
-void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_object,
-                         std::span<BundleReceiver* const> receivers) {
-    store_.bind();
-    store_.checkpoint();
-    scene_.move_object(object, world_from_object);
-    store_.turn_gloss(object, scene_.now_from_before(object));
-    for (BundleReceiver* receiver : receivers) {
-        receiver->begin_special(object);
-    }
-    group_.clear();
-    group_next_ = 0;
-    since_change_ = 0;
-    statistics_.settled = 0.0;
-    phase_.emplace(scene_, store_, *coarse_, object, mix_bits(settings_.seed) + ++changes_);
+    statistics_ = store_.statistics();
 }
 
 }  // namespace raybundle

@@ -11,6 +11,7 @@
 #include "solution/gpu_scene.h"
 #include "solution/radiance_store.h"
 #include "transport/iteration_schedule.h"
+#include "transport/scene_change.h"
 #include "transport/special_phase.h"
 #include "transport/strategy_mix.h"
 #include "transport/transfer.h"
@@ -23,10 +24,17 @@ struct SolverSettings {
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
     std::uint64_t coarse_iterations = 768;
-    float density_error = 1.0F;         ///< fault injection of tests: factor of the densities
-    bool ageing = false;                ///< probabilities follow ageing_mix() instead
+    float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
+    bool ageing = false;         ///< probabilities follow ageing_mix() instead
+    /// Iterations planned, M of eq. 5.6: perspective bundles trade bias for noise, most of all
+    /// without parallel ones, which bound their contributions anyway. 0: unbiased.
+    std::uint64_t noise_horizon = 0;
+    /// Patches send the average of what they reflected (ch. 4.4: separated main part). Otherwise
+    /// what the last bundle brought, as in plain stochastic iteration; to compare.
+    bool main_part = true;
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
+    SpecialSettings special;            ///< how changes are worked in
 };
 
 /// Stochastic iteration of the object-space solution: one bundle at a time to patches and
@@ -43,7 +51,27 @@ class Solver {
     /// Requires !correcting(). world_from_object is in the scene's own world.
     void move_object(std::uint32_t object, const glm::mat4& world_from_object,
                      std::span<BundleReceiver* const> receivers);
+    /// Lights or materials have changed in the scene: gives their patches their colours in the
+    /// mesh, and starts the special iteration phase. Requires !correcting(), covers() of each, and
+    /// the scene and mesh that the solver was made of. reflecting: those of the materials that
+    /// reflect otherwise, the rest emits otherwise only.
+    void change_surfaces(const Scene& scene, PatchMesh& mesh,
+                         std::span<const std::uint32_t> materials,
+                         std::span<const std::uint32_t> reflecting,
+                         std::span<BundleReceiver* const> receivers);
+    /// Whether the shaders of this solver can show a material as it is in the scene now; else a new
+    /// solver takes over, see adopt().
+    [[nodiscard]] bool covers(const Scene& scene, std::uint32_t material) const {
+        return scene_.reflectance().covers(scene, material);
+    }
+    /// Goes on where another solver is that does not cover some materials as they are now, of the
+    /// scene and mesh that this one was made of: keeps its mean irradiance and starts the special
+    /// phase for what these reflect otherwise. Requires !other.correcting().
+    void take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
+                   std::span<BundleReceiver* const> receivers);
     [[nodiscard]] bool correcting() const { return phase_.has_value(); }
+    /// Bundles of the last special phase's first stage, 0 before any.
+    [[nodiscard]] unsigned special_bundles() const { return special_bundles_; }
 
     /// Receivers may be exchanged now: no group of iterations is under way.
     [[nodiscard]] bool between_groups() const { return group_next_ >= group_.size(); }
@@ -70,6 +98,20 @@ class Solver {
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
     void finish_group(std::span<BundleReceiver* const> receivers);
     void after_iteration();
+    /// A change of lights or materials as it is worked in.
+    struct SurfaceChange {
+        glm::vec3 scale{1.0F};  ///< factor of the solution
+        std::span<const std::uint32_t> reflecting;
+        bool transfer = true;  ///< the factor is not all
+        bool redraw = true;
+        bool glossy = false;  ///< some of the reflecting are, or were
+    };
+    void work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers);
+    void note_change();
+    void start_phase(std::optional<std::uint32_t> moved, float most_weight);
+    [[nodiscard]] bool any_glossy(std::span<const std::uint32_t> materials) const;
+    void adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale);
+    ChangeStore& change_store();
     void refresh_statistics();
     [[nodiscard]] Transfer& transfer() { return fine_ ? *fine_ : *coarse_; }
     [[nodiscard]] float sample_weight() const;
@@ -83,7 +125,9 @@ class Solver {
     IterationSchedule schedule_;
     std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on
     float transient_;                          // iterations over which sample weights rise
+    std::optional<ChangeStore> change_store_;  // exists from the first change on
     std::optional<SpecialPhase> phase_;
+    unsigned special_bundles_ = 0;
     std::vector<Planned> group_;
     std::size_t group_next_ = 0;
     std::optional<Strategy> last_strategy_;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/special_phase.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 
 namespace raybundle {
 
 namespace {
 
-// Halton dimensions.
+// Halton dimensions; parallel bundles have numbers of their own in the same sequences.
 enum Dimension : unsigned {
     choose_patch = 0,
     point_u = 1,
@@ -19,99 +21,223 @@ enum Dimension : unsigned {
     shift_y = 7
 };
 
+constexpr unsigned second_stage = 64;       // first number of the second stage's bundles
+constexpr unsigned parallel_numbers = 128;  // and of parallel bundles' turns and shifts
+constexpr std::size_t shooters_at_once = 8;
+constexpr float unseen_share = 0.3F;     // of the light that has gone round more than once
+constexpr double relevant_noise = 0.01;  // of increments, relative to the irradiance
+
+/// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
+/// heuristic.
+unsigned layered_of(unsigned bundles) {
+    return bundles / 4;
+}
+
+/// Whether a bundle is a parallel one; they are spread evenly.
+bool is_layered(unsigned index, unsigned bundles) {
+    const unsigned i = index % bundles;
+    return (i + 1) * layered_of(bundles) / bundles > i * layered_of(bundles) / bundles;
+}
+
 }  // namespace
 
-SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, Transfer& transfer,
-                           std::uint32_t object, std::uint64_t seed)
+SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
+                           Transfer& transfer, const SpecialSettings& settings,
+                           std::optional<std::uint32_t> moved, std::uint64_t seed)
     : scene_(scene),
       store_(store),
+      change_(change),
       transfer_(transfer),
-      object_(object),
+      settings_(settings),
+      moved_(moved),
       numbers_(seed),
-      boxes_{scene.object_bounds(object, Place::now), scene.object_bounds(object, Place::before)} {
-    std::vector<glm::vec4> numbers;
-    for (unsigned i = 0; i < perspective_iterations; ++i) {
-        numbers.emplace_back(numbers_.sample(choose_patch, i + 1), 0.0,
-                             numbers_.sample(point_u, i + 1), numbers_.sample(point_v, i + 1));
+      bundles_(std::max(settings.bundles, 1U)) {
+    settings_.bundles = bundles_;
+    if (moved_) {
+        boxes_ = {scene.object_bounds(*moved_, Place::now),
+                  scene.object_bounds(*moved_, Place::before)};
     }
     store_.bind();
-    store_.refresh_power();
-    shooters_ = store_.choose_shooters(numbers);
+    change_.begin();
+    if (moved_) {
+        store_.refresh_power();
+    } else {
+        change_.send();
+    }
+}
+
+std::vector<glm::vec4> SpecialPhase::shooter_numbers(unsigned first, unsigned count) const {
+    std::vector<glm::vec4> numbers;
+    for (unsigned i = first; i < first + count; ++i) {
+        const unsigned n = first_number_ + i + 1;
+        numbers.emplace_back(numbers_.sample(choose_patch, n), 0.0, numbers_.sample(point_u, n),
+                             numbers_.sample(point_v, n));
+    }
+    return numbers;
+}
+
+/// Shooters of the next few bundles, which do not change what is sent.
+void SpecialPhase::choose_source_shooters() {
+    const auto numbers = shooter_numbers(next_, shooters_at_once);
+    store_.bind();
+    shooters_ = moved_ ? store_.choose_shooters(numbers) : change_.choose_shooters(numbers);
 }
 
 TransferSettings SpecialPhase::transfer_settings(Place place) const {
+    const unsigned all = bouncing_ ? settings_.bounces : settings_.bundles;
     TransferSettings settings;
-    // Both kinds are drawn in fixed numbers: the deterministic mixture of the balance heuristic.
-    settings.probabilities.layered = static_cast<float>(layered_iterations) / iterations;
-    settings.probabilities.perspective = static_cast<float>(perspective_iterations) / iterations;
+    settings.probabilities.layered = static_cast<float>(layered_of(all)) / static_cast<float>(all);
+    settings.probabilities.perspective = 1.0F - settings.probabilities.layered;
     const float sign = place == Place::now ? 1.0F : -1.0F;
-    settings.weight = sign / static_cast<float>(iterations);
+    settings.weight = sign / static_cast<float>(bouncing_ ? settings_.bounces : bundles_);
     settings.coloured = true;
     settings.context.place = place;
     settings.context.sample_weight = 0.0F;
     settings.context.special = true;
-    settings.context.moved_object = object_;
+    settings.context.moved_object = moved_.value_or(NO_PATCH);
     return settings;
 }
 
 void SpecialPhase::step(std::span<BundleReceiver* const> receivers) {
-    if (done()) {
+    if (done_) {
         return;
     }
-    if (next_ < perspective_iterations) {
-        perspective(shooters_[next_],
-                    static_cast<float>(numbers_.sample(turn, next_ + 1)) * glm::two_pi<float>(),
-                    receivers);
+    if (settings_.skipped) {
+        finish(receivers);
+    } else if (bouncing_) {
+        step_bounce(receivers);
     } else {
-        layered(numbers_, next_ - perspective_iterations + 1, receivers);
-    }
-    if (++next_ < iterations) {
-        return;
-    }
-    store_.bind();
-    constexpr auto phase_weight = static_cast<float>(iterations);
-    store_.correct(phase_weight);
-    for (BundleReceiver* receiver : receivers) {
-        receiver->end_special(phase_weight);
+        step_source(receivers);
     }
 }
 
-void SpecialPhase::perspective(const layout::Shooter& shooter, float angle,
-                               std::span<BundleReceiver* const> receivers) {
-    const bool carried = shooter.object == object_;
-    const glm::vec2 pixel_shift(numbers_.sample(shift_x, next_ + 1) - 0.5,
-                                numbers_.sample(shift_y, next_ + 1) - 0.5);
+void SpecialPhase::step_source(std::span<BundleReceiver* const> receivers) {
+    if (next_ % shooters_at_once == 0) {
+        choose_source_shooters();
+    }
+    if (is_layered(next_, settings_.bundles)) {
+        layered(next_, receivers);
+    } else if (moved_) {
+        move_perspective(shooters_[next_ % shooters_at_once], next_, receivers);
+    } else {
+        perspective(shooters_[next_ % shooters_at_once], next_, receivers);
+    }
+    store_.bind();
+    change_.take(bundles_);
+    if (++next_ >= bundles_) {
+        end_source(receivers);
+    }
+}
+
+/// Ends the first stage, or prolongs it where its bundles disagree too much.
+void SpecialPhase::end_source(std::span<BundleReceiver* const> receivers) {
+    if (bundles_ == settings_.bundles && settings_.most_bundles >= 2 * bundles_) {
+        const ChangeNoise noise = change_.noise(bundles_);
+        const double wanted = std::max(static_cast<double>(settings_.noise),
+                                       relevant_noise / std::max(noise.change, 1e-6));
+        unsigned more = bundles_;
+        for (double error = noise.relative; error > wanted && 2 * more <= settings_.most_bundles;
+             error /= std::sqrt(2.0)) {
+            more *= 2;
+        }
+        if (more > bundles_) {
+            for (BundleReceiver* receiver : receivers) {
+                receiver->scale_special(static_cast<float>(bundles_) / static_cast<float>(more));
+            }
+            bundles_ = more;
+            return;
+        }
+    }
+    change_.fold(bundles_, 0.0F);
+    next_ = 0;
+    bouncing_ = settings_.bounces > 0;
+    first_number_ = second_stage;
+    if (!bouncing_) {
+        finish(receivers);
+    }
+}
+
+void SpecialPhase::step_bounce(std::span<BundleReceiver* const> receivers) {
+    store_.bind();
+    change_.reflect(next_);
+    change_.send();
+    if (is_layered(next_, settings_.bounces)) {
+        layered(next_, receivers);
+    } else {
+        perspective(change_.choose_shooters(shooter_numbers(next_, 1)).front(), next_, receivers);
+    }
+    store_.bind();
+    change_.take(settings_.bounces);
+    if (++next_ >= settings_.bounces) {
+        change_.fold(settings_.bounces, unseen_share);
+        finish(receivers);
+    }
+}
+
+void SpecialPhase::finish(std::span<BundleReceiver* const> receivers) {
+    change_.stop_sending();
+    change_.correct(settings_.most_weight);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->end_special(1.0F / static_cast<float>(bundles_), settings_.most_weight);
+    }
+    done_ = true;
+}
+
+/// The same bundle before and after the move.
+void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned index,
+                                    std::span<BundleReceiver* const> receivers) {
+    const unsigned n = first_number_ + index + 1;
+    const float angle = static_cast<float>(numbers_.sample(turn, n)) * glm::two_pi<float>();
+    const bool carried = shooter.object == *moved_;
+    const glm::vec2 pixel_shift(numbers_.sample(shift_x, n) - 0.5,
+                                numbers_.sample(shift_y, n) - 0.5);
     for (const Place place : {Place::before, Place::now}) {
         BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
-        frame.pixel_shift = pixel_shift;
         if (carried && place == Place::before) {
             const glm::mat4 before_from_now =
-                scene_.world_from_object(object_, Place::before) *
-                glm::inverse(scene_.world_from_object(object_, Place::now));
+                scene_.world_from_object(*moved_, Place::before) *
+                glm::inverse(scene_.world_from_object(*moved_, Place::now));
             const auto rotate = glm::transpose(glm::inverse(glm::mat3(before_from_now)));
             frame = make_frame(glm::vec3(before_from_now * glm::vec4(shooter.position, 1.0F)),
                                glm::normalize(rotate * shooter.normal), angle);
-            frame.pixel_shift = pixel_shift;
         }
+        frame.pixel_shift = pixel_shift;
         // A shooter on the object moves with it: everything that it sees changes.
-        const auto rectangles =
-            carried ? transfer_.hemicube().full() : transfer_.hemicube().covering(frame, boxes_);
+        const auto rectangles = carried || !settings_.scissored
+                                    ? transfer_.hemicube().full()
+                                    : transfer_.hemicube().covering(frame, boxes_);
         transfer_.perspective(frame, shooter, rectangles, transfer_settings(place), receivers);
     }
 }
 
-void SpecialPhase::layered(const RandomisedHalton& numbers, unsigned index,
-                           std::span<BundleReceiver* const> receivers) {
+/// What is sent with the objects where they are now.
+void SpecialPhase::perspective(const layout::Shooter& shooter, unsigned index,
+                               std::span<BundleReceiver* const> receivers) {
+    const unsigned n = first_number_ + index + 1;
+    const float angle = static_cast<float>(numbers_.sample(turn, n)) * glm::two_pi<float>();
+    BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
+    frame.pixel_shift = {numbers_.sample(shift_x, n) - 0.5, numbers_.sample(shift_y, n) - 0.5};
+    transfer_.perspective(frame, shooter, transfer_.hemicube().full(),
+                          transfer_settings(Place::now), receivers);
+}
+
+void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> receivers) {
+    const unsigned n = first_number_ + index + 1;
+    const unsigned m = n + parallel_numbers;
     IterationSample sample;
-    sample.direction =
-        uniform_direction(numbers.sample(polar, index), numbers.sample(azimuth, index));
-    sample.angle = numbers.sample(turn, index + iterations) * glm::two_pi<double>();
-    sample.shift = {static_cast<float>(numbers.sample(point_u, index + iterations)),
-                    static_cast<float>(numbers.sample(point_v, index + iterations))};
+    sample.direction = uniform_direction(numbers_.sample(polar, n), numbers_.sample(azimuth, n));
+    sample.angle = numbers_.sample(turn, m) * glm::two_pi<double>();
+    sample.shift = {static_cast<float>(numbers_.sample(point_u, m)),
+                    static_cast<float>(numbers_.sample(point_v, m))};
     const ParallelWindow window = transfer_.parallel_window(sample);
-    const PixelRectangle rectangle = window.covering(boxes_);
+    const bool both = moved_ && !bouncing_;
+    const PixelRectangle rectangle =
+        both && settings_.scissored ? window.covering(boxes_) : window.full();
     transfer_.take_overflow();
     for (const Place place : {Place::before, Place::now}) {
+        if (place == Place::before && !both) {
+            continue;
+        }
         do {
             transfer_.layered(window, rectangle, transfer_settings(place), receivers);
         } while (transfer_.take_overflow() != 0);

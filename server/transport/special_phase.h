@@ -3,52 +3,69 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "solution/change_store.h"
 #include "solution/gpu_scene.h"
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "transport/iteration_schedule.h"
+#include "transport/scene_change.h"
 #include "transport/transfer.h"
 
 namespace raybundle {
 
-/// The special iteration phase (ch. 7.4) for one moved object: every special iteration transfers -L
-/// with the object at its old place, then +L with the object at its new place, through one and the
-/// same bundle; the averaged increments T_new L - T L join the solution at the end. Lines that meet
-/// neither the old nor the new bounds of the object cancel, so only the pixels that can see them
-/// are drawn.
+/// The special iteration phase (ch. 7.4),  dL = (Le_new - Le + T_new L - T L) + T_new dL,  in two
+/// stages. The first transfers the source term: of a move, -L with the object at its old place and
+/// +L with it at its new place through one and the same bundle, where lines that meet neither
+/// cancel and only the pixels that can see either are drawn; of changed surfaces, what they send
+/// more than before. The second carries the increments on, T_new dL, each bundle with all that has
+/// come in by then. The averaged increments join the solution at the end.
 class SpecialPhase {
   public:
-    static constexpr unsigned perspective_iterations = 6;
-    static constexpr unsigned layered_iterations = 2;
-    static constexpr unsigned iterations = perspective_iterations + layered_iterations;
-
-    /// The object must already be at its new place (GpuScene::move_object). seed: any number,
-    /// different for every change.
-    SpecialPhase(const GpuScene& scene, RadianceStore& store, Transfer& transfer,
-                 std::uint32_t object, std::uint64_t seed);
+    /// moved: the object that is at its new place already (GpuScene::move_object), or nothing where
+    /// surfaces have changed (ChangeStore::set_source). seed: any number, different for every
+    /// change.
+    SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
+                 Transfer& transfer, const SpecialSettings& settings,
+                 std::optional<std::uint32_t> moved, std::uint64_t seed);
 
     /// One special iteration. The last one also applies the increments.
     void step(std::span<BundleReceiver* const> receivers);
-    [[nodiscard]] bool done() const { return next_ >= iterations; }
+    [[nodiscard]] bool done() const { return done_; }
+    /// Bundles of the first stage: chosen while it runs.
+    [[nodiscard]] unsigned bundles() const { return bundles_; }
 
   private:
-    void perspective(const layout::Shooter& shooter, float angle,
+    void choose_source_shooters();
+    void step_source(std::span<BundleReceiver* const> receivers);
+    void step_bounce(std::span<BundleReceiver* const> receivers);
+    void end_source(std::span<BundleReceiver* const> receivers);
+    void finish(std::span<BundleReceiver* const> receivers);
+    void move_perspective(const layout::Shooter& shooter, unsigned index,
+                          std::span<BundleReceiver* const> receivers);
+    void perspective(const layout::Shooter& shooter, unsigned index,
                      std::span<BundleReceiver* const> receivers);
-    void layered(const RandomisedHalton& numbers, unsigned index,
-                 std::span<BundleReceiver* const> receivers);
+    void layered(unsigned index, std::span<BundleReceiver* const> receivers);
     [[nodiscard]] TransferSettings transfer_settings(Place place) const;
+    [[nodiscard]] std::vector<glm::vec4> shooter_numbers(unsigned first, unsigned count) const;
 
     const GpuScene& scene_;
     RadianceStore& store_;
+    ChangeStore& change_;
     Transfer& transfer_;
-    std::uint32_t object_;
+    SpecialSettings settings_;
+    std::optional<std::uint32_t> moved_;
     RandomisedHalton numbers_;
-    std::array<Bounds, 2> boxes_;  // of the object, now and before, shifted world
+    std::array<Bounds, 2> boxes_;  // of the moved object, now and before, shifted world
     std::vector<layout::Shooter> shooters_;
-    unsigned next_ = 0;
+    unsigned bundles_;           // of the first stage
+    unsigned next_ = 0;          // bundle of the running stage
+    unsigned first_number_ = 0;  // of the running stage in the sequences
+    bool bouncing_ = false;      // the second stage runs
+    bool done_ = false;
 };
 
 }  // namespace raybundle

@@ -23,7 +23,7 @@ StrategyMix with_sky(const StrategyMix& mix, const Scene& scene) {
     if (luminance(scene.sky_radiance) <= 0.0F) {
         return mix;
     }
-    const float least = scene.lights.empty() ? 0.75F : 0.4F;
+    const float least = has_emitter(scene) ? 0.4F : 0.75F;
     const auto raised = [least](StrategyProbabilities p) {
         if (p.layered > 0.0F && p.perspective > 0.0F) {
             p.layered = std::max(p.layered, least);

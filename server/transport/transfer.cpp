@@ -7,10 +7,29 @@ namespace raybundle {
 
 namespace {
 
-constexpr unsigned run_length = 8;  // pixels that one thread sums, transport_hemicube_patches.comp
+// Pixels of a row that one invocation sums.
+constexpr unsigned hemicube_run = 8;  // run_length of transport_hemicube_patches.comp
+constexpr unsigned parallel_run = 32;
+/// Longer lists are sorted by one invocation each: llvmpipe ends an invocation's loops after 65 535
+/// rounds, all loops together.
+constexpr std::uint32_t longest_list_in_runs = 32;
+
+unsigned layers_run(std::uint32_t capacity) {
+    return capacity > longest_list_in_runs ? 1 : parallel_run;
+}
+
+/// Program of a parallel bundle whose invocations sum `run` pixels each.
+ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, unsigned run) {
+    std::vector<std::string> defines = scene.defines();
+    defines.push_back("RUN_LENGTH " + std::to_string(run));
+    return ShaderProgram({file}, defines);
+}
 /// Patches are summed over every row_stride-th pixel row: unbiased, since the phase is drawn at
-/// random, and the noise that it adds is far below that of the choice of the bundle.
-constexpr unsigned row_stride = 2;
+/// random, and the noise that it adds is below that of the choice of the bundle (Cornell box,
+/// 512x512, 300 iterations, 8 seeds: relRMSE 4.4, 3.7, 4.3 % for 2, 4, 8). The few bundles of a
+/// special phase sample more.
+constexpr unsigned row_stride = 4;
+constexpr unsigned special_row_stride = 2;
 constexpr float near_share = 1e-6F;  // of the scene's diameter: nearer surfaces are not seen
 constexpr float tie_share = 4e-6F;   // of the scene's diameter: closer surfaces coincide
 
@@ -19,10 +38,11 @@ glm::ivec4 to_vector(const PixelRectangle& r) {
 }
 
 /// Which of so many pixel rows a transfer samples. Returns how many.
-unsigned set_rows(const ShaderProgram& program, int rows, unsigned row_phase) {
-    program.set("row_stride", row_stride);
-    program.set("row_phase", row_phase % row_stride);
-    return (static_cast<unsigned>(rows) + row_stride - 1) / row_stride;
+unsigned set_rows(const ShaderProgram& program, int rows, const TransferSettings& settings) {
+    const unsigned stride = settings.context.special ? special_row_stride : row_stride;
+    program.set("row_stride", stride);
+    program.set("row_phase", static_cast<unsigned>(settings.row_phase * stride));
+    return (static_cast<unsigned>(rows) + stride - 1) / stride;
 }
 
 }  // namespace
@@ -37,7 +57,8 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_patches_({"transport_layers_patches.comp"}, scene.defines()) {
+      layers_run_(layers_run(layers_.capacity())),
+      layers_patches_(parallel_program("transport_layers_patches.comp", scene, layers_run_)) {
     if (scene.reflectance().any_glossy()) {
         hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
                                                  with(scene.defines(), "SHOOTER_GLOSSY 1"));
@@ -88,6 +109,8 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     store_.bind();
     layout::BundleParameters p = common_parameters(frame, settings);
     p.densities.w = shooter.density;
+    p.axis_z.w = shooter.probability;
+    p.weights.z = 2.0F * glm::pi<float>() * settings.noise_horizon;
     p.axis_x.w = frame.pixel_shift.x;
     p.axis_y.w = frame.pixel_shift.y;
     p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());
@@ -104,13 +127,13 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
                                                        : hemicube_patches_;
     set_bases(patches, place);
     const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
-        const auto columns = static_cast<unsigned>(r.width() + run_length - 1) / run_length;
+        const auto columns = static_cast<unsigned>(r.width() + hemicube_run - 1) / hemicube_run;
         patches.set("first_column", static_cast<unsigned>(r.x0));
         patches.set("last_column", static_cast<unsigned>(r.x1));
         patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
         patches.set("run_columns", columns);
         patches.set("rows", static_cast<unsigned>(r.height()));
-        const unsigned sampled = set_rows(patches, r.height(), settings.row_phase);
+        const unsigned sampled = set_rows(patches, r.height(), settings);
         patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
     };
     if (!settings.context.special) {  // all faces are one stacked picture
@@ -157,12 +180,14 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
 
     layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
     layers_patches_.set("first_row", static_cast<unsigned>(rectangle.y0));
-    layers_patches_.set("columns", static_cast<unsigned>(rectangle.width()));
+    layers_patches_.set("last_column", static_cast<unsigned>(rectangle.x1));
+    const auto columns = (static_cast<unsigned>(rectangle.width()) + layers_run_ - 1) / layers_run_;
+    layers_patches_.set("run_columns", columns);
     layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
     layers_patches_.set("slot", settings.slot);
     set_bases(layers_patches_, place);
-    const unsigned rows = set_rows(layers_patches_, rectangle.height(), settings.row_phase);
-    layers_patches_.dispatch(static_cast<std::size_t>(rectangle.width()) * rows);
+    const unsigned rows = set_rows(layers_patches_, rectangle.height(), settings);
+    layers_patches_.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_layers(settings.context);
     }
@@ -172,7 +197,7 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
                      std::span<BundleReceiver* const> receivers) {
     if (!planes_) {
         planes_ = Planes{PlaneWindow(layers_.size(), scene_.defines()),
-                         ShaderProgram({"transport_planes_patches.comp"}, scene_.defines())};
+                         parallel_program("transport_planes_patches.comp", scene_, parallel_run)};
     }
     const Place place = settings.context.place;
     store_.bind();
@@ -180,10 +205,10 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
     store_.send_along_bundle(place);
     planes_->pictures.draw(scene_, window, place);
     planes_->pictures.bind_textures();
-    const auto columns = static_cast<unsigned>(window.size + run_length - 1) / run_length;
+    const auto columns = static_cast<unsigned>(window.size + parallel_run - 1) / parallel_run;
     planes_->patches.set("run_columns", columns);
     set_bases(planes_->patches, place);
-    const unsigned rows = set_rows(planes_->patches, window.size, settings.row_phase);
+    const unsigned rows = set_rows(planes_->patches, window.size, settings);
     planes_->patches.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_planes(settings.context);
@@ -205,6 +230,11 @@ std::uint32_t Transfer::take_overflow() {
     non_finite_ += counters.non_finite;
     if (counters.overflow_mask != 0) {
         layers_.grow(counters.wanted + counters.wanted / 4);
+        if (layers_run_ != layers_run(layers_.capacity())) {
+            layers_run_ = layers_run(layers_.capacity());
+            layers_patches_ =
+                parallel_program("transport_layers_patches.comp", scene_, layers_run_);
+        }
     }
     return counters.overflow_mask;
 }

@@ -27,9 +27,12 @@ struct TransferSettings {
     float density_error = 1.0F;  ///< fault injection of tests
     float weight = 1.0F;         ///< factor of patch contributions; negative in a special phase
     unsigned batch = 0;
-    unsigned row_phase = 0;  ///< which of the sampled rows, see row_stride in transfer.cpp
-    unsigned slot = 0;       ///< of a layered iteration in its group, for take_overflow()
-    bool coloured = false;   ///< patch sums carry the shooter's radiance (special phase)
+    double row_phase =
+        0.0;            ///< which pixel rows are sampled, [0, 1), see row_stride in transfer.cpp
+    unsigned slot = 0;  ///< of a layered iteration in its group, for take_overflow()
+    /// Iterations M over which perspective bundles trade bias for noise (ch. 5.4); 0: never.
+    float noise_horizon = 0.0F;
+    bool coloured = false;  ///< patch sums carry the shooter's radiance (special phase)
     BundleReceiver::Context context;
 };
 
@@ -74,6 +77,7 @@ class Transfer {
     LayeredWindow layers_;
     Buffer parameters_;
     ShaderProgram hemicube_patches_, hemicube_patches_coloured_, hemicube_patches_glossy_;
+    unsigned layers_run_;  // pixels that an invocation of layers_patches_ sums
     ShaderProgram layers_patches_;
     /// Exists from the first plane bundle on.
     struct Planes {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "gpu/gl_scope.h"
@@ -73,6 +74,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       resolve_moved(make_resolve(scene, {"REPROJECT 1", "MOVED 1"})),
       compose_linear({"view_compose.comp"}, with(scene.defines(), "LINEAR 1")),
       correct({"view_correct.comp"}, scene.defines()),
+      scale({"view_scale.comp"}, scene.defines()),
+      scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
       vertex_irradiance({"view_vertex_irradiance.comp"}),
       statistics({"view_statistics.comp"}, scene.defines()),
       probe({"view_probe.comp"}, scene.defines()),
@@ -80,13 +83,17 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       hemicube_pixels_special(make_receive_hemicube(scene, {"SPECIAL 1"})),
       layers_pixels(make_receive("transport_layers_pixels.comp", scene, {})),
       layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})),
-      planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})) {
+      planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})),
+      edges(scene) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
     for (std::size_t i = 0; i < modes.size(); ++i) {
         const auto defines = with(scene.defines(), modes[i]);
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
+    }
+    if (!scene.punctual_lights().empty()) {
+        first_shot = ShaderProgram({"view_first_shot.comp"}, scene.defines());
     }
 }
 
@@ -125,11 +132,15 @@ void ViewerImage::allocate() {
     delta_.clear();
     batches_.clear();
     create_pixel_textures();
+    edges_.emplace(size_);
     if (scene_.reflectance().specular()) {
         specular_.emplace(pixels);
     }
     if (scene_.reflectance().any_glossy()) {
         allocate_gloss();
+    }
+    if (store_.first_shot() != nullptr) {
+        allocate_first_shot();
     }
     has_picture_ = false;
 }
@@ -142,6 +153,22 @@ void ViewerImage::allocate_gloss() {
     gloss_delta_.clear();
     gloss_texture_ = create_buffer_texture("pixel gloss", GL_RGBA32F, gloss_);
     old_gloss_texture_ = create_buffer_texture("old pixel gloss", GL_RGBA32F, old_gloss_);
+}
+
+void ViewerImage::allocate_first_shot() {
+    const std::size_t values = scene_.reflectance().any_glossy() ? 2 : 1;
+    first_shot_ = Buffer("pixel first shot", values * pixel_count(size_) * sizeof(glm::vec4));
+    first_shot_texture_ = create_buffer_texture("pixel first shot", GL_RGBA32F, first_shot_);
+}
+
+/// Light of punctual lights at the pixels.
+void ViewerImage::shoot_first() const {
+    if (store_.first_shot() == nullptr) {
+        return;
+    }
+    const GlScope scope("pixel first shot");
+    store_.first_shot()->set_uniforms(programs_.first_shot);
+    programs_.first_shot.dispatch(pixel_count(size_));
 }
 
 void ViewerImage::create_pixel_textures() {
@@ -172,6 +199,36 @@ void ViewerImage::upload_view() {
     view_.bind_uniform(BINDING_VIEW);
 }
 
+void ViewerImage::raster(const glm::mat4& clip_from_world) const {
+    const GlScope scope("view raster");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
+    const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
+    const float far_depth = 0.0F;
+    glClearBufferuiv(GL_COLOR, 0, no_hit);
+    glClearBufferfv(GL_DEPTH, 0, &far_depth);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    programs_.raster.use();
+    programs_.raster.set("clip_from_world", clip_from_world);
+    scene_.draw(Place::now, clip_from_world, true, programs_.raster);
+    glDisable(GL_DEPTH_TEST);
+}
+
+bool ViewerImage::smooth_step() {
+    if (!has_picture_ || edges_->complete()) {
+        return false;
+    }
+    // A sub-sample at +x sees what the centre sees of a picture shifted by -x.
+    const glm::vec2 shift = -2.0F * edges_->next_offset() / glm::vec2(size_);
+    raster(glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world);
+    store_.bind();
+    bind_pixels();
+    glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
+    edges_->count(programs_.edges);
+    return !edges_->complete();
+}
+
 void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object) {
     old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x};
     const glm::vec4 display = parameters_.display;
@@ -180,21 +237,7 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     parameters_.display = display;
     parameters_.sky = glm::vec4(scene_.sky(), 0.0F);
     upload_view();
-    {
-        const GlScope scope("view raster");
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-        glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
-        const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
-        const float far_depth = 0.0F;
-        glClearBufferuiv(GL_COLOR, 0, no_hit);
-        glClearBufferfv(GL_DEPTH, 0, &far_depth);
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_GREATER);
-        programs_.raster.use();
-        programs_.raster.set("clip_from_world", parameters_.clip_from_world);
-        scene_.draw(Place::now, parameters_.clip_from_world, true, programs_.raster);
-        glDisable(GL_DEPTH_TEST);
-    }
+    raster(parameters_.clip_from_world);
     std::swap(pixels_, old_pixels_);
     std::swap(irradiance_, old_irradiance_);
     std::swap(pixel_texture_, old_pixel_texture_);
@@ -211,7 +254,9 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
             : moved_object == NO_PATCH           ? programs_.resolve_reprojected
                                                  : programs_.resolve_moved,
             kept_weight, moved_object);
+    shoot_first();
     batches_.clear();
+    edges_->restart();
     samples_ = 0;
     has_picture_ = true;
 }
@@ -258,6 +303,10 @@ void ViewerImage::bind_pixels() const {
     glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
     if (specular_) {
         specular_->bind();
+    }
+    if (first_shot_.bytes() > 0) {
+        first_shot_.bind_storage(BINDING_PIXEL_FIRST_SHOT);
+        glBindTextureUnit(UNIT_PIXEL_FIRST_SHOT, first_shot_texture_.get());
     }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_PIXEL_GLOSS);
@@ -306,23 +355,6 @@ void ViewerImage::discard_sample(float sample_weight) {
     parameters_.weights.y -= sample_weight / BATCHES;
 }
 
-void ViewerImage::begin_special(std::uint32_t moved_object) {
-    refresh_geometry(1.0F, moved_object);
-    delta_.clear();
-    if (gloss_delta_.bytes() > 0) {
-        gloss_delta_.clear();
-    }
-}
-
-void ViewerImage::end_special(float phase_weight) {
-    upload_view();
-    bind_pixels();
-    batches_.clear();
-    parameters_.weights.y = 0.0F;
-    programs_.correct.set("phase_weight", phase_weight);
-    programs_.correct.dispatch(pixel_count(size_));
-}
-
 void ViewerImage::interpolate_vertices() {
     store_.bind();
     bind_pixels();
@@ -352,7 +384,9 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     program.set("frame_height", frame_size.y);
     program.dispatch(pixel_count(frame_size));
     frame_bytes_ = pixel_count(frame_size) * sizeof(std::uint32_t);
-    frame_readback_->request(frame_, frame_bytes_);
+    const bool smoothed = frame_size == size_ && edges_->complete();
+    frame_readback_->request(smoothed ? edges_->average(programs_.edges, frame_) : frame_,
+                             frame_bytes_);
 }
 
 std::span<const std::uint8_t> ViewerImage::take() {
@@ -363,12 +397,15 @@ std::vector<glm::vec4> ViewerImage::read_radiance() {
     interpolate_vertices();
     parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
     upload_view();
-    const Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
+    Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
     linear.bind_storage(BINDING_FRAME);
     programs_.compose_linear.set("triangle_count", scene_.triangle_count());
     programs_.compose_linear.set("frame_width", size_.x);
     programs_.compose_linear.set("frame_height", size_.y);
     programs_.compose_linear.dispatch(pixel_count(size_));
+    if (edges_->complete()) {
+        linear = edges_->average_linear(programs_.edges, linear);
+    }
     std::vector<glm::vec4> result(pixel_count(size_));
     linear.read<glm::vec4>(result);
     return result;
@@ -472,10 +509,10 @@ float ViewerImage::automatic_exposure() const {
 }
 
 std::size_t ViewerImage::bytes() const {
-    std::size_t sum = pixel_count(size_) * 8;
+    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes();
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
-          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_}) {
+          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -14,6 +14,7 @@
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "view/camera_matrices.h"
+#include "view/edge_filter.h"
 #include "view/specular_groups.h"
 
 namespace raybundle {
@@ -60,7 +61,8 @@ struct ViewPrograms {
     Resolve resolve_new, resolve_reprojected, resolve_moved;
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
-    ShaderProgram correct, vertex_irradiance, statistics, probe;
+    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, probe;
+    ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
         ShaderProgram all, glossy;
@@ -70,6 +72,7 @@ struct ViewPrograms {
     };
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
+    EdgePrograms edges;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -87,13 +90,26 @@ class ViewerImage : public BundleReceiver {
     /// Samples taken since the camera last moved.
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
 
+    /// Antialiasing of a picture whose camera rests, in slices of one raster each. Frames of full
+    /// size and radiance have smooth edges once it is complete, until camera, size or an object
+    /// changes. Does one slice; false where nothing is left to do.
+    bool smooth_step();
+    void smooth() {
+        while (smooth_step()) {
+        }
+    }
+    [[nodiscard]] bool smoothed() const { return edges_->complete(); }
+
     // BundleReceiver
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
     void discard_sample(float sample_weight) override;
     void begin_special(std::uint32_t moved_object) override;
-    void end_special(float phase_weight) override;
+    void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
+                        bool redraw) override;
+    void scale_special(float factor) override;
+    void end_special(float assumed_noise, float most_weight) override;
 
     /// Composes the picture with an exposure (EV: display white is 2^-exposure * a mid-grey scale;
     /// see display_factor()) and queues its readback. finished() and take() deliver it.
@@ -107,7 +123,8 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] bool finished() const { return frame_readback_->ready(); }
     /// RGBA bytes, row 0 at the top; valid until the next compose().
     std::span<const std::uint8_t> take();
-    /// Linear radiance of all pixels, cd/m², row 0 at the top. Synchronous.
+    /// Linear radiance of all pixels, cd/m², row 0 at the top: at their centres, or once smoothed()
+    /// means over their areas. Synchronous.
     std::vector<glm::vec4> read_radiance();
     /// Mean irradiance at the pixels as accumulated (lx, w = weight), row 0 at the bottom.
     /// Synchronous.
@@ -134,10 +151,14 @@ class ViewerImage : public BundleReceiver {
                  std::uint32_t moved_object);
     void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
     void allocate_gloss();
+    void allocate_first_shot();
+    void shoot_first() const;
+    void raster(const glm::mat4& clip_from_world) const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
     void receive(const ViewPrograms::Receive& programs, const Context& context);
+    void clear_increments() const;
     void interpolate_vertices();
     void evaluate(std::span<const glm::vec4> partial);
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
@@ -160,8 +181,11 @@ class ViewerImage : public BundleReceiver {
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
+    std::optional<EdgeFilter> edges_;         // always
     std::optional<SpecularGroups> specular_;  // only where the scene is specular
     Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
+    Buffer first_shot_;                       // only where it has punctual lights
+    Texture2D first_shot_texture_;
     Texture2D gloss_texture_, old_gloss_texture_;
     Texture2D surface_ids_, depths_;
     Texture2D pixel_texture_, old_pixel_texture_, irradiance_texture_, old_irradiance_texture_;

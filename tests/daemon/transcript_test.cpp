@@ -146,7 +146,8 @@ TEST_P(TranscriptTest, IsStillTrue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Protocol10, TranscriptTest,
-                         testing::Values("hello", "camera", "move", "errors", "version", "review"),
+                         testing::Values("hello", "camera", "move", "light", "undo", "errors",
+                                         "version", "review"),
                          [](const auto& test) { return test.param; });
 
 TEST(TranscriptDifference, FindsWhatIsMissingOrOther) {

@@ -2,8 +2,8 @@
 // The methods that find all light, against path tracing and closed forms. Each renders small
 // pictures with several seeds; pixels are compared by Welch's t test with the scatter over the
 // seeds. For 16 seeds and the fewer degrees of freedom (15) of two samples, 7.5 standard errors are
-// passed by chance with a probability of 2e-6; over the 64 pixels, 3 colours, 8 pairs compared here
-// the Sidak-corrected level is 3e-3. The mean of a picture is held to 5.5: 6e-5.
+// passed by chance with a probability of 2e-6; over the 64 pixels, 3 colours, 20 pairs compared
+// here the Sidak-corrected level is 8e-3. The mean of a picture is held to 5.5: 6e-5.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <string>
 
+#include "lit_room.h"
 #include "reference/reference_method.h"
 #include "rooms.h"
 
@@ -126,8 +127,17 @@ View screened_view(std::size_t material) {
     return view;
 }
 
-/// The same number of views as glossy_materials(), and the room.
+/// Punctual lights of all kinds.
+View lit_view() {
+    return {lit_room(odd_rotation(), 1), lit_room_camera(odd_rotation())};
+}
+
+/// The same number of views as glossy_materials(), and the rooms.
+constexpr int view_count = 5;
 View view_of(int index) {
+    if (index == view_count - 1) {
+        return lit_view();
+    }
     return index == 0 ? furnished_room() : screened_view(static_cast<std::size_t>(index - 1));
 }
 
@@ -149,14 +159,15 @@ TEST_P(MethodAgreement, WithPathTracingPixelByPixel) {
             const double blur = method.bias * (whole ? 1.0 : 5.0) * r.mean;
             EXPECT_NEAR(e.mean, r.mean, (whole ? picture_sigmas : pixel_sigmas) * sigma + blur)
                 << "pixel " << pixel << " channel " << channel;
-            EXPECT_LT(e.standard_error, (whole ? 0.03 : 0.4) * r.mean)
+            EXPECT_LE(e.standard_error, (whole ? 0.03 : 0.4) * r.mean)
                 << "pixel " << pixel << " channel " << channel;
         }
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MethodAgreement,
-                         testing::Combine(testing::ValuesIn(methods), testing::Range(0, 4)),
+                         testing::Combine(testing::ValuesIn(methods),
+                                          testing::Range(0, view_count)),
                          [](const auto& test) {
                              return std::string(std::get<0>(test.param).name) + "_" +
                                     std::to_string(std::get<1>(test.param));

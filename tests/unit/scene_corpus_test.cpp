@@ -45,7 +45,7 @@ void check_scene(const Scene& scene) {
     EXPECT_FALSE(scene.objects.empty());
     EXPECT_FALSE(scene.materials.empty());
     EXPECT_FALSE(scene.cameras.empty());
-    EXPECT_TRUE(!scene.lights.empty() || scene.sky_radiance.x > 0.0F);
+    EXPECT_TRUE(has_emitter(scene) || scene.sky_radiance.x > 0.0F);
     for (const Triangle& triangle : scene.triangles) {
         ASSERT_LT(triangle.material, scene.materials.size());
         ASSERT_LT(triangle.object, scene.objects.size());

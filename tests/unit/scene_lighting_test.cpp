@@ -55,13 +55,91 @@ TEST(SceneLighting, ScenesWithoutEmitterGetASky) {
     EXPECT_EQ(builder.load(settings).sky_radiance, glm::vec3(300));
 }
 
-TEST(SceneLighting, PunctualLightsAreReportedAsIgnored) {
-    GltfBuilder builder = two_lamps(Json::object());
+/// A file with these punctual lights, each on a node of its own above the origin.
+GltfBuilder with_lights(const Json& lights) {
+    GltfBuilder builder = two_lamps({{"name", "dark"}});
     builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    builder.json["extensionsRequired"] = {"KHR_lights_punctual"};
-    const Scene scene = builder.load();
-    EXPECT_TRUE(has_notice(scene, "KHR_lights_punctual"));
-    EXPECT_EQ(scene.sky_radiance, glm::vec3(1000));
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = lights;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        builder.add_node({{"name", "lamp " + std::to_string(i)},
+                          {"translation", {0, 2, 0}},
+                          {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    }
+    return builder;
+}
+
+TEST(SceneLighting, PunctualLightsAreReadInTheirUnits) {
+    const Scene scene =
+        with_lights({{{"type", "point"}, {"intensity", 80}, {"color", {1, 0.5, 0.25}}},
+                     {{"type", "spot"},
+                      {"intensity", 20},
+                      {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.5}}}},
+                     {{"type", "directional"}, {"intensity", 50'000}},
+                     {{"type", "point"}, {"intensity", 0}}})
+            .load();
+    ASSERT_EQ(scene.punctual_lights.size(), 3U);
+    EXPECT_EQ(scene.sky_radiance, glm::vec3(0));
+    EXPECT_TRUE(scene.notices.empty() || !has_notice(scene, "KHR_lights_punctual"));
+    EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(80, 40, 20));
+    EXPECT_EQ(scene.punctual_lights[0].name, "lamp 0");
+    EXPECT_EQ(scene.punctual_lights[1].kind, PunctualKind::spot);
+    EXPECT_NEAR(scene.punctual_lights[1].inner_cosine, std::cos(0.2F), 1e-6F);
+    EXPECT_NEAR(scene.punctual_lights[1].outer_cosine, std::cos(0.5F), 1e-6F);
+    EXPECT_EQ(scene.punctual_lights[2].kind, PunctualKind::directional);
+    const PlacedLight placed = place_light(scene, scene.punctual_lights[1]);
+    EXPECT_NEAR(glm::distance(placed.position, glm::dvec3(0, 2, 0)), 0.0, 1e-6);
+    EXPECT_NEAR(glm::distance(placed.direction(), glm::dvec3(0, 0, -1)), 0.0, 1e-6);
+}
+
+TEST(SceneLighting, LengthsOfTheFileDoNotChangeIntensities) {
+    SceneSettings settings;
+    settings.metres_per_unit = 0.01F;
+    const Scene scene =
+        with_lights(Json::array({{{"type", "point"}, {"intensity", 80}}})).load(settings);
+    ASSERT_EQ(scene.punctual_lights.size(), 1U);
+    EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(80));
+    const PlacedLight placed = place_light(scene, scene.punctual_lights[0]);
+    EXPECT_NEAR(placed.position.y, 0.02, 1e-6);
+}
+
+TEST(SceneLighting, PunctualLightsMoveWithTheObjectThatCarriesThem) {
+    GltfBuilder builder = with_lights(Json::array({{{"type", "spot"}, {"intensity", 80}}}));
+    // The light's node becomes a child of the first lamp, which is turned and moved.
+    Json& nodes = builder.json["nodes"];
+    const auto light = static_cast<int>(nodes.size()) - 1;
+    nodes[0]["children"] = {light};
+    nodes[0]["extras"] = {{"movable", true}};
+    nodes[0]["translation"] = {5, 0, 0};
+    nodes[0]["rotation"] = {0.70710678, 0, 0, 0.70710678};  // a quarter turn about x
+    builder.json["scenes"][0]["nodes"] = {0, 1};
+    Scene scene = builder.load();
+    ASSERT_EQ(scene.punctual_lights.size(), 1U);
+    ASSERT_EQ(scene.punctual_lights[0].object, 0);
+    PlacedLight placed = place_light(scene, scene.punctual_lights[0]);
+    EXPECT_NEAR(glm::distance(placed.position, glm::dvec3(5, 0, 2)), 0.0, 1e-5);
+    EXPECT_NEAR(glm::distance(placed.direction(), glm::dvec3(0, 1, 0)), 0.0, 1e-5);
+    scene.objects[0].transform.translation.x = 7.0F;
+    placed = place_light(scene, scene.punctual_lights[0]);
+    EXPECT_NEAR(glm::distance(placed.position, glm::dvec3(7, 0, 2)), 0.0, 1e-5);
+}
+
+TEST(SceneLighting, PunctualLightsThatCannotBeAreRejected) {
+    const auto reason = [](const Json& light) {
+        const SceneError error = load_error(with_lights(Json::array({light})));
+        return error.json_path() + ": " + error.reason();
+    };
+    const std::string lights = "extensions.KHR_lights_punctual.lights[0]";
+    EXPECT_EQ(reason({{"intensity", 1}}), lights + ".type: is missing");
+    EXPECT_EQ(reason({{"type", "area"}}),
+              lights + ".type: \"area\" is not one of point|spot|directional");
+    EXPECT_NE(reason({{"type", "point"}, {"intensity", -1}}).find(".intensity"), std::string::npos);
+    EXPECT_NE(reason({{"type", "point"}, {"color", {1, 1}}}).find(".color"), std::string::npos);
+    EXPECT_EQ(
+        reason({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}),
+        lights + ".spot: innerConeAngle 0.5 is not below outerConeAngle 0.5");
+    GltfBuilder builder = with_lights(Json::array({{{"type", "point"}}}));
+    builder.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = 3;
+    EXPECT_EQ(load_error(builder).reason(), "3 is out of range: the file has 1 lights");
 }
 
 TEST(SceneLighting, EmissionTexturesAreAveraged) {

@@ -89,7 +89,7 @@ TEST(SceneModel, CamerasNeedOnlyWhatIsRead) {
 TEST(SceneModel, WhatIsNotReadMayBeBroken) {
     GltfBuilder builder = one_triangle();
     builder.json["animations"] = {5, {{"samplers", {{{"input", "x"}}}}}};
-    builder.json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", 7}}}}}}};
+    builder.json["extensions"] = {{"KHR_materials_variants", {{"variants", {{{"name", 7}}}}}}};
     builder.json["skins"] = {{{"name", "no joints"}}};
     builder.json["nodes"][0]["skin"] = 0;
     EXPECT_EQ(builder.load().triangles.size(), 1U);

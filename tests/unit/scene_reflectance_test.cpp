@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <ostream>
+#include <utility>
 
 #include "gltf_builder.h"
 #include "scene/brdf.h"
@@ -139,6 +140,29 @@ TEST(SceneReflectance, MeanBaseColourIsThatOfTheWholeTexture) {
     Material plain;
     plain.base_colour = {0.1F, 0.2F, 0.3F};
     EXPECT_EQ(mean_base_colour(scene, plain), plain.base_colour);
+}
+
+/// ((n - 1)/(n + 1))^2: water 0.02, glass 0.04, diamond 0.172; an index of 0 stands for an infinite
+/// one.
+TEST(SceneReflectance, IndexOfRefractionGivesTheReflectance) {
+    for (const auto& [ior, f0] : {std::pair(1.333F, 0.0204F), std::pair(1.5F, 0.04F),
+                                  std::pair(2.417F, 0.172F), std::pair(0.0F, 1.0F)}) {
+        const Scene scene = load_with({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                                       {"extensions", {{"KHR_materials_ior", {{"ior", ior}}}}}});
+        const Brdf brdf = make_brdf(scene.materials[0], glm::vec3(0.5F));
+        EXPECT_NEAR(brdf.f0.g, f0, 4e-3F * f0 + 1e-4F) << ior;
+    }
+}
+
+TEST(SceneReflectance, SpecularGlossinessStatesItsReflectance) {
+    const Scene scene = load_with({{"extensions",
+                                    {{"KHR_materials_pbrSpecularGlossiness",
+                                      {{"diffuseFactor", {0, 0, 0, 1}},
+                                       {"specularFactor", {0.9, 0.6, 0.2}},
+                                       {"glossinessFactor", 0.7}}}}}});
+    const Brdf brdf = make_brdf(scene.materials[0], scene.materials[0].base_colour);
+    EXPECT_LT(glm::distance(brdf.f0, glm::vec3(0.9F, 0.6F, 0.2F)), 5e-3F);
+    EXPECT_NEAR(scene.materials[0].roughness, 0.3F, 1e-6F);
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One small scene for each effect, in which nothing else lights the picture."""
+
+from __future__ import annotations
+
+import math
+
+from .shapes import box
+from .solid import Camera, Light, Material, SceneModel, SceneObject, Solid
+
+WIDTH, HEIGHT, DEPTH = 4.0, 3.0, 4.0  # of the room, m; its front, z = 0, is open
+CAMERAS = [Camera("front", (2.0, 1.6, -3.5), (2.0, 1.4, 2.0), 43.0, 4 / 3)]
+MATERIALS = [Material("white", (0.7, 0.7, 0.7)), Material("red", (0.6, 0.2, 0.2)),
+             Material("blue", (0.2, 0.3, 0.6))]
+
+
+def _room() -> SceneObject:
+    def at(x: float, y: float, z: float) -> tuple[float, float, float]:
+        return (x * WIDTH, y * HEIGHT, z * DEPTH)
+
+    def face(corners: list[tuple[float, float, float]], material: str) -> Solid:
+        return Solid([at(*c) for c in corners], [(0, 1, 2, 3)], material)
+
+    return SceneObject("room", movable=False, solids=[
+        face([(0, 0, 0), (0, 0, 1), (1, 0, 1), (1, 0, 0)], "white"),
+        face([(0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1)], "white"),
+        face([(0, 0, 1), (0, 1, 1), (1, 1, 1), (1, 0, 1)], "white"),
+        face([(0, 0, 0), (0, 1, 0), (0, 1, 1), (0, 0, 1)], "red"),
+        face([(1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0)], "blue"),
+    ])
+
+
+def _box() -> SceneObject:
+    return SceneObject("box", [box((-0.6, 0.0, -0.5), (0.6, 1.1, 0.5), "white")], (1.8, 0.0, 2.1))
+
+
+def punctual_lights() -> SceneModel:
+    """A bare lamp, a spot on the box, and sunlight through the open front."""
+    return SceneModel(
+        name="effects/punctual_lights", materials=MATERIALS, objects=[_room(), _box()],
+        cameras=CAMERAS, embed_buffer=True,
+        lights=[
+            Light("lamp", "point", (3.1, 2.2, 2.9), (0, -1, 0), 90.0, (1.0, 0.85, 0.65)),
+            Light("spot", "spot", (0.6, 2.7, 1.0), (1.2, -1.8, 1.0), 600.0, (0.9, 0.9, 1.0),
+                  20.0, 35.0),
+            Light("sun", "directional", (0, 0, 0), (0.35, -0.6, 1.0), 120.0, (1.0, 0.9, 0.75)),
+        ])
+
+
+def _downlight() -> bytes:
+    """A narrow downlight of 800 lm, type C, symmetric about its axis."""
+    angles = list(range(0, 95, 5))
+    shape = [math.exp(-((v / 22.0) ** 2)) if v < 90 else 0.0 for v in angles]
+    # Flux of the table, linear between its angles.
+    flux = 0.0
+    steps = 1000
+    for i, (low, high) in enumerate(zip(angles, angles[1:])):
+        for k in range(steps):
+            share = (k + 0.5) / steps
+            v = math.radians(low + (high - low) * share)
+            flux += (2 * math.pi * math.sin(v) * (shape[i] * (1 - share) + shape[i + 1] * share)
+                     * math.radians(high - low) / steps)
+    values = [round(800.0 / flux * s, 3) for s in shape]
+    lines = ["IESNA:LM-63-2002", "[TEST] none: a computed distribution", "[MANUFAC] Raybundle",
+             "[LUMINAIRE] narrow downlight, 800 lm", "TILT=NONE",
+             f"1 800 1 {len(angles)} 1 1 2 -0.1 0 0", "1 1 9",
+             " ".join(str(v) for v in angles), "0", " ".join(str(v) for v in values)]
+    return ("\n".join(lines) + "\n").encode("ascii")
+
+
+def ies_profile() -> SceneModel:
+    """Two downlights whose cones draw arcs on the back wall."""
+    return SceneModel(
+        name="effects/ies_profile", materials=MATERIALS, objects=[_room(), _box()],
+        cameras=CAMERAS, embed_buffer=True, files={"effects/downlight.ies": _downlight()},
+        lights=[Light(f"downlight {i + 1}", "ies", (x, 2.95, 3.4), (0, -1, 0),
+                      profile="downlight.ies") for i, x in enumerate((1.0, 3.0))])
+
+
+SCENES = (punctual_lights, ies_profile)

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// `raybundle render --script`: an image sequence whose frames share one solution.
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "animation_script.h"
+#include "bundle/low_discrepancy.h"
+#include "commands/command.h"
+#include "commands/render_job.h"
+#include "gpu/egl_context.h"
+#include "transport/solver.h"
+#include "view/image_file.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr std::uint64_t least_iterations = 2 * BATCHES;  // of a frame, for an estimate of its error
+
+std::string read_text(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw UsageError("--script: cannot read '" + file + "'");
+    }
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The scene as it changes, its solution and the picture.
+class Sequence {
+  public:
+    Sequence(LoadedScene loaded, const AnimationScript& script, const SolverSettings& settings,
+             glm::uvec2 size)
+        : loaded_(std::move(loaded)), script_(script), settings_(settings), size_(size) {
+        solver_ = std::make_unique<Solver>(loaded_.scene, loaded_.mesh, settings_);
+        make_image();
+    }
+
+    /// Brings everything to a time; `before` is that of the frame before, negative for the first.
+    void go_to(double before, double time) {
+        change_surfaces(before, time);
+        for (const std::uint32_t object : script_.moving_objects()) {
+            const Transform transform = script_.transform_at(object, time);
+            Object& moved = loaded_.scene.objects[object];
+            if (transform.matrix() != moved.transform.matrix()) {
+                moved.transform = transform;
+                solver_->move_object(object, moved.world_from_object(), receivers());
+                correct();
+            }
+        }
+        image_->set_camera(script_.camera_at(time));
+    }
+
+    /// Iterates until the rule is met; returns the frame's figures.
+    nlohmann::ordered_json solve(const StopRule& rule) {
+        const std::uint64_t first = solver_->iterations();
+        const Stopwatch stopwatch;
+        double progress = 0.0;
+        std::uint64_t done = 0;
+        while (progress < 1.0) {
+            solver_->step(receivers());
+            done = solver_->iterations() - first;
+            if (done % BATCHES == 0) {
+                image_->request_statistics();
+                glFinish();
+                const double error =
+                    done < least_iterations ? 1e9 : image_->statistics().error_high;
+                progress = rule.progress(stopwatch.seconds(), done, error);
+            } else {
+                progress = rule.needs_error() ? 0.0 : rule.progress(stopwatch.seconds(), done, 1e9);
+            }
+        }
+        const ImageStatistics& statistics = image_->statistics();
+        return {{"seconds", stopwatch.seconds()},
+                {"iterations", done},
+                {"relativeError", statistics.relative_error},
+                {"errorLow", statistics.error_low},
+                {"errorHigh", statistics.error_high},
+                {"settled", solver_->statistics().settled}};
+    }
+
+    /// One exposure for all pictures: a lamp that is dimmed shall be seen to be.
+    void write(const std::string& path) {
+        const auto width = static_cast<int>(size_.x);
+        const auto height = static_cast<int>(size_.y);
+        if (is_exr(path)) {
+            write_exr(path, width, height, image_->read_radiance());
+            return;
+        }
+        if (!exposure_) {
+            image_->request_statistics();
+            glFinish();
+            image_->statistics();
+            exposure_ = image_->automatic_exposure();
+        }
+        image_->compose(DisplayMode::photo, *exposure_);
+        write_png(path, width, height, image_->take());
+    }
+
+  private:
+    void make_image() {
+        programs_ = std::make_unique<ViewPrograms>(solver_->scene());
+        image_ =
+            std::make_unique<ViewerImage>(solver_->scene(), solver_->store(), *programs_, size_);
+        receivers_ = {image_.get()};
+    }
+
+    [[nodiscard]] std::span<BundleReceiver* const> receivers() const { return receivers_; }
+
+    void correct() {
+        while (solver_->correcting()) {
+            solver_->step(receivers());
+        }
+    }
+
+    void change_surfaces(double before, double time) {
+        std::vector<std::uint32_t> materials;
+        std::vector<std::uint32_t> reflecting;
+        for (const LightEdit& edit : script_.lights_between(before, time)) {
+            materials.push_back(apply(loaded_.scene, edit));
+        }
+        bool covered = true;
+        for (const MaterialEdit& edit : script_.materials_between(before, time)) {
+            const std::uint32_t material = apply(loaded_.scene, edit);
+            materials.push_back(material);
+            reflecting.push_back(material);
+            covered = covered && solver_->covers(loaded_.scene, material);
+        }
+        if (materials.empty()) {
+            return;
+        }
+        if (covered) {
+            solver_->change_surfaces(loaded_.scene, loaded_.mesh, materials, reflecting,
+                                     receivers());
+        } else {
+            refresh_surfaces(loaded_.scene, materials, loaded_.mesh);
+            settings_.seed = mix_bits(settings_.seed);
+            const std::unique_ptr<Solver> old = std::move(solver_);
+            const Camera camera = image_->camera();
+            image_.reset();
+            solver_ = std::make_unique<Solver>(loaded_.scene, loaded_.mesh, settings_);
+            make_image();
+            image_->set_camera(camera);
+            solver_->take_over(*old, reflecting, receivers());
+        }
+        correct();
+    }
+
+    LoadedScene loaded_;
+    const AnimationScript& script_;
+    SolverSettings settings_;
+    glm::uvec2 size_;
+    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<ViewPrograms> programs_;
+    std::unique_ptr<ViewerImage> image_;
+    std::vector<BundleReceiver*> receivers_;
+    std::optional<float> exposure_;
+};
+
+}  // namespace
+
+namespace {
+
+AnimationScript read_script(const Options& options, const Scene& scene) {
+    try {
+        numbered_file(options.output, 0);
+        return {read_text(options.script), options.script, scene, choose_camera(scene, options)};
+    } catch (const ScriptError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+}  // namespace
+
+int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 size,
+                      const Options& options) {
+    LoadedScene loaded = load_scene(options);
+    const AnimationScript script = read_script(options, loaded.scene);
+    const StopRule rule(options);
+    const EglContext context = create_egl_context({options.gpu, false});
+    SolverSettings settings;
+    settings.seed = options.seed;
+    settings.probabilities = probabilities;
+    nlohmann::ordered_json report = {{"scene", loaded.scene.name},
+                                     {"device", context.renderer()},
+                                     {"script", options.script},
+                                     {"frames", nlohmann::ordered_json::array()}};
+    Sequence sequence(std::move(loaded), script, settings, size);
+    double before = -1.0;
+    for (unsigned frame = 0; frame < script.frames(); ++frame) {
+        const double time = script.time_of(frame);
+        sequence.go_to(before, time);
+        before = time;
+        nlohmann::ordered_json figures = sequence.solve(rule);
+        const std::string path = numbered_file(options.output, frame);
+        sequence.write(path);
+        spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} %", path,
+                     figures["iterations"].get<std::uint64_t>(), figures["seconds"].get<double>(),
+                     100.0 * figures["relativeError"].get<double>());
+        figures["file"] = path;
+        figures["time"] = time;
+        report["frames"].push_back(std::move(figures));
+    }
+    if (!options.stats.empty()) {
+        write_file(options.stats, report.dump(2) + "\n");
+    }
+    return exit_done;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/effects_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <nlohmann/json.hpp>
+
+#include "scene/brdf.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::size_t diffuse_bytes = 84;  // radiance, mean, iterate, accumulator, cdf, checkpoint
+constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
+constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
+constexpr float nearly_mirror = 0.1F;         // roughness
+
+/// Numbers that several effects ask for.
+struct Survey {
+    std::vector<bool> used;  // materials
+    double area_flux = 0.0;  // lm, luminance, of emitting surfaces
+    double punctual_flux = 0.0;
+    double sky_flux = 0.0;  // through the scene's bounding sphere
+    std::size_t glossy = 0, mirrors = 0, textured = 0, masked = 0, profiles = 0;
+    double specular_share = 0.0;  // largest of a material, of what it reflects
+
+    [[nodiscard]] double share(double flux) const {
+        const double all = area_flux + punctual_flux + sky_flux;
+        return all > 0.0 ? flux / all : 0.0;
+    }
+};
+
+double triangle_area(const Scene& scene, const Triangle& triangle) {
+    const glm::mat3 world(scene.objects[triangle.object].world_from_object());
+    const glm::vec3 a = scene.vertices[triangle.vertex[0]].position;
+    const glm::vec3 e1 = world * (scene.vertices[triangle.vertex[1]].position - a);
+    const glm::vec3 e2 = world * (scene.vertices[triangle.vertex[2]].position - a);
+    return 0.5 * static_cast<double>(glm::length(glm::cross(e1, e2)));
+}
+
+void survey_lights(const Scene& scene, Survey& survey) {
+    constexpr double pi = glm::pi<double>();
+    std::vector<double> radiance(scene.materials.size(), 0.0);
+    for (const Light& light : scene.lights) {
+        radiance[static_cast<std::size_t>(light.material)] =
+            static_cast<double>(luminance(light.radiance));
+    }
+    for (const Triangle& triangle : scene.triangles) {
+        survey.used[triangle.material] = true;
+        if (radiance[triangle.material] > 0.0) {
+            const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
+            survey.area_flux +=
+                sides * pi * radiance[triangle.material] * triangle_area(scene, triangle);
+        }
+    }
+    const auto diameter = static_cast<double>(glm::length(scene.bounds.extent()));
+    survey.sky_flux =
+        pi * static_cast<double>(luminance(scene.sky_radiance)) * pi * diameter * diameter;
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const PlacedLight placed = place_light(scene, light);
+        const bool directional = light.kind == PunctualKind::directional;
+        const glm::vec3 flux(directional ? placed.intensity * (0.25 * pi * diameter * diameter)
+                                         : placed.flux());
+        survey.punctual_flux += static_cast<double>(luminance(flux));
+        survey.profiles += light.profile ? 1 : 0;
+    }
+}
+
+/// Largest share of a specular lobe in what a material reflects at normal incidence, where a lobe
+/// is weakest: towards grazing angles it may be all of it, so a dielectric's bound is 1.
+double lobe_share(const Material& material) {
+    const Brdf brdf = make_brdf(material, material.base_colour);
+    return brdf.lobe.kind == LobeKind::none ? 0.0 : 1.0;
+}
+
+void survey_materials(const Scene& scene, Survey& survey) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (!survey.used[i]) {
+            continue;
+        }
+        const double share = lobe_share(material);
+        if (share > 0.0) {
+            ++survey.glossy;
+            survey.specular_share = std::max(survey.specular_share, share);
+            survey.mirrors += !material.max_phong && material.roughness < nearly_mirror ? 1 : 0;
+        }
+        const bool textured =
+            material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0;
+        survey.textured += textured ? 1 : 0;
+        survey.masked += material.alpha_mode == AlphaMode::mask ? 1 : 0;
+    }
+}
+
+std::string count_of(std::size_t count, const char* thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+class Planner {
+  public:
+    explicit Planner(const Scene& scene) : scene_(scene) {
+        survey_.used.resize(scene.materials.size(), false);
+        survey_lights(scene, survey_);
+        survey_materials(scene, survey_);
+    }
+
+    std::vector<Effect> plan() {
+        add("diffuse", true, "every surface may reflect diffusely", "LD+E", 1.0, diffuse_bytes);
+        plan_reflection();
+        const bool textured = survey_.textured > 0;
+        add("textures", textured,
+            textured ? count_of(survey_.textured, "material") + " have a texture"
+                     : "no material in use has a texture",
+            "L(D|G)+E", textured ? 1.0 : 0.0, 0);
+        absent("normal-maps", "normal textures are not read", "L(D|G)+E");
+        plan_lights();
+        absent("medium", "no participating medium can be given", "L(M|D|G)+E");
+        return std::move(effects_);
+    }
+
+  private:
+    void add(const char* name, bool active, std::string reason, const char* path_class,
+             double share, std::size_t bytes) {
+        effects_.push_back({name, active, std::move(reason), path_class, active ? share : 0.0,
+                            active ? bytes : 0, std::nullopt});
+    }
+    void absent(const char* name, std::string reason, const char* path_class) {
+        add(name, false, std::move(reason), path_class, 0.0, 0);
+    }
+
+    void plan_reflection() {
+        const bool glossy = survey_.glossy > 0;
+        add("glossy", glossy,
+            glossy ? count_of(survey_.glossy, "material") + " with a specular lobe"
+                   : "no material in use has a specular lobe",
+            "L(D|G)*G(D|G)*E", survey_.specular_share, glossy_bytes);
+        absent("specular-reflection",
+               survey_.mirrors > 0
+                   ? count_of(survey_.mirrors, "nearly ideal mirror") + ", carried as glossy"
+                   : "no material in use is nearly a mirror",
+               "L(D|G)*S+E");
+        absent("refraction", "transmission is not read from files", "L(D|G)*S+E");
+        absent("caustics",
+               survey_.mirrors > 0 ? "mirrors are carried as glossy, and so is what they throw"
+                                   : "nothing reflects or refracts like a mirror",
+               "LS+D(D|G)*E");
+        absent("diffuse-transmission", "no material transmits", "L(D|G)*D(D|G)*E");
+    }
+
+    void plan_lights() {
+        const bool punctual = !scene_.punctual_lights.empty();
+        add("punctual-lights", punctual,
+            punctual ? count_of(scene_.punctual_lights.size(), "light") + " without extent"
+                     : "no light of the scene is without extent",
+            "L(D|G)+E", survey_.share(survey_.punctual_flux), first_shot_bytes);
+        const bool ies = survey_.profiles > 0;
+        add("ies", ies,
+            ies ? count_of(survey_.profiles, "light") + " with an IES profile"
+                : "no light has an IES profile",
+            "L(D|G)+E", survey_.share(survey_.punctual_flux), 0);
+        const float sky = luminance(scene_.sky_radiance);
+        add("sky", sky > 0.0F,
+            sky > 0.0F ? fmt::format("uniform sky of {:.4g} cd/m²{}", sky,
+                                     has_emitter(scene_) ? "" : ": nothing in the scene emits")
+                       : "no sky is set",
+            "L(D|G)+E", survey_.share(survey_.sky_flux), 0);
+        absent("sun", "no sun is set; a directional light is one without a diameter", "L(D|G)+E");
+        absent("environment", "no environment map is given", "L(D|G)+E");
+    }
+
+    const Scene& scene_;
+    Survey survey_;
+    std::vector<Effect> effects_;
+};
+
+void remove_gloss(Scene& scene) {
+    for (Material& material : scene.materials) {
+        material.max_phong.reset();
+        material.metallic = 0.0F;
+        material.specular = 0.0F;
+    }
+}
+
+void remove_textures(Scene& scene, PatchMesh& mesh) {
+    scene.textures.clear();
+    for (Material& material : scene.materials) {
+        material.base_colour_texture.texture = -1;
+        material.emission_texture.texture = -1;
+        material.alpha_mode = AlphaMode::opaque;
+    }
+    mesh.coverage.clear();
+}
+
+}  // namespace
+
+EffectsPlan plan_effects(const Scene& scene, std::size_t patches) {
+    EffectsPlan plan;
+    plan.patches = patches;
+    plan.effects = Planner(scene).plan();
+    for (const Effect& effect : plan.effects) {
+        plan.bytes_per_patch += effect.bytes_per_patch;
+    }
+    return plan;
+}
+
+bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
+    if (name == "glossy") {
+        remove_gloss(scene);
+    } else if (name == "textures") {
+        remove_textures(scene, mesh);
+    } else if (name == "punctual-lights") {
+        scene.punctual_lights.clear();
+    } else if (name == "ies") {
+        for (PunctualLight& light : scene.punctual_lights) {
+            light.profile.reset();
+        }
+    } else if (name == "sky") {
+        scene.sky_radiance = glm::vec3(0.0F);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+nlohmann::json effects_plan_json(const EffectsPlan& plan) {
+    nlohmann::json effects = nlohmann::json::array();
+    for (const Effect& effect : plan.effects) {
+        nlohmann::json entry = {{"name", effect.name},
+                                {"active", effect.active},
+                                {"reason", effect.reason},
+                                {"pathClass", effect.path_class},
+                                {"shareBound", effect.share_bound},
+                                {"bytesPerPatch", effect.bytes_per_patch},
+                                {"msPerIteration", nullptr}};
+        if (effect.ms_per_iteration) {
+            entry["msPerIteration"] = *effect.ms_per_iteration;
+        }
+        effects.push_back(std::move(entry));
+    }
+    return {{"patches", plan.patches},
+            {"bytesPerPatch", plan.bytes_per_patch},
+            {"effects", std::move(effects)}};
+}
+
+}  // namespace raybundle

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// One entry of the effects plan: what a scene calls for, why, and what it costs.
+struct Effect {
+    std::string name;        ///< fixed: scripts and clients know them
+    bool active = false;     ///< simulated
+    std::string reason;      ///< why, or why not
+    std::string path_class;  ///< light paths in Heckbert's notation, G: glossy
+    /// Upper bound of the share that such paths can have: of the light that a surface reflects, for
+    /// a kind of reflection; of the flux that all lights send, for a kind of light. 0..1.
+    double share_bound = 0.0;
+    std::size_t bytes_per_patch = 0;  ///< of GPU memory that grows with the patches
+    /// Measured; nothing where it was not, or the effect is not active.
+    std::optional<double> ms_per_iteration;
+};
+
+struct EffectsPlan {
+    std::size_t patches = 0;
+    std::size_t bytes_per_patch = 0;  ///< solution state, of all active effects
+    std::vector<Effect> effects;      ///< all that there are, always in the same order
+};
+
+/// What loading ends with (design: effects plan): which effects the scene calls for. Buffers and
+/// shader variants of the others do not exist.
+EffectsPlan plan_effects(const Scene& scene, std::size_t patches);
+
+/// Takes an effect out of a scene and its mesh, for measuring what it costs. False where that is
+/// not possible, as for `diffuse`.
+bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh);
+
+/// {"patches", "bytesPerPatch", "effects": [{"name", "active", "reason", "pathClass", "shareBound",
+/// "bytesPerPatch", "msPerIteration"}]}; msPerIteration is null where it was not measured.
+nlohmann::json effects_plan_json(const EffectsPlan& plan);
+
+}  // namespace raybundle

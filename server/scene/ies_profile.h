@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raybundle {
+
+/// Luminous intensity of a luminaire over direction, read from an IES file (ANSI/IES LM-63, 1986 to
+/// 2019). Local axes: it is aimed along -z, where both photometric angles are 0 (as glTF's
+/// EXT_lights_ies has it); the horizontal plane of type C is x, y.
+class IesProfile {
+  public:
+    enum class Type { c = 1, b = 2, a = 3 };  ///< coordinates, with LM-63's numbers
+
+    /// What the file holds. Angles in degrees, ascending.
+    struct Data {
+        Type type = Type::c;
+        std::vector<double> vertical;    ///< at least 1
+        std::vector<double> horizontal;  ///< at least 1
+        /// cd, with all of the file's factors; [horizontal * vertical.size() + vertical]
+        std::vector<double> candela;
+        double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
+    };
+
+    explicit IesProfile(Data data);
+
+    /// Towards a unit direction in the local axes, cd; bilinear in the angles, 0 beyond those of
+    /// the file.
+    [[nodiscard]] double candela(const glm::dvec3& direction) const;
+    /// Of all directions, lm.
+    [[nodiscard]] double flux() const { return flux_; }
+    [[nodiscard]] const Data& data() const { return data_; }
+
+  private:
+    [[nodiscard]] double at(double vertical, double horizontal) const;
+    [[nodiscard]] double folded(double horizontal) const;
+    [[nodiscard]] double integrate() const;
+
+    Data data_;
+    double flux_ = 0.0;
+};
+
+/// Parses the text of an IES file; `file` is its name for errors. Throws SceneError with the line
+/// and the reason.
+IesProfile parse_ies(const std::string& file, std::string_view text);
+
+/// Reads a file. Throws SceneError.
+IesProfile read_ies(const std::string& path);
+
+}  // namespace raybundle

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/punctual_light.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace raybundle {
+namespace {
+
+/// The nearest right-handed axes whose z is exact: objects may be scaled, sheared or mirrored.
+glm::dmat3 orthonormal(const glm::dmat3& axes) {
+    const double length = glm::length(axes[2]);
+    const glm::dvec3 z = length > 0.0 ? axes[2] / length : glm::dvec3(0.0, 0.0, 1.0);
+    glm::dvec3 x = axes[0] - glm::dot(axes[0], z) * z;
+    if (!(glm::length(x) > 1e-9 * glm::length(axes[0]))) {
+        const glm::dvec3 other = std::abs(z.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        x = other - glm::dot(other, z) * z;
+    }
+    x = glm::normalize(x);
+    return {x, glm::cross(z, x), z};
+}
+
+}  // namespace
+
+PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object) {
+    const glm::dmat4 world(world_from_object);
+    PlacedLight placed;
+    placed.kind = light.kind;
+    placed.position = glm::dvec3(world * glm::dvec4(glm::dvec3(light.position), 1.0));
+    placed.axes = orthonormal(glm::dmat3(world) * glm::dmat3(light.axes));
+    placed.intensity = glm::dvec3(light.intensity);
+    placed.inner_cosine = light.inner_cosine;
+    placed.outer_cosine = light.outer_cosine;
+    placed.profile = light.profile;
+    return placed;
+}
+
+/// KHR_lights_punctual, "Inner and Outer Cone Angles".
+double PlacedLight::attenuation(const glm::dvec3& direction) const {
+    if (profile) {
+        return profile->candela(direction * axes);  // in its own axes
+    }
+    if (kind != PunctualKind::spot) {
+        return 1.0;
+    }
+    const double cosine = -glm::dot(axes[2], direction);
+    const double share = (cosine - outer_cosine) / (inner_cosine - outer_cosine);
+    const double clamped = glm::clamp(share, 0.0, 1.0);
+    return clamped * clamped;
+}
+
+glm::dvec3 PlacedLight::towards(const glm::dvec3& direction) const {
+    return intensity * attenuation(direction);
+}
+
+glm::dvec3 PlacedLight::flux() const {
+    constexpr double pi = glm::pi<double>();
+    if (profile) {
+        return intensity * profile->flux();
+    }
+    if (kind != PunctualKind::spot) {
+        return 4.0 * pi * intensity;
+    }
+    // Between the cones the attenuation is the square of a share linear in the cosine.
+    return 2.0 * pi * (1.0 - inner_cosine + (inner_cosine - outer_cosine) / 3.0) * intensity;
+}
+
+}  // namespace raybundle

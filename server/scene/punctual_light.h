@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+
+#include "scene/ies_profile.h"
+
+namespace raybundle {
+
+enum class PunctualKind { point, spot, directional };
+
+/// A light without extent (glTF's KHR_lights_punctual): no ray can hit it. It shines along -z of
+/// its axes. Photometric, without a cut-off: glTF's `range` is not physical.
+struct PunctualLight {
+    static constexpr int no_object = -1;
+
+    std::string name;
+    PunctualKind kind = PunctualKind::point;
+    /// Index into Scene::objects of what carries it, or no_object.
+    int object = no_object;
+    glm::vec3 position{0.0F};  ///< in its object's space, else in the world's; metres
+    glm::mat3 axes{1.0F};      ///< x, y, z in the same space; z is opposite to its direction
+    /// Directional: illuminance of a surface that faces it, lx; else luminous intensity, cd, of a
+    /// spot along its axis.
+    glm::vec3 intensity{0.0F};
+    float inner_cosine = 1.0F;  ///< spot: full intensity within this cone
+    float outer_cosine = 0.0F;  ///< spot: dark outside this one; below inner_cosine
+    /// Of a point light: its intensity over direction, whose factor `intensity` is then.
+    std::shared_ptr<const IesProfile> profile;
+};
+
+/// A punctual light in the world.
+struct PlacedLight {
+    PunctualKind kind = PunctualKind::point;
+    glm::dvec3 position{0.0};  ///< m
+    glm::dmat3 axes{1.0};      ///< orthonormal; it shines along -axes[2]
+    glm::dvec3 intensity{0.0};
+    double inner_cosine = 1.0, outer_cosine = 0.0;
+    std::shared_ptr<const IesProfile> profile;
+
+    [[nodiscard]] glm::dvec3 direction() const { return -axes[2]; }
+    /// Directional: lx; else cd, towards a unit direction away from the light.
+    [[nodiscard]] glm::dvec3 towards(const glm::dvec3& direction) const;
+    /// Its factor of `intensity` in that direction, cd where it has a profile.
+    [[nodiscard]] double attenuation(const glm::dvec3& direction) const;
+    /// Luminous flux, lm, of a light that is not directional.
+    [[nodiscard]] glm::dvec3 flux() const;
+};
+
+/// world_from_object: of the light's object; identity for a light without one.
+PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object);
+
+}  // namespace raybundle

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/surface_edit.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scene/base_colour.h"
+#include "scene/patch_colour.h"
+
+namespace raybundle {
+namespace {
+
+/// What the light's material emits.
+glm::vec3 emission_of(const Light& light) {
+    glm::vec3 emission(0.0F);
+    for (int c = 0; c < 3 && light.on; ++c) {
+        emission[c] = light.texture[c] > 0.0F ? light.radiance[c] / light.texture[c] : 0.0F;
+    }
+    return emission;
+}
+
+PatchColour colour_of(const Scene& scene, const Material& material, const PatchMesh& mesh,
+                      std::size_t patch) {
+    if (material.base_colour_texture.texture < 0 && material.emission_texture.texture < 0) {
+        PatchColour plain;
+        plain.base_colour = clamped_base_colour(material.base_colour);
+        plain.emission = material.emission;
+        return plain;
+    }
+    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    return patch_colour(scene, material, {mesh.uvs[t.x], mesh.uvs[t.y], mesh.uvs[t.z]});
+}
+
+}  // namespace
+
+std::string problem_of(const Scene& scene, const LightEdit& edit) {
+    if (edit.light < 1 || edit.light > scene.lights.size()) {
+        return "no light " + std::to_string(edit.light);
+    }
+    const Light& light = scene.lights[edit.light - 1];
+    return light.material >= 0 ? "" : "light " + std::to_string(edit.light) + " cannot be changed";
+}
+
+std::string problem_of(const Scene& scene, const MaterialEdit& edit) {
+    if (edit.material < 1 || edit.material > scene.materials.size()) {
+        return "no material " + std::to_string(edit.material);
+    }
+    const Material& material = scene.materials[edit.material - 1];
+    if (material.max_phong && (edit.roughness || edit.metallic)) {
+        return "material " + std::to_string(edit.material) +
+               " has a Phong lobe: neither roughness nor metallic";
+    }
+    return {};
+}
+
+std::uint32_t apply(Scene& scene, const LightEdit& edit) {
+    Light& light = scene.lights[edit.light - 1];
+    const float intensity = edit.intensity.value_or(luminance(light.radiance));
+    if (edit.colour) {
+        light.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        light.radiance = intensity * light.colour;
+    }
+    light.on = edit.on.value_or(light.on);
+    const auto material = static_cast<std::uint32_t>(light.material);
+    scene.materials[material].emission = emission_of(light);
+    return material;
+}
+
+std::uint32_t apply(Scene& scene, const MaterialEdit& edit) {
+    Material& material = scene.materials[edit.material - 1];
+    material.base_colour = edit.base_colour.value_or(material.base_colour);
+    material.roughness = edit.roughness.value_or(material.roughness);
+    material.metallic = edit.metallic.value_or(material.metallic);
+    return edit.material - 1;
+}
+
+void refresh_surfaces(const Scene& scene, std::span<const std::uint32_t> materials,
+                      PatchMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        const std::uint32_t index = mesh.triangle_material[mesh.patch_triangle[i]];
+        if (std::find(materials.begin(), materials.end(), index) == materials.end()) {
+            continue;
+        }
+        const PatchColour colour = colour_of(scene, scene.materials[index], mesh, i);
+        mesh.base_colour[i] = colour.base_colour;
+        mesh.emission[i] = colour.emission;
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of punctual lights at a point (incoming first shot, ch. 4.3.1). Each light keeps a map of the nearest
+// surfaces round it. The surfaces in the map about a point are only candidates: whether one is in the way is
+// decided by its own triangle, so that the edges of shadows are as sharp as the geometry and not the map's.
+#include "facets.glsl"
+layout(std430, binding = BINDING_PUNCTUAL) readonly buffer PunctualBuffer { PunctualData punctual[]; };
+layout(binding = UNIT_SHADOW_MAPS) uniform usampler2DArray shadow_maps;
+#ifdef ALPHA_MASK
+layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
+#endif
+#ifdef IES
+layout(std430, binding = BINDING_IES) readonly buffer IesBuffer { float ies_candela[]; };
+#endif
+uniform uint punctual_count;
+uniform float shadow_tie;  // m: surfaces closer to a point than this are its own
+
+/// Face of a cube map, and coordinates on it in [-1, 1]; the same table as face_axes() in
+/// solution/shadow_maps.cpp.
+vec2 cube_face(vec3 d, out uint face) {
+    vec3 a = abs(d);
+    uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+    vec3 turned = axis == 0u ? d : axis == 1u ? d.yzx : d.zxy;
+    face = 2u * axis + (turned.x < 0.0 ? 1u : 0u);
+    return vec2(-sign(turned.x) * turned.y, turned.z) / abs(turned.x);
+}
+
+/// Layer of the light's map that shows the direction to a point, and the place on it in texels.
+uint map_layer(PunctualData light, vec3 position, out vec2 at) {
+    vec3 d = position - light.position.xyz;
+    uint face = 0u;
+    if (light.map.y == 6u) {
+        at = cube_face(d, face);
+    } else {
+        at = vec2(dot(light.axis_x.xyz, d), dot(light.axis_y.xyz, d)) / light.position.w;
+        at /= light.map.z == PUNCTUAL_DIRECTIONAL ? 1.0 : max(-dot(light.axis_z.xyz, d), 1e-20);
+    }
+    at = (at * 0.5 + 0.5) * float(light.map.w);
+    return light.map.x + face;
+}
+
+/// How a surface of the map stands to a line: 0 not in the way, 1 beside it, 2 in the way.
+/// to_light: from the point; its length is the distance, or without limit where `distant`.
+uint obstacle(uint surface, vec3 position, vec3 to_light, bool distant, uint own_facet) {
+    uint index = surface >> 1;
+    if (surface == NO_HIT || index == own_facet) {
+        return 0u;
+    }
+    Facet facet = load_facet(index);
+    float height = dot(facet.plane.xyz, position) - facet.plane.w;
+    float rise = dot(facet.plane.xyz, to_light);
+    if (abs(height) <= shadow_tie || height * rise >= 0.0 || (!distant && abs(rise) <= abs(height))) {
+        return 0u;
+    }
+#ifdef ALPHA_MASK
+    if (texelFetch(material_texels, 5 * int(facet_material(index))).w > 0.0) {
+        return 1u;  // only the map knows where it is cut
+    }
+#endif
+    vec4 meeting = vec4(position - to_light * (height / rise), 1.0);
+    float w1 = dot(facet.weight1, meeting);
+    float w2 = dot(facet.weight2, meeting);
+    const float rim = 1e-5;
+    return min(min(w1, w2), 1.0 - w1 - w2) >= -rim ? 2u : 1u;
+}
+
+/// Whether the light reaches a point of a facet. One of the four surfaces in the map about the line that is met
+/// hides it, and so do four that are all in front of the point and barely missed.
+bool is_lit(PunctualData light, vec3 position, vec3 to_light, uint own_facet) {
+    vec2 at;
+    int layer = int(map_layer(light, position, at));
+    ivec2 corner = ivec2(floor(at - 0.5));
+    int last = int(light.map.w) - 1;
+    bool distant = light.map.z == PUNCTUAL_DIRECTIONAL;
+    uint beside = 0u;
+    for (int k = 0; k < 4; ++k) {
+        ivec2 texel = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), ivec2(last));
+        uint found = obstacle(texelFetch(shadow_maps, ivec3(texel, layer), 0).r, position, to_light, distant, own_facet);
+        if (found == 2u) {
+            return false;
+        }
+        beside += found;
+    }
+    return beside < 4u;
+}
+
+#ifdef IES
+/// Luminous intensity, cd, of a profile towards a unit direction away from the light.
+float profile_candela(PunctualData light, vec3 direction) {
+    vec3 d = vec3(dot(light.axis_x.xyz, direction), dot(light.axis_y.xyz, direction), dot(light.axis_z.xyz, direction));
+    const float degrees_per_radian = 57.295779513;
+    float row = acos(clamp(-d.z, -1.0, 1.0)) * (2.0 * degrees_per_radian);
+    float turn = dot(d.xy, d.xy) > 0.0 ? atan(d.y, d.x) * degrees_per_radian : 0.0;
+    float column = (turn < 0.0 ? turn + 360.0 : turn) * 0.4;
+    uint r = min(uint(row), uint(IES_ROWS - 2));
+    uint c = min(uint(column), uint(IES_COLUMNS - 2));
+    uint first = (light.profile.x * uint(IES_COLUMNS) + c) * uint(IES_ROWS) + r;
+    float low = mix(ies_candela[first], ies_candela[first + 1u], row - float(r));
+    float high = mix(ies_candela[first + uint(IES_ROWS)], ies_candela[first + uint(IES_ROWS) + 1u], row - float(r));
+    return mix(low, high, column - float(c));
+}
+#endif
+
+/// Illuminance (radiance units) of a surface that faces light k at a point, without obstacles. to_light: as for
+/// is_lit(), from the point.
+vec3 facing_illuminance(PunctualData light, vec3 position, out vec3 to_light) {
+    to_light = light.axis_z.xyz;
+    if (light.map.z == PUNCTUAL_DIRECTIONAL) {
+        return light.intensity.rgb;
+    }
+    to_light = light.position.xyz - position;
+    float square = max(dot(to_light, to_light), 1e-20);
+    float share = 1.0;
+    if (light.map.z == PUNCTUAL_SPOT) {
+        float cosine = dot(light.axis_z.xyz, to_light) * inversesqrt(square);
+        share = clamp((cosine - light.axis_y.w) / (light.axis_x.w - light.axis_y.w), 0.0, 1.0);
+    }
+#ifdef IES
+    if (light.profile.x != NO_PROFILE) {
+        return light.intensity.rgb * (profile_candela(light, -to_light * inversesqrt(square)) / square);
+    }
+#endif
+    return light.intensity.rgb * (share * share / square);
+}
+
+/// Irradiance (radiance units) of a point of a facet by light k; w_in: unit direction that it comes from.
+/// normal: whose cosine counts; geometric: of the facet's lit side.
+vec3 punctual_irradiance(uint k, vec3 position, vec3 normal, vec3 geometric, uint own_facet, out vec3 w_in) {
+    PunctualData light = punctual[k];
+    vec3 to_light;
+    vec3 arriving = facing_illuminance(light, position, to_light);
+    w_in = normalize(to_light);
+    float cosine = dot(normal, w_in);
+    bool faces = cosine > 0.0 && dot(geometric, w_in) > 0.0 && arriving != vec3(0.0);
+    if (!faces || !is_lit(light, position, to_light, own_facet)) {
+        return vec3(0.0);
+    }
+    return arriving * cosine;
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exchange of radiance between what lies behind and ahead in a parallel bundle (ch. 4.3), summed over runs
+// of pixels that stay on the same two patches:
+//   irradiance_i += L(y) (pixel area / A_i) / d(omega)   (cos_x dA_x = pixel area).
+// Lines that meet nothing on one side carry the sky's radiance to the other.
+// The including shader declares uvec2 load_pair(ivec2 texel): surface behind, surface ahead, or NO_HIT.
+#include "accumulator.glsl"
+#include "density.glsl"
+#include "scene_geometry.glsl"
+#include "facets.glsl"
+#include "parallel.glsl"
+#ifdef THIN_WALLS
+#include "crease.glsl"
+#endif
+layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
+uniform uint row_stride;   // rows are sampled: every row_stride-th from row_phase on
+uniform uint row_phase;
+uniform uint patch_base;   // patches, facets and vertices of the place that was drawn
+uniform uint facet_base;
+uniform uint vertex_base;
+
+uvec2 load_pair(ivec2 texel);
+
+const uint run_length = uint(RUN_LENGTH);  // pixels of a row that one invocation sums
+
+/// Consecutive pixels of a row that see one patch on one side. Depth and the triangle's barycentric
+/// weights are linear along the row.
+struct Run {
+    uint surface;
+    uint patch_id;  // NO_PATCH: nothing is sent or received
+    float depth, depth_step;
+    float cosine;   // between normal and axis
+    vec3 weights, weights_step;
+    vec4 radiance;  // w = p_j/A_j
+    vec3 received;  // sum of L / d(omega)
+#ifdef THIN_WALLS
+    uint triangle;
+    uint creases;
+    float compensation;
+#endif
+};
+
+/// far: whether the side that looks towards +z is wanted. pixel_step: from pixel to pixel along the row.
+Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
+    Run run;
+    run.surface = surface;
+    run.patch_id = NO_PATCH;
+    run.depth = 0.0;
+    run.depth_step = 0.0;
+    run.cosine = 1.0;
+    run.weights = vec3(1.0);
+    run.weights_step = vec3(0.0);
+    run.radiance = vec4(0.0);
+    run.received = vec3(0.0);
+#ifdef THIN_WALLS
+    run.triangle = 0u;
+    run.creases = 0u;
+    run.compensation = 1.0;
+#endif
+#ifdef DOUBLE_SIDED
+    bool blocked = surface == NO_HIT;
+#else
+    bool blocked = surface == NO_HIT || faces_far(surface) != far;
+#endif
+    if (blocked) {
+        return run;
+    }
+    vec3 axis = bundle.axis_z.xyz;
+    Facet facet = load_facet(facet_base + (surface >> 1));
+    run.depth = plane_depth(facet.plane, point);
+    run.depth_step = plane_depth(facet.plane, point + pixel_step) - run.depth;
+    run.cosine = abs(dot(facet.plane.xyz, axis));
+    vec3 hit_step = pixel_step + run.depth_step * axis;
+    vec4 hit = vec4(point + run.depth * axis, 1.0);
+    float w1 = dot(facet.weight1, hit);
+    float w2 = dot(facet.weight2, hit);
+    float s1 = dot(facet.weight1.xyz, hit_step);
+    float s2 = dot(facet.weight2.xyz, hit_step);
+    run.weights = vec3(1.0 - w1 - w2, w1, w2);
+    run.weights_step = vec3(-s1 - s2, s1, s2);
+    uint triangle = triangle_at(facet.root, run.weights, run.weights_step);
+    run.patch_id = patch_of_surface(2u * triangle + side_of_surface(surface, far));
+    if (run.patch_id != NO_PATCH) {
+        run.radiance = texelFetch(radiance_texels, int(run.patch_id));
+    }
+#ifdef THIN_WALLS
+    run.triangle = triangle;
+    run.creases = crease_flags(triangle);
+    run.compensation = run.creases == 0u ? 1.0
+                                         : crease_compensation(triangle, run.creases, vertex_base, axis,
+                                                               bundle.weights.z);
+#endif
+    return run;
+}
+
+/// Whether the next pixel of the row belongs to the run; goes there.
+bool go_on(inout Run run, uint surface) {
+    run.depth += run.depth_step;
+    run.weights += run.weights_step;
+    return surface == run.surface && all(greaterThanEqual(run.weights, vec3(0.0)));
+}
+
+/// 0 where the line passes too close to a crease of the run's triangle, else the factor that makes up
+/// for it.
+float crease_factor(Run run, vec3 point) {
+#ifdef THIN_WALLS
+    return run.creases != 0u && near_crease(run.triangle, run.creases, vertex_base, point, bundle.axis_z.xyz,
+                                            snap_distance * bundle.weights.z)
+               ? 0.0
+               : run.compensation;
+#else
+    return 1.0;
+#endif
+}
+
+void deposit(Run run, float pixel_area) {
+    if (run.patch_id == NO_PATCH || run.received == vec3(0.0)) {
+        return;
+    }
+    vec3 value = run.received * (pixel_area * patch_attributes(patch_base + run.patch_id).y * bundle.weights.x);
+    accumulate(run.patch_id, 0u, value.r);
+    accumulate(run.patch_id, 1u, value.g);
+    accumulate(run.patch_id, 2u, value.b);
+}
+
+#ifdef SKY
+float sky_weight(float depth, bool far) {
+    float density = sky_density(depth, far);
+    return density > 0.0 ? 1.0 / density : 0.0;
+}
+#endif
+
+struct Exchange {
+    vec2 weights;  // sums of 1/d(omega) towards behind (x) and towards ahead (y)
+    bool same_behind, same_ahead;  // whether the next pixel belongs to the same runs
+};
+
+/// Follows both sides over as many pixels as both stay on their patches.
+Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3 point, vec3 pixel_step, int end,
+                inout uvec2 surfaces) {
+    Exchange e;
+    e.weights = vec2(0.0);
+    do {
+        float r = ahead.depth - behind.depth;
+        vec2 w = vec2(cosine_over_density(r, ahead.cosine, ahead.radiance.w),
+                      cosine_over_density(r, behind.cosine, behind.radiance.w));
+        // Closer surfaces coincide; only rounding could put the plane between them.
+        w = r > bundle.sky.w ? w : vec2(0.0);
+#ifdef SKY
+        w.x = ahead.surface == NO_HIT ? sky_weight(behind.depth, true) : w.x;
+        w.y = behind.surface == NO_HIT ? sky_weight(ahead.depth, false) : w.y;
+#endif
+        e.weights += w * (crease_factor(behind, point) * crease_factor(ahead, point));
+        ++texel.x;
+        point += pixel_step;
+        if (texel.x < end) {
+            surfaces = load_pair(texel);
+        }
+        e.same_behind = go_on(behind, surfaces.x);
+        e.same_ahead = go_on(ahead, surfaces.y);
+    } while (texel.x < end && e.same_behind && e.same_ahead);
+    return e;
+}
+
+/// Transfers the pixels [texel.x, end) of a row.
+void exchange_row(ivec2 texel, int end) {
+    float pixel_area = bundle.weights.z * bundle.weights.z * float(row_stride);
+    vec3 point = window_point(uvec2(texel));
+    vec3 pixel_step = bundle.weights.z * bundle.axis_x.xyz;
+    uvec2 surfaces = load_pair(texel);
+    Run behind = start_run(surfaces.x, true, point, pixel_step);
+    Run ahead = start_run(surfaces.y, false, point, pixel_step);
+    while (texel.x < end) {
+        Exchange e = follow(behind, ahead, texel, point, pixel_step, end, surfaces);
+#ifdef SKY
+        vec3 from_ahead = ahead.surface == NO_HIT ? bundle.sky.rgb : ahead.radiance.rgb;
+        vec3 from_behind = behind.surface == NO_HIT ? bundle.sky.rgb : behind.radiance.rgb;
+#else
+        vec3 from_ahead = ahead.radiance.rgb;
+        vec3 from_behind = behind.radiance.rgb;
+#endif
+        behind.received += e.weights.x * from_ahead;
+        ahead.received += e.weights.y * from_behind;
+        // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
+        for (bool ends = !e.same_behind && texel.x < end; ends; ends = false) {
+            deposit(behind, pixel_area);
+            behind = start_run(surfaces.x, true, point, pixel_step);
+        }
+        for (bool ends = !e.same_ahead && texel.x < end; ends; ends = false) {
+            deposit(ahead, pixel_area);
+            ahead = start_run(surfaces.y, false, point, pixel_step);
+        }
+    }
+    deposit(behind, pixel_area);
+    deposit(ahead, pixel_area);
+}

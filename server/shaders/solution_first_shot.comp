@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Incoming first shot (ch. 4.3.1): mean irradiance of every patch by the punctual lights, over the centroids of
+// the patch's equal parts, and the main part of the radiance that it makes. Source of the random iteration.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "scene_geometry.glsl"
+#include "mesh.glsl"
+#include "first_shot.glsl"
+layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
+layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
+layout(std430, binding = BINDING_FIRST_SHOT) buffer FirstShotBuffer { vec4 first_shot[]; };
+#ifdef GLOSSY
+#include "gloss.glsl"
+#endif
+uniform uint patch_count;
+uniform uint divisions;  // of each edge; a patch has its square of parts
+
+const float inverse_pi = 0.31830988618;
+
+/// Barycentric weights of corners 1 and 2 at the centroid of the k-th of divisions^2 equal parts.
+vec2 part_centroid(uint k) {
+    uint row = uint(sqrt(float(k) + 0.5));
+    uint column = k - row * row;  // 0 .. 2 row: upright parts are even
+    float third = (column & 1u) == 0u ? 1.0 / 3.0 : 2.0 / 3.0;
+    float down = float(row) + 1.0 - third;  // from corner 0
+    float across = float(column >> 1) + third;
+    return vec2(down - across, across) / float(divisions);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= patch_count) {
+        return;
+    }
+    vec3 normal = patch_plane(i).xyz;
+    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(i).w)).xyz;
+    vec3 a = world_position(t.x);
+    vec3 e1 = world_position(t.y) - a;
+    vec3 e2 = world_position(t.z) - a;
+    uint parts = divisions * divisions;
+    vec3 irradiance = vec3(0.0);
+    vec3 reflected = vec3(0.0);
+#ifdef GLOSSY
+    bool glossy = is_glossy(i);
+#endif
+    for (uint k = 0u; k < punctual_count; ++k) {
+        vec3 sum = vec3(0.0);
+        vec3 w_in;
+        for (uint part = 0u; part < parts; ++part) {
+            vec2 at = part_centroid(part);
+            sum += punctual_irradiance(k, a + at.x * e1 + at.y * e2, normal, normal, NO_HIT, w_in);
+        }
+        sum /= float(parts);
+        irradiance += sum;
+        vec3 albedo = surfaces[i].albedo.rgb;
+#ifdef GLOSSY
+        for (bool lit = glossy && sum != vec3(0.0); lit; lit = false) {
+            Brdf brdf = patch_brdf(i);
+            albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_in)));
+        }
+#endif
+        reflected += albedo * sum * inverse_pi;
+    }
+    radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
+    first_shot[2u * i] = vec4(irradiance, 0.0);
+    first_shot[2u * i + 1u] = vec4(reflected, patch_attributes(i).x);
+}

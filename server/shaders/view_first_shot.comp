@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Incoming first shot (ch. 4.3.1) at the pixels of a viewer: irradiance by the punctual lights, and in GLOSSY scenes
+// what their light adds to the picture beyond the directional albedo, see pixel_gloss.glsl.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "scene_geometry.glsl"
+#include "mesh.glsl"
+#include "octahedral.glsl"
+#ifdef GLOSSY
+#include "pixel_gloss.glsl"
+#endif
+#include "first_shot.glsl"
+layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+/// Irradiance per pixel (radiance units); in GLOSSY scenes the glossy radiance of all pixels follows.
+layout(std430, binding = BINDING_PIXEL_FIRST_SHOT) writeonly buffer PixelFirstShotBuffer { vec4 pixel_first_shot[]; };
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    uint pixels = view.size.x * view.size.y;
+    if (index >= pixels) {
+        return;
+    }
+    uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
+    uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, facet
+    vec3 irradiance = vec3(0.0);
+    vec3 gloss = vec3(0.0);
+    for (bool seen = p.w != NO_PATCH; seen; seen = false) {
+        // The surface point itself: the stored one is kept away from creases.
+        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
+        vec2 v = unpackUnorm2x16(q.z);
+        vec3 position =
+            world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
+        vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
+        vec3 geometric = patch_plane(p.w).xyz;
+        uint facet = q.w & PIXEL_FACET_MASK;
+#ifdef GLOSSY
+        bool glossy = (q.w & PIXEL_GLOSSY) != 0u;
+        vec3 root = unpackUnorm4x8(q.y).rgb;
+        vec3 albedo = root * root;
+        vec3 w_out = normalize(view.eye.xyz - position);
+        vec4 at_out;
+        Brdf brdf = pixel_brdf(facet_material(facet), albedo, dot(normal, w_out), at_out);
+#endif
+        for (uint k = 0u; k < punctual_count; ++k) {
+            vec3 w_in;
+            vec3 arriving = punctual_irradiance(k, position, normal, geometric, facet, w_in);
+            irradiance += arriving;
+#ifdef GLOSSY
+            for (bool lit = glossy && arriving != vec3(0.0); lit; lit = false) {
+                vec4 at_in = brdf_at(brdf, dot(normal, w_in));
+                vec3 value = brdf_value(brdf, normal, w_in, w_out, at_in.z * at_out.z);
+                gloss += arriving * (value - albedo * brdf_inverse_pi);
+            }
+#endif
+        }
+    }
+    pixel_first_shot[index] = vec4(irradiance, 0.0);
+#ifdef GLOSSY
+    pixel_first_shot[pixels + index] = vec4(gloss, 0.0);
+#endif
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/first_shot.h"
+
+#include <cmath>
+
+#include "gpu/gl_scope.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
+/// Parts along an edge of a patch: many patches are small ones.
+unsigned divisions_of(std::uint32_t patches) {
+    constexpr std::uint32_t many_patches = 100'000;
+    return patches < many_patches ? 4 : 2;
+}
+
+/// A profile at the directions of shaders/first_shot.glsl, cd.
+void append_table(const IesProfile& profile, std::vector<float>& values) {
+    for (int column = 0; column < IES_COLUMNS; ++column) {
+        const double phi = glm::radians(2.5 * column);
+        for (int row = 0; row < IES_ROWS; ++row) {
+            const double theta = glm::radians(0.5 * row);
+            const double across = std::sin(theta);
+            values.push_back(static_cast<float>(profile.candela(
+                {across * std::cos(phi), across * std::sin(phi), -std::cos(theta)})));
+        }
+    }
+}
+
+}  // namespace
+
+FirstShot::FirstShot(const GpuScene& scene)
+    : scene_(scene),
+      maps_(scene),
+      lights_("punctual lights", scene.punctual_lights().size() * sizeof(layout::PunctualData)),
+      patches_("first shot", 2 * std::size_t{scene.patch_count()} * sizeof(glm::vec4)),
+      shoot_({"solution_first_shot.comp"}, scene.defines()) {
+    patches_.clear();
+    std::vector<float> tables;
+    for (const auto& profile : maps_.profiles()) {
+        append_table(*profile, tables);
+    }
+    if (!tables.empty()) {
+        profiles_ = Buffer::from<float>("ies profiles", tables);
+    }
+}
+
+void FirstShot::update() {
+    lights_.write(maps_.draw(), 0);
+    const GlScope scope("first shot");
+    bind();
+    set_uniforms(shoot_);
+    shoot_.set("patch_count", scene_.patch_count());
+    shoot_.set("divisions", divisions_of(scene_.patch_count()));
+    shoot_.dispatch(scene_.patch_count());
+}
+
+void FirstShot::bind() const {
+    maps_.bind();
+    lights_.bind_storage(BINDING_PUNCTUAL);
+    patches_.bind_storage(BINDING_FIRST_SHOT);
+    if (profiles_.bytes() > 0) {
+        profiles_.bind_storage(BINDING_IES);
+    }
+}
+
+void FirstShot::set_uniforms(const ShaderProgram& program) const {
+    program.set("punctual_count", static_cast<unsigned>(scene_.punctual_lights().size()));
+    program.set("shadow_tie", tie_share * scene_.diameter());
+}
+
+std::vector<glm::vec3> FirstShot::read_irradiance() const {
+    std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
+    patches_.read<glm::vec4>(values);
+    std::vector<glm::vec3> irradiance;
+    irradiance.reserve(scene_.patch_count());
+    for (std::size_t i = 0; i < values.size(); i += 2) {
+        irradiance.emplace_back(values[i]);
+    }
+    return irradiance;
+}
+
+std::vector<glm::vec4> FirstShot::read_reflected() const {
+    std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
+    patches_.read<glm::vec4>(values);
+    std::vector<glm::vec4> reflected;
+    reflected.reserve(scene_.patch_count());
+    for (std::size_t i = 1; i < values.size(); i += 2) {
+        reflected.push_back(values[i]);
+    }
+    return reflected;
+}
+
+std::size_t FirstShot::bytes() const {
+    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes();
+}
+
+}  // namespace raybundle

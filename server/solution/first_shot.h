@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gpu/gl_objects.h"
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+#include "solution/shadow_maps.h"
+
+namespace raybundle {
+
+/// The incoming first shot (ch. 4.3.1) of punctual lights, which no random line can hit: their
+/// irradiance per patch, found once and kept apart from the random iteration, whose source is its
+/// first reflection. Deterministic. Exists only where a scene has such lights; viewers find the
+/// same irradiance at their pixels.
+class FirstShot {
+  public:
+    explicit FirstShot(const GpuScene& scene);
+
+    /// Anew for the present place of the objects. The patches' radiance takes on the change. The
+    /// solution's buffers are bound.
+    void update();
+    void bind() const;
+    /// Sets the uniforms of shaders/first_shot.glsl.
+    void set_uniforms(const ShaderProgram& program) const;
+    /// Irradiance per patch, radiance units. Synchronous.
+    [[nodiscard]] std::vector<glm::vec3> read_irradiance() const;
+    /// Main part of the radiance that it makes (radiance units), w = area, m². Synchronous.
+    [[nodiscard]] std::vector<glm::vec4> read_reflected() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    const GpuScene& scene_;
+    ShadowMaps maps_;
+    Buffer lights_, patches_;
+    Buffer profiles_;  // only where some light has one
+    ShaderProgram shoot_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights and materials that change while the scene is shown.
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
+                               std::span<const std::uint32_t> materials) {
+    for (const std::uint32_t index : materials) {
+        reflectance_.update(scene, index);
+        const layout::MaterialData data = material_data(scene.materials[index]);
+        materials_.write<layout::MaterialData>(std::span(&data, 1),
+                                               index * sizeof(layout::MaterialData));
+    }
+    upload_surfaces(mesh);
+    upload_reflectors(mesh);
+}
+
+void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {
+    radiance_unit_ = unit;
+    sky_ = scene.sky_radiance / radiance_unit_;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const layout::MaterialData data = material_data(scene.materials[i]);
+        materials_.write<layout::MaterialData>(std::span(&data, 1),
+                                               i * sizeof(layout::MaterialData));
+    }
+    upload_surfaces(mesh);
+}
+
+}  // namespace raybundle

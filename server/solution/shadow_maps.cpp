@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/egl_context.h"
+#include "gpu/gl_scope.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr int largest_map = 1024;
+constexpr int smallest_map = 128;
+constexpr std::size_t most_bytes = 96U << 20U;  // of all maps
+constexpr float near_share = 1e-6F;             // of the scene's diameter
+constexpr float widest_face = 1.8F;             // tangent; wider spots take a cube
+constexpr float margin = 1.01F;                 // round what a map has to show
+
+unsigned layers_of(const PunctualLight& light) {
+    if (light.kind == PunctualKind::directional) {
+        return 1;
+    }
+    const bool narrow = light.kind == PunctualKind::spot &&
+                        std::sqrt(1.0F - light.outer_cosine * light.outer_cosine) <
+                            widest_face * light.outer_cosine;
+    return narrow ? 1 : 6;
+}
+
+int map_size(unsigned layers) {
+    int size = largest_map;
+    while (size > smallest_map && std::size_t{layers} * static_cast<std::size_t>(size) *
+                                          static_cast<std::size_t>(size) * sizeof(std::uint32_t) >
+                                      most_bytes) {
+        size /= 2;
+    }
+    return size;
+}
+
+Texture2D create_layers(int size, unsigned layers) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
+    Texture2D texture(name);
+    glTextureStorage3D(name, 1, GL_R32UI, size, size, static_cast<GLsizei>(layers));
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, name, -1, "shadow maps");
+    if (glGetError() == GL_OUT_OF_MEMORY) {
+        throw GpuError("out of GPU memory: shadow maps of the punctual lights");
+    }
+    return texture;
+}
+
+/// Axes of a face of a cube map; the same table as cube_face() in shaders/first_shot.glsl.
+struct FaceAxes {
+    glm::vec3 right{0.0F}, up{0.0F}, forward{0.0F};
+};
+
+FaceAxes face_axes(unsigned face) {
+    const int axis = static_cast<int>(face / 2);
+    const float sign = (face & 1U) != 0 ? -1.0F : 1.0F;
+    FaceAxes axes;
+    axes.forward[axis] = sign;
+    axes.right[(axis + 1) % 3] = -sign;
+    axes.up[(axis + 2) % 3] = 1.0F;
+    return axes;
+}
+
+glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
+    return {axis, -glm::dot(axis, origin)};
+}
+
+}  // namespace
+
+ShadowMaps::ShadowMaps(const GpuScene& scene)
+    : scene_(scene), raster_({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()) {
+    for (const PunctualLight& light : scene.punctual_lights()) {
+        layers_ += layers_of(light);
+        if (light.profile &&
+            std::find(profiles_.begin(), profiles_.end(), light.profile) == profiles_.end()) {
+            profiles_.push_back(light.profile);
+        }
+    }
+    size_ = map_size(layers_);
+    maps_ = create_layers(size_, layers_);
+    depths_ = create_texture_2d("shadow depths", GL_DEPTH_COMPONENT32F, size_, size_);
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    framebuffer_ = Framebuffer(name);
+    glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depths_.get(), 0);
+    glObjectLabel(GL_FRAMEBUFFER, name, -1, "shadow maps");
+}
+
+/// Number of a light's profile among all that are different.
+unsigned ShadowMaps::profile_of(std::size_t light) const {
+    const auto& profile = scene_.punctual_lights()[light].profile;
+    const auto found = std::find(profiles_.begin(), profiles_.end(), profile);
+    return profile ? static_cast<unsigned>(found - profiles_.begin()) : NO_PROFILE;
+}
+
+void ShadowMaps::place_lights() {
+    lights_.clear();
+    unsigned layer = 0;
+    const Bounds bounds = scene_.bounds();
+    const float radius = 0.5F * margin * std::max(glm::length(bounds.extent()), 1e-6F);
+    for (std::size_t i = 0; i < scene_.punctual_lights().size(); ++i) {
+        const PunctualLight& light = scene_.punctual_lights()[i];
+        const PlacedLight placed = scene_.placed_light(i);
+        const bool directional = light.kind == PunctualKind::directional;
+        const float cosine = light.outer_cosine;
+        const float tangent = std::sqrt(std::max(1.0F - cosine * cosine, 0.0F)) / cosine;
+        layout::PunctualData data{};
+        data.position = directional ? glm::vec4(bounds.centre(), radius)
+                                    : glm::vec4(glm::vec3(placed.position), margin * tangent);
+        data.axis_x = glm::vec4(glm::vec3(placed.axes[0]), light.inner_cosine);
+        data.axis_y = glm::vec4(glm::vec3(placed.axes[1]), light.outer_cosine);
+        data.axis_z = glm::vec4(glm::vec3(placed.axes[2]), 0.0F);
+        data.intensity = glm::vec4(light.intensity / scene_.radiance_unit(), 0.0F);
+        data.map = {layer, layers_of(light), static_cast<unsigned>(light.kind),
+                    static_cast<unsigned>(size_)};
+        data.profile.x = profile_of(i);
+        layer += data.map.y;
+        lights_.push_back(data);
+    }
+}
+
+/// Reversed depth: 1 at the near plane, 0 infinitely far away (directional: behind the scene).
+glm::mat4 ShadowMaps::clip_from_world(const layout::PunctualData& light, unsigned face) const {
+    const glm::vec3 origin(light.position);
+    const glm::vec3 z(light.axis_z);
+    const float width = light.position.w;
+    if (light.map.z == PUNCTUAL_DIRECTIONAL) {
+        const glm::vec4 depth = 0.5F * row(z, origin) / width + glm::vec4(0, 0, 0, 0.5F);
+        return glm::transpose(glm::mat4(row(glm::vec3(light.axis_x), origin) / width,
+                                        row(glm::vec3(light.axis_y), origin) / width, depth,
+                                        glm::vec4(0, 0, 0, 1)));
+    }
+    const glm::vec4 near(0, 0, 0, near_share * scene_.diameter());
+    if (light.map.y == 6) {
+        const FaceAxes axes = face_axes(face);
+        return glm::transpose(glm::mat4(row(axes.right, origin), row(axes.up, origin), near,
+                                        row(axes.forward, origin)));
+    }
+    return glm::transpose(glm::mat4(row(glm::vec3(light.axis_x), origin) / width,
+                                    row(glm::vec3(light.axis_y), origin) / width, near,
+                                    row(-z, origin)));
+}
+
+void ShadowMaps::draw_layer(unsigned layer, const glm::mat4& clip) {
+    glNamedFramebufferTextureLayer(framebuffer_.get(), GL_COLOR_ATTACHMENT0, maps_.get(), 0,
+                                   static_cast<GLint>(layer));
+    const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
+    const float far_depth = 0.0F;
+    glClearBufferuiv(GL_COLOR, 0, no_hit);
+    glClearBufferfv(GL_DEPTH, 0, &far_depth);
+    raster_.set("clip_from_world", clip);
+    scene_.draw(Place::now, clip, true, raster_);
+}
+
+std::span<const layout::PunctualData> ShadowMaps::draw() {
+    const GlScope scope("shadow maps");
+    place_lights();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glViewport(0, 0, size_, size_);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    raster_.use();
+    for (const layout::PunctualData& light : lights_) {
+        for (unsigned face = 0; face < light.map.y; ++face) {
+            draw_layer(light.map.x + face, clip_from_world(light, face));
+        }
+    }
+    glDisable(GL_DEPTH_TEST);
+    return lights_;
+}
+
+std::size_t ShadowMaps::bytes() const {
+    const auto texels = static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_);
+    return texels * sizeof(std::uint32_t) * (std::size_t{layers_} + 1);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// How a special iteration phase is carried out.
+struct SpecialSettings {
+    unsigned bundles = 8;        ///< of the difference; a quarter of them are parallel ones
+    unsigned most_bundles = 32;  ///< twice or more of them where these prove noisy, up to so many
+    unsigned bounces = 6;        ///< bundles that carry the change on to other surfaces
+    float noise = 0.15F;         ///< standard error of the increments to be content with, relative
+    float most_weight = 1e30F;   ///< that any mean keeps, in samples
+    bool scissored = true;       ///< transfer differences only where they are
+    bool skipped = false;        ///< no phase at all: iterate on from the old solution
+};
+
+/// By which colour the solution is best multiplied when emission goes from `before` to `after`
+/// (cd/m², per patch): the weighted median of the ratios, so that the least flux is left to be
+/// transferred (1 in doubt). Where all emission changes alike nothing is left, and where the
+/// brightest light goes out nothing remains of it, noise included. sky: of the scene, the same
+/// before and after, with the area of the scene's bounds.
+glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, std::span<const glm::vec3> before,
+                       std::span<const glm::vec3> after);
+
+}  // namespace raybundle

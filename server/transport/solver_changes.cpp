@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the solver takes over changes of the scene.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/surface_edit.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr float no_limit = 1e30F;
+/// Where gloss has changed, the phase knows only what a Lambert surface of the same albedo would
+/// send: every mean is then worth so many samples at most.
+constexpr float glossy_weight = 32.0F;
+/// Emission may leave the unit of radiance by this factor before another unit is chosen: sums in
+/// fixed point and half floats have room for it.
+constexpr float unit_range = 64.0F;
+/// Samples that what punctual lights bring anew is worth, against those taken with their light before.
+constexpr float first_shot_weight = 8.0F;
+constexpr float rounding = 1e-6F;  // of a product of two floats, relative
+
+float largest_of(std::span<const glm::vec3> emission, const glm::vec3& sky) {
+    float largest = std::max({sky.r, sky.g, sky.b});
+    for (const glm::vec3& e : emission) {
+        largest = std::max({largest, e.r, e.g, e.b});
+    }
+    return largest;
+}
+
+/// Whether an emitter has come or gone among the patches.
+bool emitters_differ(std::span<const glm::vec3> before, std::span<const glm::vec3> after) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if ((before[i] == glm::vec3(0.0F)) != (after[i] == glm::vec3(0.0F))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool anything_left(std::span<const glm::vec3> before, std::span<const glm::vec3> after,
+                   const glm::vec3& scale) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const glm::vec3 difference = glm::abs(after[i] - scale * before[i]);
+        if (glm::any(glm::greaterThan(difference, rounding * after[i]))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+ChangeStore& Solver::change_store() {
+    if (!change_store_) {
+        change_store_.emplace(scene_, store_);
+    }
+    return *change_store_;
+}
+
+void Solver::note_change() {
+    group_.clear();
+    group_next_ = 0;
+    since_change_ = 0;
+    statistics_.settled = 0.0;
+    ++changes_;
+}
+
+void Solver::start_phase(std::optional<std::uint32_t> moved, float most_weight) {
+    SpecialSettings special = settings_.special;
+    special.most_weight = most_weight;
+    phase_.emplace(scene_, store_, change_store(), *coarse_, special, moved,
+                   mix_bits(settings_.seed) + changes_);
+}
+
+void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_object,
+                         std::span<BundleReceiver* const> receivers) {
+    store_.bind();
+    store_.checkpoint();
+    scene_.move_object(object, world_from_object);
+    store_.turn_gloss(object, scene_.now_from_before(object));
+    store_.reshoot(first_shot_weight);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_special(object);
+    }
+    note_change();
+    start_phase(object, no_limit);
+}
+
+/// Chooses another unit of radiance where emission is far from the present one. scale: what the
+/// solution is multiplied by, in the present unit; becomes what it is in the new one.
+void Solver::adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale) {
+    const float largest = largest_of(mesh.emission, scene.sky_radiance);
+    const float unit = scene_.radiance_unit();
+    if (largest <= 0.0F || !scene.punctual_lights.empty() || (largest < unit * unit_range && largest * unit_range > unit)) {
+        return;
+    }
+    const float next = GpuScene::unit_for(largest);
+    scale *= unit / next;
+    scene_.set_radiance_unit(next, scene, mesh);
+}
+
+bool Solver::any_glossy(std::span<const std::uint32_t> materials) const {
+    return std::any_of(materials.begin(), materials.end(), [this](std::uint32_t material) {
+        return scene_.reflectance().glossy(material);
+    });
+}
+
+/// The surfaces have changed: from those that change_store() remembers to those of scene_.
+void Solver::work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers) {
+    store_.bind();
+    if (change.scale != glm::vec3(1.0F)) {
+        change_store().scale(change.scale);
+    }
+    change_store().set_source(change.scale, change.reflecting);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_surfaces(change.scale, change.reflecting, change.redraw);
+    }
+    note_change();
+    if (change.transfer) {
+        start_phase(std::nullopt, change.glossy ? glossy_weight : no_limit);
+        return;
+    }
+    for (BundleReceiver* receiver : receivers) {
+        receiver->end_special(1.0F, no_limit);
+    }
+    store_.bind();
+    refresh_statistics();
+}
+
+void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
+                             std::span<const std::uint32_t> materials,
+                             std::span<const std::uint32_t> reflecting,
+                             std::span<BundleReceiver* const> receivers) {
+    const std::vector<glm::vec3> before = mesh.emission;
+    refresh_surfaces(scene, materials, mesh);
+    SurfaceChange change;
+    change.scale = common_scale(scene, mesh, before, mesh.emission);
+    change.reflecting = reflecting;
+    change.transfer = !reflecting.empty() || anything_left(before, mesh.emission, change.scale);
+    change.redraw = !reflecting.empty() || emitters_differ(before, mesh.emission);
+    store_.bind();
+    store_.checkpoint();
+    change_store().remember_surfaces(scene_);
+    change.glossy = any_glossy(reflecting);
+    scene_.update_surfaces(scene, mesh, materials);
+    if (!reflecting.empty()) {
+        store_.reshoot(first_shot_weight);
+    }
+    change.glossy = change.glossy || any_glossy(reflecting);
+    adapt_unit(scene, mesh, change.scale);
+    work_in(change, receivers);
+}
+
+void Solver::take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
+                       std::span<BundleReceiver* const> receivers) {
+    iterations_ = other.iterations_;
+    changes_ = other.changes_;
+    store_.adopt(other.store_);
+    store_.bind();
+    store_.checkpoint();
+    change_store().remember_surfaces(other.scene_);
+    SurfaceChange change;
+    change.scale = glm::vec3(other.scene_.radiance_unit() / scene_.radiance_unit());
+    change.reflecting = reflecting;
+    change.glossy = any_glossy(reflecting);
+    work_in(change, receivers);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+
+#include "gpu/gl_objects.h"
+#include "gpu/layouts.h"
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+
+/// Programs of EdgeFilter that all viewers share.
+struct EdgePrograms {
+    explicit EdgePrograms(const GpuScene& scene);
+
+    ShaderProgram count, average, average_linear;
+};
+
+/// Antialiasing of a picture at rest: a box filter over the pixels at the edges of surfaces. Light
+/// is gathered at the pixels' centres alone; what else an edge pixel covers is some neighbour's
+/// surface, and takes its light from there. So only the shares are needed, found by rasterising the
+/// scene again through `samples` points of each pixel, and iterations cost no more than without.
+/// After A. Reshetov 2009, "Morphological Antialiasing" (blending neighbours), with the coverage of
+/// E. Persson 2011, "Geometric Post-process Anti-Aliasing" (true geometry instead of guessed
+/// edges).
+class EdgeFilter {
+  public:
+    static constexpr unsigned samples = EDGE_SAMPLES;
+
+    /// size: of the picture, pixels.
+    explicit EdgeFilter(glm::uvec2 size);
+
+    /// What the pixels show has changed: all shares are to be found again.
+    void restart() { counted_ = 0; }
+    [[nodiscard]] bool complete() const { return counted_ == samples; }
+
+    /// Where in the pixels the scene is to be rasterised next, from their centres, pixels: within
+    /// (-0.5, 0.5), y upwards. Requires !complete().
+    [[nodiscard]] glm::vec2 next_offset() const;
+    /// Counts for each pixel whose surface is seen there. The surfaces rasterised at next_offset()
+    /// are bound to UNIT_SURFACE_IDS, the picture's pixels and parameters and the scene as well.
+    void count(const EdgePrograms& programs);
+
+    /// The frame (RGBA8, sRGB, row 0 at the top) with its edges smoothed: means of displayed light,
+    /// so that bright lamps have smooth edges too. Requires complete(). Valid until the next call.
+    [[nodiscard]] const Buffer& average(const EdgePrograms& programs, const Buffer& frame) const;
+    /// The same for radiance (vec4 per pixel).
+    [[nodiscard]] Buffer average_linear(const EdgePrograms& programs, const Buffer& frame) const;
+
+    [[nodiscard]] std::size_t bytes() const { return counts_.bytes() + smoothed_.bytes(); }
+
+  private:
+    void average(const ShaderProgram& program, const Buffer& frame, const Buffer& result) const;
+
+    glm::uvec2 size_;
+    Buffer counts_, smoothed_;
+    unsigned counted_ = 0;  // sub-samples
+};
+
+}  // namespace raybundle

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Antialiasing of pictures at rest: the share of an edge pixel that a surface covers is known in
+// closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "oracle/scene_builder.h"
+#include "transport/solver.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+namespace {
+
+constexpr glm::uvec2 size(48, 40);
+constexpr float lamp_radiance = 1e5F;
+
+/// The area left of a straight line through a pixel errs by 0.10 at most with these sub-samples
+/// (edge_filter.cpp); the rest is the rasteriser's fixed-point coordinates and the test's own sum.
+constexpr double coverage_error = 0.12;
+
+/// A wide lamp that ends at x = 0, before a black wall, seen upright on by a camera that is turned.
+struct EdgeView {
+    EdgeView() {
+        const auto lamp = builder.add_material(glm::vec3(0.0F), glm::vec3(lamp_radiance));
+        const auto wall = builder.add_material(glm::vec3(0.0F));
+        builder.add_quad({-20, -20, 0}, {20, 0, 0}, {0, 40, 0}, 4, 4, lamp);
+        builder.add_quad({-40, -40, -1}, {80, 0, 0}, {0, 80, 0}, 4, 4, wall);
+        solver.emplace(builder.scene, builder.mesh, SolverSettings{});
+        programs.emplace(solver->scene());
+        image.emplace(solver->scene(), solver->store(), *programs, size);
+    }
+
+    void turn(float angle) {
+        Camera camera;
+        camera.eye = {0.013F, 0, 5};
+        camera.target = {0.013F, 0, 0};
+        camera.up = {std::sin(angle), std::cos(angle), 0};
+        camera.vertical_fov = 0.6F;
+        edge_angle = angle;
+        image->set_camera(camera);
+    }
+
+    /// Share of a pixel (row 0 at the top) that the lamp covers.
+    [[nodiscard]] double coverage(unsigned x, unsigned y) const {
+        constexpr int cells = 32;
+        const double metres = 2.0 * 5.0 * std::tan(0.3) / size.y;  // a pixel on the lamp
+        int covered = 0;
+        for (int i = 0; i < cells * cells; ++i) {
+            const double right = (x + (i % cells + 0.5) / cells - 0.5 * size.x) * metres;
+            const double up = (0.5 * size.y - y - (i / cells + 0.5) / cells) * metres;
+            const double angle = static_cast<double>(edge_angle);
+            const double at_x = 0.013 + right * std::cos(angle) + up * std::sin(angle);
+            covered += at_x < 0.0 ? 1 : 0;
+        }
+        return covered / static_cast<double>(cells * cells);
+    }
+
+    SceneBuilder builder;
+    std::optional<Solver> solver;
+    std::optional<ViewPrograms> programs;
+    std::optional<ViewerImage> image;
+    float edge_angle = 0.0F;
+};
+
+struct CoverageErrors {
+    double largest = 0.0;
+    double mean = 0.0;  // signed, of the edge pixels
+};
+
+/// value(index): what the picture makes of the coverage of a pixel, 0..1.
+template <typename Value>
+CoverageErrors coverage_errors(const EdgeView& view, const Value& value) {
+    CoverageErrors errors;
+    int count = 0;
+    for (unsigned y = 0; y < size.y; ++y) {
+        for (unsigned x = 0; x < size.x; ++x) {
+            const double exact = view.coverage(x, y);
+            const double error = value(std::size_t{y} * size.x + x) - exact;
+            errors.largest = std::max(errors.largest, std::abs(error));
+            if (exact > 0.0 && exact < 1.0) {
+                errors.mean += error;
+                ++count;
+            }
+        }
+    }
+    errors.mean /= std::max(count, 1);
+    return errors;
+}
+
+class SlantedEdge : public testing::TestWithParam<float> {};
+
+TEST_P(SlantedEdge, RadianceIsThatOfTheCoveredArea) {
+    EdgeView view;
+    view.turn(GetParam());
+    const auto errors = [&] {
+        const auto picture = view.image->read_radiance();
+        return coverage_errors(
+            view, [&](std::size_t i) { return static_cast<double>(picture[i].g / lamp_radiance); });
+    };
+    EXPECT_GT(errors().largest, 0.35);  // at the centres alone
+    view.image->smooth();
+    EXPECT_TRUE(view.image->smoothed());
+    EXPECT_LT(errors().largest, coverage_error);
+    EXPECT_LT(std::abs(errors().mean), 0.03);
+}
+
+/// A lamp that is a thousand times brighter than white has edges as smooth as white paper.
+TEST_P(SlantedEdge, DisplayedLightIsThatOfTheCoveredArea) {
+    EdgeView view;
+    view.turn(GetParam());
+    view.image->smooth();
+    view.image->compose(DisplayMode::photo, std::log2(1e3F / (0.18F * lamp_radiance)));
+    const auto frame = view.image->take();
+    const CoverageErrors errors = coverage_errors(view, [&](std::size_t i) {
+        const double encoded = frame[4 * i + 1] / 255.0;
+        return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    });
+    EXPECT_LT(errors.largest, coverage_error + 0.005);
+    EXPECT_LT(std::abs(errors.mean), 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, SlantedEdge, testing::Values(0.03F, 0.2F, 0.6F, 1.1F, 1.5F, 2.4F));
+
+TEST(EdgeFilter, EndsWhenTheCameraMoves) {
+    EdgeView view;
+    view.turn(0.2F);
+    EXPECT_FALSE(view.image->smoothed());
+    unsigned steps = 0;
+    while (view.image->smooth_step()) {
+        ++steps;
+        EXPECT_FALSE(view.image->smoothed());
+    }
+    EXPECT_EQ(steps + 1, EdgeFilter::samples);
+    const auto before = view.image->read_radiance();
+    view.turn(0.2F);
+    EXPECT_FALSE(view.image->smoothed());
+    view.image->smooth();
+    EXPECT_EQ(view.image->read_radiance(), before);  // the same bits
+    view.image->resize({33, 17});
+    EXPECT_FALSE(view.image->smoothed());
+    EXPECT_FALSE(view.image->read_radiance().empty());
+}
+
+/// Pieces of one flat surface have no edges between them, in whatever order they are drawn.
+TEST(EdgeFilter, LeavesFlatSurfacesAsTheyAre) {
+    SceneBuilder builder;
+    const auto wall = builder.add_material(glm::vec3(0.6F));
+    const auto lamp = builder.add_material(glm::vec3(0.0F), glm::vec3(100.0F));
+    builder.add_quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, 5, 5, wall);
+    builder.add_quad({-9, -9, 20}, {0, 18, 0}, {18, 0, 0}, 1, 1, lamp);
+    Solver solver(builder.scene, builder.mesh, SolverSettings{});
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    Camera camera;
+    camera.eye = {1, 2, 5};
+    camera.target = {0.3F, 0, 0};
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 8; ++i) {
+        solver.step(receivers);
+    }
+    const auto centres = image.read_radiance();
+    EXPECT_NE(centres.front(), centres.back());
+    image.smooth();
+    EXPECT_EQ(image.read_radiance(), centres);
+}
+
+}  // namespace
+}  // namespace raybundle
