@@ -101,6 +101,7 @@ class SceneBench {
         SolverSettings result;
         result.seed = seed_;
         result.probabilities = probabilities;
+        result.special = interactive_special();
         return result;
     }
 

@@ -74,9 +74,7 @@ std::optional<LoadedScene> serve_scene(const Options& options, const EglContext&
     log.restore(loaded.scene, loaded.mesh);
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
-    // Somebody waits for the frame after a change: what it lacks the iterations that follow bring.
-    settings.solver.special.most_bundles = settings.solver.special.bundles;
-    settings.solver.special.bounces = 3;
+    settings.solver.special = interactive_special();
     settings.min_frames_per_second = options.min_frames_per_second;
     settings.renderer = context.renderer();
     settings.software_rendering = context.is_software();

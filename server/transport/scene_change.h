@@ -21,6 +21,15 @@ struct SpecialSettings {
     bool skipped = false;        ///< no phase at all: iterate on from the old solution
 };
 
+/// Where somebody waits for the first frame after a change: few bundles, and no carrying on, whose
+/// noise would outweigh what it brings; the iterations that follow do it.
+constexpr SpecialSettings interactive_special() {
+    SpecialSettings settings;
+    settings.most_bundles = settings.bundles;
+    settings.bounces = 0;
+    return settings;
+}
+
 /// By which colour the solution is best multiplied when emission goes from `before` to `after`
 /// (cd/m², per patch): the weighted median of the ratios, so that the least flux is left to be
 /// transferred (1 in doubt). Where all emission changes alike nothing is left, and where the
