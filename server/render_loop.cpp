@@ -45,11 +45,12 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
       log_(log),
       solver_(std::make_unique<Solver>(scene_, mesh_, settings.solver)),
       programs_(std::make_unique<ViewPrograms>(solver_->scene())),
-      encoder_(encoder_threads, [this](const EncodedFrame& frame) {
-          metrics_.count_frame(frame.bytes.size());
-          server_.send_frame(frame.viewer, frame.header, frame.bytes);
-          server_.inbox().interrupt();
-      }),
+      encoder_(encoder_threads,
+               [this](const EncodedFrame& frame) {
+                   metrics_.count_frame(frame.bytes.size());
+                   server_.send_frame(frame.viewer, frame.header, frame.bytes);
+                   server_.inbox().interrupt();
+               }),
       review_(log, solver_->scene().patch_count()) {
     epoch_ = log_.epoch();
 }

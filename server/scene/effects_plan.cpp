@@ -12,7 +12,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::size_t diffuse_bytes = 84;  // radiance, mean, iterate, accumulator, cdf, checkpoint
+constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
 constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
 constexpr float nearly_mirror = 0.1F;         // roughness

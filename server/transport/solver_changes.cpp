@@ -17,7 +17,8 @@ constexpr float glossy_weight = 32.0F;
 /// Emission may leave the unit of radiance by this factor before another unit is chosen: sums in
 /// fixed point and half floats have room for it.
 constexpr float unit_range = 64.0F;
-/// Samples that what punctual lights bring anew is worth, against those taken with their light before.
+/// Samples that what punctual lights bring anew is worth, against those taken with their light
+/// before.
 constexpr float first_shot_weight = 8.0F;
 constexpr float rounding = 1e-6F;  // of a product of two floats, relative
 
@@ -93,7 +94,8 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
 void Solver::adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale) {
     const float largest = largest_of(mesh.emission, scene.sky_radiance);
     const float unit = scene_.radiance_unit();
-    if (largest <= 0.0F || !scene.punctual_lights.empty() || (largest < unit * unit_range && largest * unit_range > unit)) {
+    if (largest <= 0.0F || !scene.punctual_lights.empty() ||
+        (largest < unit * unit_range && largest * unit_range > unit)) {
         return;
     }
     const float next = GpuScene::unit_for(largest);

@@ -16,7 +16,7 @@ TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
     fs::remove_all(folder);
     const std::string command = RAYBUNDLE_EXECUTABLE
                                 " accuracy --log-level off " RAYBUNDLE_SCENES
-                                "/cornell_box.gltf --size 32x32 --patch-size 0.5 --seconds 1 "
+                                "/cornell_box.gltf --size 32x32 --patch-size 0.5 --seconds 3 "
                                 "--reference-seconds 4 --methods combined,path -o '" +
                                 folder.string() + "' >/dev/null 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0);
