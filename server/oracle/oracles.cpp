@@ -126,8 +126,9 @@ double exact_disc_illuminance(double radius, double height, double flux) {
     const double h = height * height;
     double sum = 0.0;
     for (int i = 0; i < n * n; ++i) {
-        const double x = ((i % n + 0.5) / n - 0.5) * side;
-        const double z = ((i / n + 0.5) / n - 0.5) * side;
+        const int row = i / n;
+        const double x = ((i - row * n + 0.5) / n - 0.5) * side;
+        const double z = ((row + 0.5) / n - 0.5) * side;
         const double r = x * x + z * z;
         sum += 0.5 * (1.0 - (h + r - a) / std::sqrt(std::pow(h + r + a, 2.0) - 4.0 * a * r));
     }
