@@ -15,7 +15,7 @@ import {ErrorHistory, RateMeter, Samples} from './meters.js';
 const REFRESH_MS = 250;
 
 /** From here on the light counts as settled. */
-export const SETTLED = 0.95;
+export const SETTLED = 0.85;
 
 export class Readouts {
     #frames = new RateMeter();
