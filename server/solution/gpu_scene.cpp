@@ -29,28 +29,6 @@ glm::vec2 octahedral_from_vector(const glm::vec3& n) {
             (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F)};
 }
 
-/// Largest radiance that something sends of its own, cd/m².
-float largest_emission(const Scene& scene, const PatchMesh& mesh) {
-    const glm::vec3& sky = scene.sky_radiance;
-    float largest = std::max({sky.r, sky.g, sky.b});
-    // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
-    // away from a lamp.
-    const float distance = 0.25F * glm::length(scene.bounds.extent());
-    for (const PunctualLight& light : scene.punctual_lights) {
-        const glm::vec3 i =
-            light.intensity *
-            (light.profile ? static_cast<float>(light.profile->flux()) / (4.0F * glm::pi<float>())
-                           : 1.0F);
-        const float square =
-            light.kind == PunctualKind::directional ? 1.0F : std::max(distance * distance, 1e-12F);
-        largest = std::max(largest, std::max({i.r, i.g, i.b}) / (glm::pi<float>() * square));
-    }
-    for (const glm::vec3& emission : mesh.emission) {
-        largest = std::max({largest, emission.r, emission.g, emission.b});
-    }
-    return largest;
-}
-
 /// Whether a triangle's vertex normals bend away from its plane.
 bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
     const glm::uvec3& t = mesh.triangles[triangle];
@@ -140,6 +118,27 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
     back_patch_ = Buffer::from<std::uint32_t>("back patches", mesh.back_patch);
     patches_ = Buffer("patches", 2 * std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     objects_ = Buffer("object matrices", world_from_object_.size() * sizeof(glm::mat4));
+}
+
+float GpuScene::largest_emission(const Scene& scene, const PatchMesh& mesh) {
+    const glm::vec3& sky = scene.sky_radiance;
+    float largest = std::max({sky.r, sky.g, sky.b});
+    // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
+    // away from a lamp.
+    const float distance = 0.25F * glm::length(scene.bounds.extent());
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const glm::vec3 i =
+            light.intensity *
+            (light.profile ? static_cast<float>(light.profile->flux()) / (4.0F * glm::pi<float>())
+                           : 1.0F);
+        const float square =
+            light.kind == PunctualKind::directional ? 1.0F : std::max(distance * distance, 1e-12F);
+        largest = std::max(largest, std::max({i.r, i.g, i.b}) / (glm::pi<float>() * square));
+    }
+    for (const glm::vec3& emission : mesh.emission) {
+        largest = std::max({largest, emission.r, emission.g, emission.b});
+    }
+    return largest;
 }
 
 /// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.

@@ -35,6 +35,8 @@ class GpuScene {
     void set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh);
     /// Unit for a brightest emission, or sky, of so much, cd/m².
     static float unit_for(float largest);
+    /// Largest radiance that something sends of its own, cd/m².
+    static float largest_emission(const Scene& scene, const PatchMesh& mesh);
     [[nodiscard]] const Buffer& surfaces() const { return surfaces_; }
     /// Forgets `before`: both places are the present one.
     void settle();

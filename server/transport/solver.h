@@ -60,7 +60,7 @@ class Solver {
                          std::span<const std::uint32_t> reflecting,
                          std::span<BundleReceiver* const> receivers);
     /// Whether the shaders of this solver can show a material as it is in the scene now; else a new
-    /// solver takes over, see adopt().
+    /// solver takes over, see take_over().
     [[nodiscard]] bool covers(const Scene& scene, std::uint32_t material) const {
         return scene_.reflectance().covers(scene, material);
     }

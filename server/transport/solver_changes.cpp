@@ -22,14 +22,6 @@ constexpr float unit_range = 64.0F;
 constexpr float first_shot_weight = 8.0F;
 constexpr float rounding = 1e-6F;  // of a product of two floats, relative
 
-float largest_of(std::span<const glm::vec3> emission, const glm::vec3& sky) {
-    float largest = std::max({sky.r, sky.g, sky.b});
-    for (const glm::vec3& e : emission) {
-        largest = std::max({largest, e.r, e.g, e.b});
-    }
-    return largest;
-}
-
 /// Whether an emitter has come or gone among the patches.
 bool emitters_differ(std::span<const glm::vec3> before, std::span<const glm::vec3> after) {
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -92,7 +84,7 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
 /// Chooses another unit of radiance where emission is far from the present one. scale: what the
 /// solution is multiplied by, in the present unit; becomes what it is in the new one.
 void Solver::adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale) {
-    const float largest = largest_of(mesh.emission, scene.sky_radiance);
+    const float largest = GpuScene::largest_emission(scene, mesh);
     const float unit = scene_.radiance_unit();
     if (largest <= 0.0F || !scene.punctual_lights.empty() ||
         (largest < unit * unit_range && largest * unit_range > unit)) {

@@ -7,49 +7,13 @@
 #include <map>
 #include <vector>
 
-#include "oracle/scene_builder.h"
-#include "transport/solver.h"
+#include "../oracle/moved_box.h"
 
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t box_object = 1;
-
-SceneBuilder room_with_box(const glm::vec3& box_place) {
-    SceneBuilder b;
-    const auto wall = b.add_material(glm::vec3(0.6F, 0.5F, 0.4F));
-    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(900.0F, 1000.0F, 800.0F));
-    b.add_box({0, 0, 0}, {4, 3, 4}, true, 8, wall);
-    b.add_quad({1.5F, 2.98F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
-    Transform transform;
-    transform.translation = box_place;
-    b.add_object("box", transform);
-    b.add_box({-0.4F, 0, -0.4F}, {0.4F, 0.8F, 0.4F}, false, 4, wall);
-    return b;
-}
-
 SolverSettings quick(std::uint64_t seed) {
-    SolverSettings settings;
-    settings.seed = seed;
-    settings.coarse = {96, 150};
-    settings.coarse_iterations = 1'000'000;
-    return settings;
-}
-
-void iterate(Solver& solver, std::uint64_t count) {
-    const std::uint64_t end = solver.iterations() + count;
-    while (solver.iterations() < end) {
-        solver.step({});
-    }
-}
-
-void move_box(Solver& solver, const glm::vec3& place) {
-    Transform transform;
-    transform.translation = place;
-    solver.move_object(box_object, transform.matrix(), {});
-    while (solver.correcting()) {
-        solver.step({});
-    }
+    return quick_settings(seed, {96, 150});
 }
 
 std::vector<double> luminances(const Solver& solver) {
