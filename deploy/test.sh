@@ -67,7 +67,7 @@ run_ctest() {
     local report="$build_dir/ctest.xml" count failures skipped status=0
     say "tests"
     rm -f "$report"
-    ctest --test-dir "$build_dir" --output-on-failure --no-tests=error --timeout 600 \
+    ctest --test-dir "$build_dir" --parallel 2 --output-on-failure --no-tests=error --timeout 600 \
         --output-junit "$report" "$@" || status=$?
     count=$(junit_attribute "$report" tests)
     failures=$(junit_attribute "$report" failures)

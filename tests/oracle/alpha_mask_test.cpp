@@ -76,7 +76,7 @@ Lighting measure(Screen screen, const StrategyProbabilities& probabilities) {
     const PatchMesh mesh = tessellate(scene, tessellation);
     SolverSettings settings;
     settings.probabilities = probabilities;
-    settings.coarse = {512, 400};
+    settings.coarse = {256, 400};
     settings.coarse_iterations = 1'000'000;
     Solver solver(scene, mesh, settings);
     const ViewPrograms programs(solver.scene());

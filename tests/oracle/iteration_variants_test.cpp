@@ -85,13 +85,13 @@ TEST(BiasForNoise, TamesTheCornersOfPerspectiveBundles) {
     EXPECT_GT(with.mean, without.mean - 0.1);
 }
 
-TEST(BiasForNoise, IsUnbiasedInTheLimit) {
+TEST(HeavyBiasForNoise, IsUnbiasedInTheLimit) {
     SolverSettings biased = perspective_alone();
     biased.noise_horizon = 4000;
     EXPECT_NEAR(deviation(biased, 4000).mean, 0.0, 0.01);
 }
 
-TEST(BiasForNoise, IsNotNeededBesideParallelBundles) {
+TEST(HeavyBiasForNoise, IsNotNeededBesideParallelBundles) {
     SolverSettings biased;
     biased.noise_horizon = 64;  // their density bounds what a perspective bundle brings
     EXPECT_EQ(deviation(biased, 64).worst, deviation({}, 64).worst);

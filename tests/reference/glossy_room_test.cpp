@@ -119,7 +119,7 @@ TEST_P(GlossyRoom, SingleRayPictureAgreesWithPathTracing) {
         }
         return method->picture();
     };
-    const auto path = render(ReferenceKind::path, 1024);
+    const auto path = render(ReferenceKind::path, 384);
     const auto single = render(ReferenceKind::single_ray, 200);  // not a multiple of a look's
     double mean = 0.0;
     double difference = 0.0;

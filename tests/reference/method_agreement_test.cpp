@@ -165,13 +165,18 @@ TEST_P(MethodAgreement, WithPathTracingPixelByPixel) {
     }
 }
 
+std::string case_name(const testing::TestParamInfo<std::tuple<MethodCase, int>>& test) {
+    return std::string(std::get<0>(test.param).name) + "_" +
+           std::to_string(std::get<1>(test.param));
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, MethodAgreement,
+                         testing::Combine(testing::ValuesIn(methods), testing::Values(0, 1)),
+                         case_name);
+INSTANTIATE_TEST_SUITE_P(HeavyMethods, MethodAgreement,
                          testing::Combine(testing::ValuesIn(methods),
-                                          testing::Range(0, view_count)),
-                         [](const auto& test) {
-                             return std::string(std::get<0>(test.param).name) + "_" +
-                                    std::to_string(std::get<1>(test.param));
-                         });
+                                          testing::Range(2, view_count)),
+                         case_name);
 
 class FullMethod : public testing::TestWithParam<MethodCase> {};
 
