@@ -55,7 +55,8 @@ uvec2 load_pair(ivec2 texel) {
         uint pixel = pixel_index(texel);
         uint k = uint(pair_index);
         uint count = layer_counts[pixel];
-        pair.x = k < count ? layer_surfaces[layer_slot(k, pixel)] : NO_HIT;
+        // Short lists are sorted at hand alone.
+        pair.x = k == 3u ? list.w : k < count ? layer_surfaces[layer_slot(k, pixel)] : NO_HIT;
         pair.y = k + 1u < count ? layer_surfaces[layer_slot(k + 1u, pixel)] : NO_HIT;
     }
     return face_each_other(pair) ? pair : uvec2(NO_HIT);
