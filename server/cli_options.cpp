@@ -158,6 +158,9 @@ void add_render(CLI::App& app, Options& o) {
            "Cut off rare bright contributions as fits so many planned iterations; the result "
            "is then biased (0: never)")
         ->check(CLI::Range(0.0, 1e9));
+    app.add_flag("--constant-radiance", o.constant_radiance,
+                 "Transfer only what radiance is beyond its mean; for matt, closed, evenly lit "
+                 "rooms");
     app.add_option("--stats", o.stats, "Write statistics as JSON");
     app.add_option("--script", o.script,
                    "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "

@@ -85,6 +85,7 @@ struct Options {
     std::optional<double> error;
     std::string method = "combined";
     std::uint64_t bias_for_noise = 0;  // iterations planned
+    bool constant_radiance = false;
     std::string stats;
     std::string script;  // file
 

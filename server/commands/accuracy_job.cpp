@@ -99,6 +99,11 @@ void add_variants(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
         curve.solver.noise_horizon = horizon;
         curves.push_back(curve);
     }
+    PlannedCurve constant = base;
+    constant.knob = "constant radiance";
+    constant.name = "with a constant radiance term";
+    constant.solver.constant_radiance = true;
+    curves.push_back(constant);
     PlannedCurve curve = base;
     curve.knob = "main part";
     curve.name = "without a separated main part";

@@ -89,6 +89,7 @@ Json bundle_settings(const PlannedCurve& curve, const RunSurroundings& around, c
              {s.probabilities.layered, s.probabilities.plane, s.probabilities.perspective}},
             {"biasForNoise", s.noise_horizon},
             {"mainPart", s.main_part},
+            {"constantRadiance", s.constant_radiance},
             {"bytes", solver.bytes() + image.bytes()},
             {"seed", seed}};
 }

@@ -83,6 +83,9 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"errorLow", outcome.statistics.error_low},
         {"errorHigh", outcome.statistics.error_high},
         {"biased", options.bias_for_noise > 0},
+        {"constantRadiance", solver.scene().constant_radiance()},
+        {"perspectiveBundles", solver.shots().all},
+        {"fromEmitters", solver.shots().from_emitters},
         {"nonFinite", solver.non_finite()},
         {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};
@@ -109,6 +112,7 @@ int run_render(const Options& options) {
     settings.seed = options.seed;
     settings.probabilities = std::get<StrategyProbabilities>(method);
     settings.noise_horizon = options.bias_for_noise;
+    settings.constant_radiance = options.constant_radiance;
     const EglContext context = create_egl_context({options.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);

@@ -13,6 +13,7 @@ SolverSettings solver_settings(const OracleSettings& settings) {
     result.fine = settings.resolution;
     result.coarse_iterations = settings.iterations + 1;
     result.density_error = settings.density_error;
+    result.constant_radiance = settings.constant_radiance;
     return result;
 }
 

@@ -34,6 +34,8 @@ struct OracleSettings {
     BundleResolution resolution{64, 120};
     /// Fault injection: the transfer's densities are multiplied by this. 1.02 must be caught.
     float density_error = 1.0F;
+    /// As SolverSettings::constant_radiance; a furnace without it is solved by transport alone.
+    bool constant_radiance = false;
 };
 
 /// Area mean of the radiance in a rotated L-shaped room that emits everywhere, relative to

@@ -137,7 +137,8 @@ struct Shooter {
     uint object;
     uint glossy;     // 1: its radiance depends on direction
     float probability;  // p_j
-    uint pad0;
+    uint emitter;    // 1: it sends light of its own
+    vec4 constant_radiance;  // rgb: see Balance
 };
 
 struct Counters {
@@ -155,7 +156,7 @@ struct Counters {
 struct FluxSums {
     vec4 incident;   // sum of A x: what the iterate says the patches receive
     vec4 reflected;  // sum of A albedo x
-    vec4 emitted;    // sum of A pi L_e
+    vec4 emitted;    // sum of A pi L_e; w: of A
 };
 
 // Global energy balance, see solution_balance.comp.
@@ -163,6 +164,7 @@ struct Balance {
     vec4 scale;      // last factor applied to the iterate
     vec4 escaped;    // weighted sum of estimates of the flux that no patch receives
     vec4 outgoing;   // weighted sum of the flux that was sent, w = weight
+    vec4 constant;   // rgb: constant radiance term (ch. 5.5) of the running iterations, 0 where it is off
 };
 
 struct VertexData {
@@ -245,6 +247,7 @@ struct BundleParameters {
     vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle; w: p_j of the shooter
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
+    vec4 constant;       // rgb: constant radiance term, what is transferred is radiance less this
     vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
                          // limit of density.glsl, 0 = none; batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
@@ -263,4 +266,5 @@ struct ViewParameters {
     vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, isolines
     vec4 sky;           // background radiance, radiance units
     vec4 weights;       // x: weight of all samples since the last resolve, y: of a batch in it
+    vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
 };

@@ -57,7 +57,7 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     run.creases = 0u;
     run.compensation = 1.0;
 #endif
-#ifdef DOUBLE_SIDED
+#if defined(DOUBLE_SIDED) || defined(CONSTANT_RADIANCE)
     bool blocked = surface == NO_HIT;
 #else
     bool blocked = surface == NO_HIT || faces_far(surface) != far;
@@ -83,6 +83,9 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     if (run.patch_id != NO_PATCH) {
         run.radiance = texelFetch(radiance_texels, int(run.patch_id));
     }
+#ifdef CONSTANT_RADIANCE  // what sends nothing lacks the constant term
+    run.radiance.rgb -= bundle.constant.rgb;
+#endif
 #ifdef THIN_WALLS
     run.triangle = triangle;
     run.creases = crease_flags(triangle);
@@ -133,6 +136,9 @@ float sky_weight(float depth, bool far) {
 struct Exchange {
     vec2 weights;  // sums of 1/d(omega) towards behind (x) and towards ahead (y)
     bool same_behind, same_ahead;  // whether the next pixel belongs to the same runs
+#ifdef CONSTANT_RADIANCE
+    float dark;  // the same sum where the sides coincide: nothing comes from there, which lacks the constant
+#endif
 };
 
 /// Follows both sides over as many pixels as both stay on their patches.
@@ -140,11 +146,18 @@ Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3
                 inout uvec2 surfaces) {
     Exchange e;
     e.weights = vec2(0.0);
+#ifdef CONSTANT_RADIANCE
+    e.dark = 0.0;
+#endif
     do {
         float r = ahead.depth - behind.depth;
         vec2 w = vec2(cosine_over_density(r, ahead.cosine, ahead.radiance.w),
                       cosine_over_density(r, behind.cosine, behind.radiance.w));
         // Closer surfaces coincide; only rounding could put the plane between them.
+#ifdef CONSTANT_RADIANCE
+        bool met = behind.surface != NO_HIT && ahead.surface != NO_HIT;
+        e.dark += met && r <= bundle.sky.w ? crease_factor(behind, point) * crease_factor(ahead, point) : 0.0;
+#endif
         w = r > bundle.sky.w ? w : vec2(0.0);
 #ifdef SKY
         w.x = ahead.surface == NO_HIT ? sky_weight(behind.depth, true) : w.x;
@@ -181,6 +194,11 @@ void exchange_row(ivec2 texel, int end) {
 #endif
         behind.received += e.weights.x * from_ahead;
         ahead.received += e.weights.y * from_behind;
+#ifdef CONSTANT_RADIANCE
+        vec3 missing = bundle.constant.rgb * (bundle.densities.x > 0.0 ? e.dark / bundle.densities.x : 0.0);
+        behind.received -= missing;
+        ahead.received -= missing;
+#endif
         // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
         for (bool ends = !e.same_behind && texel.x < end; ends; ends = false) {
             deposit(behind, pixel_area);

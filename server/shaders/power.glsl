@@ -5,6 +5,9 @@
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
+#ifndef CHANGE
+layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
+#endif
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 /// Per block of POWER_BLOCK patches: xyz = power, area, emitted power; w = probability of all blocks
 /// before it. One more element holds the totals.
@@ -28,7 +31,7 @@ vec3 patch_power(uint i) {
 #ifdef CHANGE
     return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitted * area);
 #else
-    return vec3(pi * max(luminance(radiance[i].rgb), 0.0) * area, area, emitted * area);
+    return vec3(pi * luminance(abs(radiance[i].rgb - balance.constant.rgb)) * area, area, emitted * area);
 #endif
 }
 

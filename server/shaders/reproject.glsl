@@ -6,6 +6,9 @@ uniform mat4 old_clip_from_world;
 uniform uint old_width;
 uniform uint old_height;
 uniform float old_common_weight;
+#ifdef CONSTANT_RADIANCE
+uniform vec3 old_constant;  // ViewParameters::constant of that picture
+#endif
 uniform uint moved_object;    // whose place 1 differs, or NO_PATCH
 uniform float kept_weight;    // share of the old weight that a reprojected value keeps
 uniform float same_distance;  // m, at unit distance: points closer than this (and coplanar) are the same

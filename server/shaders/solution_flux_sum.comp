@@ -24,7 +24,7 @@ FluxSums patch_flux(uint i) {
 #else
     f.reflected = surfaces[i].albedo * f.incident;
 #endif
-    f.emitted = (pi * area) * vec4(patch_source(i), 0.0);
+    f.emitted = area * vec4(pi * patch_source(i), 1.0);
     return f;
 }
 

@@ -5,7 +5,6 @@
 layout(local_size_x = POWER_BLOCK) in;
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
-layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
 #ifdef GLOSSY
 #include "gloss.glsl"
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };

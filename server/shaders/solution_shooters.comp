@@ -73,6 +73,7 @@ void main() {
     s.glossy = 0u;
 #endif
     s.probability = s.density * patches[id].area;
-    s.pad0 = 0u;
+    s.emitter = luminance(patch_source(id)) > 0.0 ? 1u : 0u;
+    s.constant_radiance = balance.constant;
     shooters[i] = s;
 }

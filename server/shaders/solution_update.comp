@@ -25,6 +25,7 @@ uniform float shooter_density;  // p_j / A_j of a perspective bundle
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
 uniform float step;     // of the iterate
+uniform vec3 constant_irradiance;  // pi times the constant radiance term, which the bundle did not carry
 #ifdef GLOSSY
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
@@ -34,7 +35,7 @@ layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance
 
 /// What a perspective bundle says about the flux that no patch receives.
 void note_escaped_flux() {
-    vec3 shot = 3.14159265359 * counters.shooter_radiance.rgb / shooter_density;
+    vec3 shot = 3.14159265359 * (counters.shooter_radiance.rgb + bundle.constant.rgb) / shooter_density;
     float share = float(counters.escaped) * 5.9604645e-8;
     FluxSums total = flux[block_count];
     balance.escaped.rgb += weight * share * shot;
@@ -58,6 +59,7 @@ void main() {
     } else {
         new_sample = vec3(take_accumulated(i, 0u), take_accumulated(i, 1u), take_accumulated(i, 2u));
     }
+    new_sample += constant_irradiance;
     vec4 mean = irradiance[i];
     mean.w += weight;
     mean.rgb += (new_sample - mean.rgb) * (weight / mean.w);

@@ -116,7 +116,7 @@ void deposit(Run run, Sum sum) {
 #ifdef SHOOTER_GLOSSY
     vec3 irradiance = sum;
 #else
-    vec3 irradiance = sum * texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+    vec3 irradiance = sum * (texelFetch(radiance_texels, int(bundle.resolution.z)).rgb - bundle.constant.rgb);
 #endif
     accumulate(run.patch_id, 0u, irradiance.r);
     accumulate(run.patch_id, 1u, irradiance.g);
@@ -130,7 +130,8 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
     if (gl_GlobalInvocationID.x == 0u) {
-        counters.shooter_radiance = texelFetch(radiance_texels, int(bundle.resolution.z));
+        vec4 sent = texelFetch(radiance_texels, int(bundle.resolution.z));
+        counters.shooter_radiance = vec4(sent.rgb - bundle.constant.rgb, sent.w);
         counters.overflowed = 0u;
     }
     // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
@@ -177,7 +178,7 @@ void main() {
 #ifdef SHOOTER_GLOSSY
             vec3 sent = main_part + difference_radiance(shooter, normal, d * inverse_length);
             missed += cosine * luminance(sent) * inverse_luminance;
-            sum += form_factor * sent;
+            sum += form_factor * (sent - bundle.constant.rgb);
 #else
             missed += cosine;
             sum += form_factor;

@@ -15,9 +15,9 @@ layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 
-/// Radiance of the shooter towards w_out.
+/// Radiance of the shooter towards w_out, less the constant term.
 vec3 sent_radiance(vec3 w_out) {
-    vec3 sent = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+    vec3 sent = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb - bundle.constant.rgb;
 #ifdef SHOOTER_GLOSSY
     vec3 normal = bundle.axis_z.xyz;
     sent += difference_radiance(shooter_gloss(vertex_base), normal, w_out);

@@ -77,11 +77,9 @@ void main() {
             float depth = plane_depth(facet.plane, line);
             uint triangle = triangle_at(facet, line + depth * bundle.axis_z.xyz);
             uint y = patch_of_surface(2u * triangle + side_of_surface(seen.surface, !far));
-            if (y != NO_PATCH) {
-                vec4 l = texelFetch(radiance_texels, int(y));
-                float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
-                value = l.rgb * (cos_x * cosine_over_density(abs(depth - d.z), cos_y, l.w));
-            }
+            vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
+            float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
+            value = (l.rgb - bundle.constant.rgb) * (cos_x * cosine_over_density(abs(depth - d.z), cos_y, l.w));
         }
     }
     receive(index, x, w_in, value);

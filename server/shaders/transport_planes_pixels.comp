@@ -57,11 +57,8 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     float depth = plane_depth(facet.plane, line.point);
     uint triangle = triangle_at(facet, line.point + depth * bundle.axis_z.xyz);
     uint y = patch_of_surface(2u * triangle + side_of_surface(surface, !line.far));
-    if (y == NO_PATCH) {
-        return vec3(0.0);
-    }
-    vec4 l = texelFetch(radiance_texels, int(y));
-    return l.rgb * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
+    vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
+    return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
 }
 
 void main() {

@@ -4,6 +4,9 @@
 // the pixel's patch has measured.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#ifdef CONSTANT_RADIANCE
+#include "facets.glsl"
+#endif
 #include "pixel_sum.glsl"
 #include "corrected_weight.glsl"
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
@@ -25,6 +28,12 @@ void main() {
     }
     vec3 increment = pixel_delta[index].rgb;
     vec4 sum = pixel_irradiance[index];
+    vec3 constant = vec3(0.0);
+#ifdef CONSTANT_RADIANCE
+    uvec2 surface = texelFetch(pixel_texels, int(2u * index + 1u)).xw;
+    constant = constant_share(surface.x, surface.y) * view.constant.rgb;
+    sum.rgb += constant;
+#endif
     float old_weight = pixel_weight(sum, view.weights.x);
     if ((increment == vec3(0.0) && old_weight <= most_weight) || old_weight <= 0.0) {
         return;
@@ -37,7 +46,7 @@ void main() {
     // The common weight stays: a weight below it is a negative one of the pixel's own.
     float weight =
         min(old_weight * kept_weight(old_weight, luminance(mean), noise * change * change), most_weight);
-    pixel_irradiance[index] = vec4(mean * weight, weight - view.weights.x);
+    pixel_irradiance[index] = vec4(mean * weight - constant, weight - view.weights.x);
 #ifdef GLOSSY
     vec4 gloss = pixel_gloss[index];
     vec3 gloss_mean = pixel_mean(gloss, view.weights.x) + pixel_gloss_delta[index].rgb;

@@ -23,7 +23,11 @@ float relative_error(uint pixel_index) {
         mean += value / float(BATCHES);
         square += value * value / float(BATCHES);
     }
-    return mean > 0.0 ? sqrt(max(square - mean * mean, 0.0) / float(BATCHES - 1)) / mean : -1.0;
+    float variance = max(square - mean * mean, 0.0);
+#ifdef CONSTANT_RADIANCE
+    mean += luminance(view.constant.rgb) / view.weights.x;
+#endif
+    return mean > 0.0 ? sqrt(variance / float(BATCHES - 1)) / mean : -1.0;
 }
 
 void main() {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance of a viewer's pixel: confidence-weighted blend of the object-space value and the pixel's own
 // estimate, times the albedo at the angle of view, and the glossy part.
+#ifdef CONSTANT_RADIANCE
+#include "facets.glsl"
+#endif
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
@@ -44,6 +47,9 @@ vec3 object_space_irradiance(PixelSurface p) {
 
 vec3 blended_irradiance(uint index, PixelSurface p) {
     vec4 own = texelFetch(pixel_irradiance_texels, int(index));
+#ifdef CONSTANT_RADIANCE
+    own.rgb += constant_share(p.normal, p.facet) * view.constant.rgb;
+#endif
     float weight = pixel_weight(own, view.weights.x);
     float confidence = weight / (weight + view.display.z);
     vec3 blended = mix(object_space_irradiance(p), pixel_mean(own, view.weights.x), confidence);

@@ -174,7 +174,12 @@ void main() {
     uint old_index = old_pixel(position_before(position, object, triangle.xyz, weights), normal, id, object);
     vec4 old_sum = vec4(0.0);
     for (bool seen = old_index != hidden; seen; seen = false) {
-        old_sum = carried(texelFetch(old_irradiance_texels, int(old_index)), kept_weight);
+        old_sum = texelFetch(old_irradiance_texels, int(old_index));
+#ifdef CONSTANT_RADIANCE
+        uvec2 old_surface = texelFetch(old_pixel_texels, int(2u * old_index + 1u)).xw;
+        old_sum.rgb += constant_share(old_surface.x, old_surface.y) * old_constant;
+#endif
+        old_sum = carried(old_sum, kept_weight);
     }
     pixel_irradiance[index] = old_sum;
 #else

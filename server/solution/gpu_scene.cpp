@@ -63,13 +63,14 @@ Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh)
+GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance)
     : patch_count_(static_cast<std::uint32_t>(mesh.patch_count())),
       triangle_count_(static_cast<std::uint32_t>(mesh.triangle_count())),
       vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
       origin_(scene.bounds.centre()),
       radiance_unit_(unit_for(largest_emission(scene, mesh))),
+      constant_radiance_(constant_radiance),
       sky_(scene.sky_radiance / radiance_unit_),
       punctual_lights_(scene.punctual_lights),
       reflectance_(scene),
@@ -269,8 +270,11 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                           [](const PunctualLight& light) { return light.profile != nullptr; }),
               "IES");
-    define_if(scene.sky_radiance != glm::vec3(0.0F), "SKY");
     thin_walls_ = has_thin_walls(scene, mesh);
+    constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy();
+    define_if(constant_radiance_, "CONSTANT_RADIANCE");
+    // A line that meets nothing lacks the constant.
+    define_if(scene.sky_radiance != glm::vec3(0.0F) || constant_radiance_, "SKY");
     define_if(thin_walls_, "THIN_WALLS");
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");

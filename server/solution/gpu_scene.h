@@ -23,7 +23,11 @@ enum class Place : unsigned { now = 0, before = 1 };
 /// by -origin(), so that scenes far from their origin keep their precision.
 class GpuScene {
   public:
-    GpuScene(const Scene& scene, const PatchMesh& mesh);
+    /// constant_radiance: bundles shall carry what radiance is beyond a constant (ch. 5.5). Only
+    /// where nothing is glossy, since what a glossy surface reflects of a constant depends on the
+    /// direction.
+    GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false);
+    [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
 
     /// Keeps the present place as `before` and puts one object elsewhere. Uploads matrices only.
     void move_object(std::uint32_t object, const glm::mat4& world_from_object);
@@ -50,7 +54,7 @@ class GpuScene {
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
     /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
-    /// profiles). What is absent is not even compiled.
+    /// profiles), CONSTANT_RADIANCE. What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -95,6 +99,7 @@ class GpuScene {
     float radiance_unit_ = 1.0F;
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
+    bool constant_radiance_;
     glm::vec3 sky_{0.0F};
     std::vector<PunctualLight> punctual_lights_;
     std::vector<Bounds> object_bounds_;         // object space

@@ -126,6 +126,7 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("scalar", bundle.scalar ? 1 : 0);
     update_.set("weight", bundle.weight);
     update_.set("step", bundle.step);
+    update_.set("constant_irradiance", bundle.constant_irradiance);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
     if (first_shot_ && gloss_.bytes() > 0) {
@@ -173,6 +174,8 @@ void RadianceStore::refresh_power() const {
     flux_sum_.dispatch(patch_count_);
     balance_flux_.set("block_count", block_count_);
     balance_flux_.set("balanced", scene_.sky() == glm::vec3(0.0F) ? 1 : 0);
+    balance_flux_.set("constant_radiance", scene_.constant_radiance() ? 1 : 0);
+    balance_flux_.set("shoots_only", shoots_only_ ? 1 : 0);
     balance_flux_.dispatch(1);
     power_sum_.set("patch_count", patch_count_);
     power_sum_.dispatch(patch_count_);

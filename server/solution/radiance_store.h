@@ -28,6 +28,7 @@ struct BundleUpdate {
     /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
     float shooter_density = 0.0F;
     std::uint64_t iteration = 0;
+    glm::vec3 constant_irradiance{0.0F};  ///< that the bundle did not carry, radiance units
 };
 
 /// The object-space solution (ch. 7.2): mean irradiance per patch, the iterate that is transferred
@@ -41,6 +42,8 @@ class RadianceStore {
     /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
     /// are bound.
     void update(const BundleUpdate& bundle) const;
+    /// Whether only perspective bundles are drawn, which never find what lines meet nothing.
+    void set_shoots_only(bool shoots_only) { shoots_only_ = shoots_only; }
     /// In glossy scenes: what all patches send along the parallel bundle whose parameters are bound
     /// takes the place of the radiance, UNIT_RADIANCE, until the next bind().
     void send_along_bundle(Place place) const;
@@ -96,6 +99,7 @@ class RadianceStore {
     Buffer radiance_, irradiance_, source_, accumulator_, counters_;
     Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
     float forgetting_ = 0.0F;
+    bool shoots_only_ = false;
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;

@@ -15,8 +15,9 @@ class BundleReceiver {
   public:
     struct Context {
         Place place = Place::now;
-        float sample_weight = 1.0F;  ///< of the sample in the means
-        bool special = false;        ///< signed increments of a special phase
+        float sample_weight = 1.0F;           ///< of the sample in the means
+        glm::vec3 constant_irradiance{0.0F};  ///< that the bundle does not carry, of every receiver
+        bool special = false;                 ///< signed increments of a special phase
         std::uint32_t moved_object = NO_PATCH;
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
     };
@@ -30,8 +31,8 @@ class BundleReceiver {
     virtual void receive_layers(const Context& context) = 0;
     /// Of normal iterations only.
     virtual void receive_planes(const Context& context) = 0;
-    /// The last sample of this weight was not taken after all: its bundle had no room for all hits.
-    virtual void discard_sample(float sample_weight) = 0;
+    /// A sample was not taken after all: its bundle had no room for all hits.
+    virtual void discard_sample(const Context& context) = 0;
     /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special(std::uint32_t moved_object) = 0;
     /// Surfaces have changed: what has been received so far is multiplied by `scale`. reflecting:

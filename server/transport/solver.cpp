@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 namespace raybundle {
 
@@ -46,7 +47,7 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
     : settings_(settings),
       mix_(choose_mix(settings, scene)),
       probabilities_(mix_.at(0)),
-      scene_(scene, mesh),
+      scene_(scene, mesh, settings.constant_radiance),
       store_(scene_),
       schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
                 settings_.planes_per_direction),
@@ -74,6 +75,7 @@ void Solver::plan_group() {
     group_next_ = 0;
     probabilities_ = mix_.at(iterations_);
     schedule_.set_probabilities(probabilities_);
+    store_.set_shoots_only(probabilities_.perspective >= 1.0F);
     std::vector<glm::vec4> numbers;
     for (std::size_t i = 0; i < group_size; ++i) {
         group_.push_back({schedule_.next(), {}});
@@ -81,9 +83,15 @@ void Solver::plan_group() {
             numbers.push_back(group_.back().sample.shooter_numbers);
         }
     }
+    if (numbers.empty() && scene_.constant_radiance()) {
+        numbers.emplace_back(0.0F);  // brings the constant
+    }
     store_.bind();
     store_.refresh_power();
     const auto shooters = store_.choose_shooters(numbers);
+    if (!shooters.empty()) {
+        constant_ = glm::vec3(shooters.front().constant_radiance);
+    }
     auto shooter = shooters.begin();
     for (Planned& planned : group_) {
         if (planned.sample.strategy == Strategy::perspective) {
@@ -141,6 +149,8 @@ void Solver::run(const Planned& planned, unsigned slot,
     TransferSettings settings;
     settings.probabilities = probabilities_;
     settings.density_error = settings_.density_error;
+    settings.constant = constant_;
+    settings.context.constant_irradiance = glm::pi<float>() * constant_;
     settings.context.sample_weight = sample_weight();
     settings.batch = planned.sample.batch;
     settings.slot = slot;
@@ -153,11 +163,14 @@ void Solver::run(const Planned& planned, unsigned slot,
         frame.pixel_shift = planned.sample.shift - 0.5F;
         transfer().perspective(frame, planned.shooter, transfer().hemicube().full(), settings,
                                receivers);
+        ++shots_.all;
+        shots_.from_emitters += planned.shooter.emitter;
         store_.update({.scalar = planned.shooter.glossy == 0,
                        .weight = settings.context.sample_weight,
                        .step = iterate_step(),
                        .shooter_density = planned.shooter.density,
-                       .iteration = iterations_});
+                       .iteration = iterations_,
+                       .constant_irradiance = settings.context.constant_irradiance});
     } else {
         const ParallelWindow window = transfer().parallel_window(planned.sample);
         if (planned.sample.strategy == Strategy::plane) {
@@ -167,7 +180,8 @@ void Solver::run(const Planned& planned, unsigned slot,
         }
         store_.update({.weight = settings.context.sample_weight,
                        .step = iterate_step(),
-                       .iteration = iterations_});
+                       .iteration = iterations_,
+                       .constant_irradiance = settings.context.constant_irradiance});
     }
     after_iteration();
 }
@@ -181,7 +195,8 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
                 --iterations_;
                 --since_change_;
                 for (BundleReceiver* receiver : receivers) {
-                    receiver->discard_sample(sample_weight());
+                    receiver->discard_sample({.sample_weight = sample_weight(),
+                                              .constant_irradiance = glm::pi<float>() * constant_});
                 }
                 run(group_[slot], slot, receivers);
             }

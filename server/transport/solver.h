@@ -32,6 +32,9 @@ struct SolverSettings {
     /// Patches send the average of what they reflected (ch. 4.4: separated main part). Otherwise
     /// what the last bundle brought, as in plain stochastic iteration; to compare.
     bool main_part = true;
+    /// Bundles carry what radiance is beyond the mean radiance (ch. 5.5), where GpuScene allows it.
+    /// With perspective bundles alone only closed scenes have what nothing is missing from.
+    bool constant_radiance = false;
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
     SpecialSettings special;            ///< how changes are worked in
@@ -79,6 +82,11 @@ class Solver {
     [[nodiscard]] std::optional<Strategy> last_strategy() const { return last_strategy_; }
 
     [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
+    /// Perspective bundles so far, and those of them that were shot from emitters (ch. 5.6).
+    struct Shots {
+        std::uint64_t all = 0, from_emitters = 0;
+    };
+    [[nodiscard]] const Shots& shots() const { return shots_; }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] RadianceStore& store() { return store_; }
     [[nodiscard]] const RadianceStore& store() const { return store_; }
@@ -120,6 +128,7 @@ class Solver {
     SolverSettings settings_;
     StrategyMix mix_;
     StrategyProbabilities probabilities_;  // of the running group
+    glm::vec3 constant_{0.0F};             // constant radiance term of the running group
     GpuScene scene_;
     RadianceStore store_;
     IterationSchedule schedule_;
@@ -132,6 +141,7 @@ class Solver {
     std::size_t group_next_ = 0;
     std::optional<Strategy> last_strategy_;
     std::uint64_t iterations_ = 0;
+    Shots shots_;
     std::uint64_t since_change_ = 0;
     std::uint64_t changes_ = 0;
     SolutionStatistics statistics_;

@@ -230,7 +230,8 @@ bool ViewerImage::smooth_step() {
 }
 
 void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object) {
-    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x};
+    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
+            glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
     parameters_ =
         make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
@@ -271,6 +272,7 @@ void ViewerImage::resolve(const ViewPrograms::Resolve& programs, float kept_weig
         program.set("old_height", size_.y);
         program.set("kept_weight", kept_weight);
         program.set("old_common_weight", old_.common_weight);
+        program.set("old_constant", old_.constant);
         program.set("moved_object", moved_object);
         // Two pixels' width at unit distance.
         program.set("same_distance",
@@ -332,6 +334,8 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
         ++samples_;
         parameters_.weights.x += context.sample_weight;
         parameters_.weights.y += context.sample_weight / BATCHES;
+        parameters_.constant +=
+            glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
     }
 }
 
@@ -349,10 +353,11 @@ void ViewerImage::receive_planes(const Context& context) {
     receive(programs_.planes_pixels, context);
 }
 
-void ViewerImage::discard_sample(float sample_weight) {
+void ViewerImage::discard_sample(const Context& context) {
     --samples_;
-    parameters_.weights.x -= sample_weight;
-    parameters_.weights.y -= sample_weight / BATCHES;
+    parameters_.weights.x -= context.sample_weight;
+    parameters_.weights.y -= context.sample_weight / BATCHES;
+    parameters_.constant -= glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
 }
 
 void ViewerImage::interpolate_vertices() {
@@ -458,7 +463,7 @@ std::vector<glm::vec4> ViewerImage::read_irradiance() const {
     for (glm::vec4& value : result) {
         const float weight = value.w + parameters_.weights.x;
         const float scale = weight > 0.0F ? scene_.radiance_unit() / weight : 0.0F;
-        value = glm::vec4(glm::vec3(value) * scale, weight);
+        value = glm::vec4(glm::vec3(value + parameters_.constant) * scale, weight);
     }
     return result;
 }

@@ -104,7 +104,7 @@ class ViewerImage : public BundleReceiver {
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
-    void discard_sample(float sample_weight) override;
+    void discard_sample(const Context& context) override;
     void begin_special(std::uint32_t moved_object) override;
     void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
                         bool redraw) override;
@@ -173,6 +173,7 @@ class ViewerImage : public BundleReceiver {
         glm::mat4 clip_from_world{1.0F};
         glm::vec3 eye{0.0F};
         float common_weight = 0.0F;
+        glm::vec3 constant{0.0F};
     } old_;
     std::size_t frame_bytes_ = 0;
     bool has_picture_ = false;  // accumulators that can be reprojected
