@@ -161,6 +161,9 @@ void add_render(CLI::App& app, Options& o) {
     app.add_flag("--constant-radiance", o.constant_radiance,
                  "Transfer only what radiance is beyond its mean; for matt, closed, evenly lit "
                  "rooms");
+    app.add_flag("--random-faces", o.random_faces,
+                 "Glossy surfaces send through the faces of their hemicubes that matter most, and "
+                 "now and then through the others");
     app.add_option("--stats", o.stats, "Write statistics as JSON");
     app.add_option("--script", o.script,
                    "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "

@@ -86,6 +86,7 @@ struct Options {
     std::string method = "combined";
     std::uint64_t bias_for_noise = 0;  // iterations planned
     bool constant_radiance = false;
+    bool random_faces = false;
     std::string stats;
     std::string script;  // file
 

@@ -99,6 +99,11 @@ void add_variants(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
         curve.solver.noise_horizon = horizon;
         curves.push_back(curve);
     }
+    PlannedCurve faces = base;
+    faces.knob = "randomised hemicube";
+    faces.name = "some faces of glossy shooters";
+    faces.solver.random_faces = true;
+    curves.push_back(faces);
     PlannedCurve constant = base;
     constant.knob = "constant radiance";
     constant.name = "with a constant radiance term";

@@ -90,6 +90,7 @@ Json bundle_settings(const PlannedCurve& curve, const RunSurroundings& around, c
             {"biasForNoise", s.noise_horizon},
             {"mainPart", s.main_part},
             {"constantRadiance", s.constant_radiance},
+            {"randomFaces", s.random_faces},
             {"bytes", solver.bytes() + image.bytes()},
             {"seed", seed}};
 }

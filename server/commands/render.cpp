@@ -113,6 +113,7 @@ int run_render(const Options& options) {
     settings.probabilities = std::get<StrategyProbabilities>(method);
     settings.noise_horizon = options.bias_for_noise;
     settings.constant_radiance = options.constant_radiance;
+    settings.random_faces = options.random_faces;
     const EglContext context = create_egl_context({options.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);

@@ -16,6 +16,9 @@ mat3 hemicube_face(int face) {
     return mat3(cross(forward, z), z, forward);
 }
 
+/// Weight of a face of a glossy shooter's hemicube (ch. 5.2).
+float face_weight(int face) { return face == 0 ? bundle.constant.w : bundle.side_weights[face - 1]; }
+
 /// Point of the stacked picture that a pixel samples. All pixels share one random shift: a rectangle rule
 /// with a random origin, unbiased even for what is always seen through the same pixel.
 vec2 sample_point(ivec2 texel) { return vec2(texel) + 0.5 + vec2(bundle.axis_x.w, bundle.axis_y.w); }

@@ -139,6 +139,7 @@ struct Shooter {
     float probability;  // p_j
     uint emitter;    // 1: it sends light of its own
     vec4 constant_radiance;  // rgb: see Balance
+    vec4 lobe;       // world space: where most of the accepted light is reflected to; w: share of the power
 };
 
 struct Counters {
@@ -247,7 +248,9 @@ struct BundleParameters {
     vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle; w: p_j of the shooter
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
     vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
-    vec4 constant;       // rgb: constant radiance term, what is transferred is radiance less this
+    vec4 constant;       // rgb: constant radiance term, what is transferred is radiance less this; w: weight of a
+                         // glossy shooter's hemicube top
+    vec4 side_weights;   // and of its sides; 0: not drawn
     vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
                          // limit of density.glsl, 0 = none; batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)

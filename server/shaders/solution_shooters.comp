@@ -16,6 +16,24 @@ uniform uint shooter_count;
 /// Per shooter: x, y = leading and trailing 24 bits of the number that chooses the patch; z, w = point.
 uniform vec4 random_numbers[16];
 
+#ifdef GLOSSY
+/// Mirror direction of the light that a glossy patch has accepted, and the share that the glossy part has in
+/// what it sends there.
+vec4 main_lobe(uint id, vec3 normal, vec3 point) {
+    uvec4 packed_gloss = texelFetch(gloss_texels, int(id));
+    vec3 w_in = direction_to(gloss_source(packed_gloss), centroid_of(triangles[patches[id].triangle].xyz, 0u), point);
+    Gloss g;
+    g.scale = gloss_scale(packed_gloss);
+    g.w_in = w_in;
+    g.brdf = patch_brdf(id);
+    g.at_in = brdf_at(g.brdf, dot(normal, w_in));
+    vec3 mirrored = 2.0 * dot(normal, w_in) * normal - w_in;
+    float peak = luminance(abs(difference_radiance(g, normal, mirrored)));
+    float main_part = max(luminance(radiance[id].rgb), 1e-20);
+    return vec4(mirrored, peak / (peak + main_part));
+}
+#endif
+
 uint find_block(float u) {
     uint low = 0u;
     uint high = block_count - 1u;
@@ -69,8 +87,10 @@ void main() {
     s.object = patches[id].object;
 #ifdef GLOSSY
     s.glossy = is_glossy(id) ? 1u : 0u;
+    s.lobe = s.glossy != 0u ? main_lobe(id, s.normal, position) : vec4(0.0);
 #else
     s.glossy = 0u;
+    s.lobe = vec4(0.0);
 #endif
     s.probability = s.density * patches[id].area;
     s.emitter = luminance(patch_source(id)) > 0.0 ? 1u : 0u;

@@ -156,6 +156,7 @@ void main() {
     float farthest = 1e6 * bundle.origin.w;  // the scene's diameter
     float escaped = 0.0;
 #ifdef SHOOTER_GLOSSY
+    pixel_area *= face_weight(face);
     vec3 normal = bundle.axis_z.xyz;
     Gloss shooter = shooter_gloss(vertex_base);
     vec3 main_part = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;

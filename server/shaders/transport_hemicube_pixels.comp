@@ -61,12 +61,17 @@ void main() {
         ivec2 texel = nearest_sample(pixel) - origin;
         bool inside = all(greaterThanEqual(texel, rectangle.xy)) && all(lessThan(texel, rectangle.zw));
 #ifndef SPECIAL
-        texel = clamp(texel, rectangle.xy, rectangle.zw - 1);
+        texel = clamp(texel, rectangle.xy, max(rectangle.zw - 1, rectangle.xy));
         inside = true;
+#endif
+        float weight = 1.0;
+#ifdef SHOOTER_GLOSSY
+        weight = face_weight(face);
+        inside = inside && weight > 0.0;
 #endif
         float cos_x = max(-dot(x.normal, offset) / r, 0.0);
         if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
-            float irradiance = cos_x * cosine_over_density(r, d.z / r, bundle.densities.w);
+            float irradiance = weight * cos_x * cosine_over_density(r, d.z / r, bundle.densities.w);
             value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
         }
     }

@@ -27,7 +27,8 @@ enum Dimension : unsigned {
     point_v = 2,
     turn = 3,
     point_x = 4,
-    point_y = 6
+    point_y = 6,
+    faces = 7
 };
 enum ParallelDimension : unsigned {
     polar = 0,
@@ -135,6 +136,7 @@ void IterationSchedule::sample_shooter(IterationSample& sample, std::uint64_t k)
     sample.angle = turn_range * numbers_.sample(turn, k);
     sample.shift = {static_cast<float>(numbers_.sample(point_x, k)),
                     static_cast<float>(numbers_.sample(point_y, k))};
+    sample.faces = static_cast<float>(numbers_.sample(faces, k));
 }
 
 }  // namespace raybundle

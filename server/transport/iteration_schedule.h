@@ -30,6 +30,7 @@ struct IterationSample {
                         1.0F};  ///< parallel: uniform over half of the sphere, or all of it
     double plane = 0.0;         ///< where the plane splits the scene, share of R, [0, 1)
     glm::vec2 shift{0.0F};      ///< of the samples in their pixels, [0, 1)
+    float faces = 0.0F;         ///< perspective: see choose_faces()
 };
 
 /// Hands out iterations: one low-discrepancy sequence per strategy, dealt out to interleaved

@@ -161,8 +161,18 @@ void Solver::run(const Planned& planned, unsigned slot,
         BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
                                        static_cast<float>(planned.sample.angle));
         frame.pixel_shift = planned.sample.shift - 0.5F;
-        transfer().perspective(frame, planned.shooter, transfer().hemicube().full(), settings,
-                               receivers);
+        Hemicube::FaceRectangles faces = transfer().hemicube().full();
+        if (settings_.random_faces && planned.shooter.glossy != 0) {
+            settings.face_weights =
+                choose_faces(frame.to_bundle(frame.origin + glm::vec3(planned.shooter.lobe)),
+                             planned.shooter.lobe.w, planned.sample.faces);
+            for (std::size_t face = 0; face < faces.size(); ++face) {
+                if (settings.face_weights[face] == 0.0F) {
+                    faces[face] = {};
+                }
+            }
+        }
+        transfer().perspective(frame, planned.shooter, faces, settings, receivers);
         ++shots_.all;
         shots_.from_emitters += planned.shooter.emitter;
         store_.update({.scalar = planned.shooter.glossy == 0,

@@ -35,6 +35,8 @@ struct SolverSettings {
     /// Bundles carry what radiance is beyond the mean radiance (ch. 5.5), where GpuScene allows it.
     /// With perspective bundles alone only closed scenes have what nothing is missing from.
     bool constant_radiance = false;
+    /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
+    bool random_faces = false;
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
     SpecialSettings special;            ///< how changes are worked in

@@ -86,7 +86,9 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
     p.sky = glm::vec4(scene_.sky() - settings.constant, tie_share * scene_.diameter());
-    p.constant = glm::vec4(settings.constant, 0.0F);
+    p.constant = glm::vec4(settings.constant, settings.face_weights[0]);
+    p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
+                      settings.face_weights[4]};
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
                  static_cast<float>(settings.batch)};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
@@ -137,7 +139,8 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
         const unsigned sampled = set_rows(patches, r.height(), settings);
         patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
     };
-    if (!settings.context.special) {  // all faces are one stacked picture
+    const bool whole = !settings.context.special && settings.face_weights == all_faces;
+    if (whole) {  // all faces are one stacked picture
         transfer_rows({0, 0, hemicube_.size(), 3 * hemicube_.size()}, 0);
     } else {
         for (int face = 0; face < Hemicube::face_count; ++face) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "bundle/face_choice.h"
 #include "bundle/hemicube.h"
 #include "bundle/layered_window.h"
 #include "bundle/plane_window.h"
@@ -33,6 +34,7 @@ struct TransferSettings {
     /// Iterations M over which perspective bundles trade bias for noise (ch. 5.4); 0: never.
     float noise_horizon = 0.0F;
     bool coloured = false;     ///< patch sums carry the shooter's radiance (special phase)
+    FaceWeights face_weights = all_faces;  ///< of a glossy shooter
     glm::vec3 constant{0.0F};  ///< constant radiance term, radiance units
     BundleReceiver::Context context;
 };
