@@ -5,12 +5,15 @@
 // weight w now,
 //   error^2 = variance (w0/w)^2 + (s E)^2 (w - w0)/w^2,
 // the phase's error fading as new samples of relative deviation s come in; after loading w0 = 0.
+// And the squared irradiance (z), with the squared distance of the iterate from the mean (w): how noisy
+// samples are.
 #include "layouts.glsl"
 layout(local_size_x = 256) in;
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec4 checkpoint[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
+layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
 uniform uint patch_count;
 uniform float relevance;         // changes below this share of the value count as noise
 
@@ -26,6 +29,9 @@ void main() {
         float now = dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722));
         float correction = now - checkpoint[i].x;
         float weight = irradiance[i].w;
+        float astray = dot(source[i].rgb, vec3(0.2126, 0.7152, 0.0722)) - now;
+        sum.z += patches[i].area * now * now;
+        sum.w += patches[i].area * astray * astray;
         if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
             float kept = min(checkpoint[i].y / weight, 1.0);
             float deviation = sample_deviation * now;

@@ -233,6 +233,7 @@ SolutionStatistics RadianceStore::statistics() const {
     statistics_.set("relevance", relevant_change);
     const glm::dvec4 sum = reduce(statistics_);
     SolutionStatistics result;
+    result.distance = sum.z > 0.0 ? std::sqrt(sum.w / sum.z) : 0.0;
     result.settled = sum.x > 0.0 ? std::clamp(1.0 - std::sqrt(sum.y / sum.x), 0.0, 1.0) : 1.0;
     return result;
 }

@@ -18,6 +18,8 @@ namespace raybundle {
 /// How far the solution is from the end of its last correction; see solution_statistics.comp.
 struct SolutionStatistics {
     double settled = 0.0;  ///< 1 - remaining correction / size of the correction, 0..1
+    /// Of the iterate from the mean irradiance, root mean square over patches, relative.
+    double distance = 1.0;
 };
 
 /// How one bundle joins the solution.

@@ -67,8 +67,20 @@ std::size_t Solver::bytes() const {
            (change_store_ ? change_store_->bytes() : 0);
 }
 
+double Solver::noise() const {
+    // Averaging with a constant step s leaves the variance s/2 of single samples.
+    const double samples = static_cast<double>(std::max<std::uint64_t>(iterations_, 1));
+    return statistics_.distance * std::sqrt(2.0 / (samples * static_cast<double>(iterate_step())));
+}
+
+bool Solver::noise_is_low() const {
+    constexpr std::uint64_t patience = 8;
+    return noise() <= static_cast<double>(settings_.fine_noise) ||
+           iterations_ >= patience * settings_.coarse_iterations;
+}
+
 void Solver::plan_group() {
-    if (!fine_ && iterations_ >= settings_.coarse_iterations) {
+    if (!fine_ && iterations_ >= settings_.coarse_iterations && noise_is_low()) {
         fine_ = std::make_unique<Transfer>(scene_, store_, settings_.fine);
     }
     group_.clear();

@@ -23,7 +23,11 @@ struct SolverSettings {
     StrategyProbabilities probabilities;
     BundleResolution coarse{256, 400};  ///< first iterations, and special phases
     BundleResolution fine{512, 800};
+    /// Bundles stay coarse for so many iterations, and then until the noise of the patches is below
+    /// fine_noise, but eight times as many at most: bundles are cheap while noise hides what their
+    /// resolution does.
     std::uint64_t coarse_iterations = 768;
+    float fine_noise = 0.02F;
     float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
     bool ageing = false;         ///< probabilities follow ageing_mix() instead
     /// Iterations planned, M of eq. 5.6: perspective bundles trade bias for noise, most of all
@@ -93,6 +97,10 @@ class Solver {
     [[nodiscard]] RadianceStore& store() { return store_; }
     [[nodiscard]] const RadianceStore& store() const { return store_; }
     [[nodiscard]] const BundleResolution& resolution() const;
+    /// Estimated standard error of the patches' irradiance, root mean square, relative: from how far
+    /// the iterate, a mean over few samples, is from the mean of all. Too small in the first few
+    /// hundred iterations, whose samples avoid each other.
+    [[nodiscard]] double noise() const;
     /// State of the correction since loading or the last change; refreshed every few iterations.
     [[nodiscard]] const SolutionStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::uint64_t non_finite() const;
@@ -105,6 +113,7 @@ class Solver {
     };
 
     void plan_group();
+    [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
     void finish_group(std::span<BundleReceiver* const> receivers);
     void after_iteration();
