@@ -30,12 +30,16 @@ glm::mat4 odd_rotation() {
     return glm::rotate(glm::mat4(1.0F), 0.7F, glm::normalize(glm::vec3(0.3F, 1.0F, 0.5F)));
 }
 
-Solver solve(const SceneBuilder& builder, const OracleSettings& settings) {
-    Solver solver(builder.scene, builder.mesh, solver_settings(settings));
+Solver solve(const Scene& scene, const PatchMesh& mesh, const OracleSettings& settings) {
+    Solver solver(scene, mesh, solver_settings(settings));
     while (solver.iterations() < settings.iterations) {
         solver.step({});
     }
     return solver;
+}
+
+Solver solve(const SceneBuilder& builder, const OracleSettings& settings) {
+    return solve(builder.scene, builder.mesh, settings);
 }
 
 double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance,

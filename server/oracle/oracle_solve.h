@@ -13,6 +13,7 @@ namespace raybundle {
 /// Nothing axis-aligned passes by luck.
 glm::mat4 odd_rotation();
 
+Solver solve(const Scene& scene, const PatchMesh& mesh, const OracleSettings& settings);
 Solver solve(const SceneBuilder& builder, const OracleSettings& settings);
 
 /// Area mean of the irradiance (first channel) over patches [first, last).

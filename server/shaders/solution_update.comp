@@ -33,12 +33,21 @@ layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance
 #include "gloss_update.glsl"
 #endif
 
+/// Light that is not finite is dropped and counted, as in accumulate(): a mean would keep it for ever.
+vec3 finite_or_none(vec3 light) {
+    bool finite = dot(abs(light), vec3(1.0)) < 1e30;
+    if (!finite) {
+        atomicAdd(counters.non_finite, 1u);
+    }
+    return finite ? light : vec3(0.0);
+}
+
 /// What a perspective bundle says about the flux that no patch receives.
 void note_escaped_flux() {
     vec3 shot = 3.14159265359 * (counters.shooter_radiance.rgb + bundle.constant.rgb) / shooter_density;
     float share = float(counters.escaped) * 5.9604645e-8;
     FluxSums total = flux[block_count];
-    balance.escaped.rgb += weight * share * shot;
+    balance.escaped.rgb += finite_or_none(weight * share * shot);
     balance.outgoing.rgb += weight * (total.emitted.rgb + total.reflected.rgb);
     balance.outgoing.w += weight;
     counters.escaped = 0;
@@ -55,7 +64,7 @@ void main() {
     vec3 new_sample;
     if (scalar) {
         float received = trade_bias_for_noise(take_accumulated(i, 0u), bundle.weights.z, bundle.axis_z.w);
-        new_sample = counters.shooter_radiance.rgb * received;
+        new_sample = finite_or_none(counters.shooter_radiance.rgb * received);
     } else {
         new_sample = vec3(take_accumulated(i, 0u), take_accumulated(i, 1u), take_accumulated(i, 2u));
     }

@@ -5,7 +5,9 @@
 // Each pixel's list is sorted by depth first. Surfaces that coincide are ordered so that the one facing
 // the window comes first: then a thin wall is a wall, not a gap that two surfaces exchange light through
 // (figure 4.4). Ties beyond that break by surface number, so that the order in which fragments arrived
-// never shows.
+// never shows: of faces that repeat one another the one with the lower number is seen from its front,
+// as by every other bundle. Were it now this one and now that one, each would get a part of the light, and
+// send it only where it is the one that is seen.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 uniform uint first_column;  // the rectangle of the window that is transferred
@@ -62,7 +64,11 @@ uvec2 load_pair(ivec2 texel) {
     return face_each_other(pair) ? pair : uvec2(NO_HIT);
 }
 
-bool before(Hit a, Hit b) { return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface; }
+bool before(Hit a, Hit b) {
+    uint rank_a = faces_far(a.surface) ? ~a.surface : a.surface;
+    uint rank_b = faces_far(b.surface) ? ~b.surface : b.surface;
+    return a.depth != b.depth ? a.depth < b.depth : rank_a < rank_b;
+}
 
 Hit make_hit(uint surface, vec3 point, vec3 pixel_step) {
     vec4 plane = facet_plane(facet_base + (surface >> 1));
