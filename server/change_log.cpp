@@ -9,10 +9,20 @@
 
 namespace raybundle {
 
-ChangeLog::ChangeLog(const JournalSettings& settings) : required_(true) {
+ChangeLog::ChangeLog(const JournalSettings& settings) : settings_(settings), required_(true) {
+    open();
+    epoch_ = journal_ ? journal_->epoch() : 0;
+}
+
+void ChangeLog::resume() {
+    if (required_) {
+        open();
+    }
+}
+
+void ChangeLog::open() {
     try {
-        journal_.emplace(settings);
-        epoch_ = journal_->epoch();
+        journal_.emplace(settings_);
         if (journal_->set_aside()) {
             spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
                           *journal_->set_aside());

@@ -27,6 +27,11 @@ class ChangeLog {
 
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
+    /// Closes the journal, so that another log can use it, and opens it again. No change may be
+    /// recorded meanwhile.
+    void suspend() { journal_.reset(); }
+    void resume();
+
     /// Brings a scene as read from its file to the state of the journal.
     void restore(Scene& scene, PatchMesh& mesh);
 
@@ -49,6 +54,9 @@ class ChangeLog {
     [[nodiscard]] bool working() const { return working_; }
 
   private:
+    void open();
+
+    JournalSettings settings_;
     bool required_ = false;
     bool working_ = true;
     std::optional<SessionJournal> journal_;

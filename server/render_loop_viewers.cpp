@@ -55,6 +55,13 @@ void RenderLoop::choose_receivers() {
             receiver_pixels_ += session->pixels();
         }
     }
+    const bool alone = !watched || nobody_waits();
+    ViewerImage* const snapshot =
+        snapshots_.next_receiver(solver_->scene(), solver_->store(), *programs_, epoch_, alone);
+    if (snapshot != nullptr) {
+        receivers_.push_back(snapshot);
+        receiver_pixels_ += static_cast<double>(snapshot->size().x) * snapshot->size().y;
+    }
 }
 
 /// False where it has been refused and answered.
@@ -69,6 +76,14 @@ bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) 
     }
     session.set_viewport(size);
     return true;
+}
+
+void RenderLoop::request_scenes(const ViewerSession& session, const ClientEvent& event) {
+    if (settings_.scene_requests) {
+        settings_.scene_requests(event, session.name());
+    } else {
+        server_.reply_error(event, v1::Error::NOT_FOUND, "this server has no folder of scenes");
+    }
 }
 
 /// Hands finished frames to the encoder. True if there were any.

@@ -176,6 +176,10 @@ FrameDemand ViewerSession::demand(Clock::time_point now) const {
     return {moving(now), lossless_ && !moving(now), pixels()};
 }
 
+float ViewerSession::picture_exposure() const {
+    return shown_exposure_.value_or(image_->automatic_exposure() + exposure_offset_);
+}
+
 float ViewerSession::exposure() {
     const float wanted = (auto_exposure_ ? image_->automatic_exposure() : 0.0F) + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.

@@ -69,6 +69,8 @@ class ViewerSession {
 
     [[nodiscard]] ViewerImage& image() { return *image_; }
     [[nodiscard]] double pixels() const;
+    /// EV of the pictures it shows now.
+    [[nodiscard]] float picture_exposure() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Viewer whose camera it follows, 0: none.
