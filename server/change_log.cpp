@@ -98,6 +98,16 @@ bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string
     return true;
 }
 
+void ChangeLog::remember_scene(const std::string& started_with, const std::string& shown) {
+    try {
+        if (journal_) {
+            journal_->remember_scene(started_with, shown);
+        }
+    } catch (const JournalError& error) {
+        spdlog::error("after a restart another scene will be shown: {}", error.what());
+    }
+}
+
 std::vector<std::string> ChangeLog::notes(NoteKind kind) {
     try {
         return journal_ ? journal_->notes(kind) : std::vector<std::string>();

@@ -49,6 +49,9 @@ class ChangeLog {
     }
     [[nodiscard]] const SceneHistory& history() const { return history_; }
 
+    /// As SessionJournal::remember_scene(); a failure is logged.
+    void remember_scene(const std::string& started_with, const std::string& shown);
+
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
     /// Whether the next change is expected to be stored.
     [[nodiscard]] bool working() const { return working_; }

@@ -299,6 +299,7 @@ bool RenderLoop::solve() {
     const auto start = Clock::now();
     solver_->step(receivers_);
     const double cost = milliseconds_since(start);
+    last_step_ms_ = cost;
     metrics_.note_step(solver_->last_strategy(), cost);
     if (solver_->last_strategy()) {
         cost_.note_iteration(cost, receiver_pixels_);

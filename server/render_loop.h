@@ -114,6 +114,7 @@ class RenderLoop {
     std::uint32_t epoch_ = 0;
     std::uint64_t iterations_at_change_ = 0;
     double receiver_pixels_ = 0.0;
+    double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
     CostModel cost_;
     LoopMetrics metrics_;

@@ -10,6 +10,7 @@ namespace raybundle {
 namespace {
 
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
+constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -117,7 +118,12 @@ bool RenderLoop::send_frames() {
         }
     }
     const bool any = !requests.empty();
-    while (!requests.empty() && milliseconds_since(now) < frame_slice_ms) {
+    const bool moving = std::any_of(requests.begin(), requests.end(),
+                                    [](const FrameRequest& request) { return request.moving; });
+    // A step takes long where many pictures gather light: those who move shall not wait for it.
+    const double slice_ms =
+        moving ? std::max(frame_slice_ms, moving_share * last_step_ms_) : frame_slice_ms;
+    while (!requests.empty() && milliseconds_since(now) < slice_ms) {
         const ViewerId viewer = *scheduler_.next(requests);
         ViewerSession& session = *sessions_.at(viewer);
         const auto start = Clock::now();

@@ -140,7 +140,7 @@ void ViewerSession::set_target(const v1::SetTarget& message) {
 }
 
 bool ViewerSession::moving(Clock::time_point now) const {
-    return since_change_s(now) < moving_s;
+    return wanted_camera_ || since_change_s(now) < moving_s;
 }
 
 bool ViewerSession::smooth(Clock::time_point now) {

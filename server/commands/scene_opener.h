@@ -51,6 +51,8 @@ class SceneOpener {
     /// The file of the scene that is shown.
     void set_shown(const std::string& file);
 
+    [[nodiscard]] const SceneLibrary& library() const { return library_; }
+
   private:
     class SceneUpload;
     using Job = std::function<void()>;

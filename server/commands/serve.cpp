@@ -15,6 +15,7 @@
 #include "log_settings.h"
 #include "net/server.h"
 #include "render_loop.h"
+#include "scene/gltf_confinement.h"
 #include "serve_settings.h"
 
 namespace raybundle {
@@ -115,12 +116,13 @@ class SceneServer {
         }
     }
 
-    void run(LoadedScene loaded) {
+    void run() {
+        auto [file, loaded] = first_scene();
         served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
         server_.start();
-        fmt::print("raybundle serves {} at {}\n", options_.scene, server_.address());
+        fmt::print("raybundle serves {} at {}\n", file, server_.address());
         std::fflush(stdout);
-        watch(options_.scene);
+        watch(file);
         while (!control_.stop) {
             served_->loop.run(control_.leave);
             control_.leave = false;
@@ -133,6 +135,29 @@ class SceneServer {
     }
 
   private:
+    /// The scene that was shown last time, where the journal knows one; else that of the options.
+    std::pair<std::string, LoadedScene> first_scene() {
+        const std::string name =
+            control_.opener && !options_.journal.empty()
+                ? SessionJournal::remembered_scene(options_.journal, options_.scene)
+                : std::string();
+        const std::optional<std::string> file =
+            name.empty() ? std::nullopt : control_.opener->library().find(name);
+        if (file) {
+            try {
+                Options options = options_;
+                options.scene = *file;
+                check_confined(*file);
+                LoadedScene loaded = load_scene(options);
+                control_.opener->set_shown(*file);
+                return {*file, std::move(loaded)};
+            } catch (const std::exception& error) {
+                spdlog::error("the scene of last time is not shown: {}", error.what());
+            }
+        }
+        return {options_.scene, load_scene(options_)};
+    }
+
     void watch(const std::string& file) {
         if (options_.watch) {
             Options options = options_;
@@ -163,6 +188,7 @@ class SceneServer {
         const std::string problem =
             replace(std::move(scene.loaded), [&] { control_.opener->accept(scene); });
         if (problem.empty()) {
+            served_->log.remember_scene(options_.scene, scene.progress.name());
             watch(scene.file);
         } else {
             control_.opener->reject(scene, problem);
@@ -223,7 +249,7 @@ int run_serve(const Options& options) {
     }
     const NetworkEnd network_end(server);  // before the opener, which uploads use
     const EglContext context = create_egl_context({options.gpu, false});
-    SceneServer(options, context, server, control).run(load_scene(options));
+    SceneServer(options, context, server, control).run();
     spdlog::info("stopping");
     server.stop();
     return exit_done;

@@ -187,6 +187,7 @@ TEST_F(ScenesTest, AnUploadIsCheckedStoredAndCanBeOpened) {
     editor.join(editor_token);
     EXPECT_TRUE(names(editor).contains("Büro 2.glb"));
     EXPECT_TRUE(open(editor, "Büro 2.glb").contains("ok"));
+    EXPECT_EQ(editor.close_code(), 1012);
     JsonViewer again(daemon_->port());
     EXPECT_NE(again.join(editor_token).dump().find("better box"), std::string::npos);
 }
@@ -236,6 +237,44 @@ TEST_F(ScenesTest, AnUploadThatBreaksOffLeavesNothing) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     EXPECT_EQ(folder_->files(), files);
+}
+
+TEST(ScenesOverARestart, TheOneThatWasOpenedIsShownAgainAsItWas) {
+    const TestFolder folder;
+    folder.write("first.gltf", scene_with("first box").dump());
+    folder.write("second.gltf", scene_with("second box").dump());
+    const std::vector<std::string> options{"--scenes", folder.path(), "--journal",
+                                           folder.path("session.db")};
+    const Json move = {{"moveObject", {{"object", 2}, {"transform", Json::object()}}}};
+    {
+        Daemon daemon(folder.path("first.gltf"), options);
+        JsonViewer viewer(daemon.port());
+        viewer.join();
+        EXPECT_TRUE(viewer.request(move).contains("sceneChanged"));
+        EXPECT_TRUE(viewer.request({{"openScene", {{"name", "second.gltf"}}}}).contains("ok"));
+        EXPECT_EQ(viewer.close_code(), 1012);
+        JsonViewer again(daemon.port());
+        EXPECT_EQ(again.join().at("welcome").at("epoch"), 0) << "a session of its own";
+        again.request(move);
+        EXPECT_EQ(again.request(move).at("sceneChanged").at("epoch"), 2);
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    {
+        Daemon daemon(folder.path("first.gltf"), options);
+        JsonViewer viewer(daemon.port());
+        const Json welcome = viewer.join().at("welcome");
+        EXPECT_EQ(welcome.at("epoch"), 2);
+        EXPECT_NE(welcome.dump().find("second box"), std::string::npos);
+        EXPECT_TRUE(viewer.request({{"openScene", {{"name", "first.gltf"}}}}).contains("ok"));
+        EXPECT_EQ(viewer.close_code(), 1012);
+        JsonViewer again(daemon.port());
+        EXPECT_EQ(again.join().at("welcome").at("epoch"), 1) << "the first session goes on";
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    std::filesystem::remove(folder.path("first.gltf"));
+    Daemon daemon(folder.path("second.gltf"), options);
+    JsonViewer viewer(daemon.port());
+    EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 2) << "another configuration counts";
 }
 
 TEST(ScenesWithoutAFolder, AreRefused) {

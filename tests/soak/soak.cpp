@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -181,6 +182,7 @@ int main(int count, char** arguments) {
         fmt::print(stderr, "usage: raybundle_soak MINUTES (0.2 or more)\n");
         return 2;
     }
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
     try {
         const bool first = raybundle::many_viewers(60.0 * minutes * 0.6);
         const bool second = raybundle::hostile_crowd(60.0 * minutes * 0.4);
