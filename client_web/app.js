@@ -307,6 +307,7 @@ export class RaybundleApp extends EventTarget {
         this.status.showWelcome(welcome, this.scene.title, this.frame !== null);
         if (!sameScene && this.#firstView) {
             this.camera.set(this.#firstView);
+            this.#firstView = null;
         } else if (!sameScene && this.scene.cameras.length > 0) {
             this.camera.set(this.framed(this.scene.cameras[0]));
         }

@@ -71,6 +71,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{maxWidth: number, maxHeight: number, maxMessageBytes: number}} limits
  * @property {string} [renderer]  of the server's GL
  * @property {boolean} [softwareRendering]
+ * @property {boolean} [canOpenScenes]
  * @property {Pin[]} [pins]
  * @property {SavedViewpoint[]} [viewpoints]
  */
@@ -177,6 +178,16 @@ export const SUBPROTOCOL = 'raybundle.v1';
  */
 
 /**
+ * @typedef {{name: string, bytes: number, changedAtMs: number}} SceneFile
+ * @typedef {object} SceneOpening
+ * @property {string} name
+ * @property {number} by  viewer
+ * @property {string} byName
+ * @property {'READING' | 'PREPARING' | 'COMPILING' | 'READY' | 'REJECTED'} stage
+ * @property {string} reason  of REJECTED
+ */
+
+/**
  * @typedef {object} ServerMessage
  * @property {number} [replyTo]
  * @property {Welcome} [welcome]
@@ -191,6 +202,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{by: number, position: Vec3}} [pointed]
  * @property {{viewers: Viewer[]}} [presence]
  * @property {ProbeGridResult} [probeGridResult]
+ * @property {{scenes: SceneFile[], current: string, maxUploadBytes: number}} [sceneList]
+ * @property {SceneOpening} [sceneOpening]
  */
 
 /** An `error` message of the server, as an exception. */

@@ -9,10 +9,20 @@
 
 namespace raybundle {
 
-ChangeLog::ChangeLog(const JournalSettings& settings) : required_(true) {
+ChangeLog::ChangeLog(const JournalSettings& settings) : settings_(settings), required_(true) {
+    open();
+    epoch_ = journal_ ? journal_->epoch() : 0;
+}
+
+void ChangeLog::resume() {
+    if (required_) {
+        open();
+    }
+}
+
+void ChangeLog::open() {
     try {
-        journal_.emplace(settings);
-        epoch_ = journal_->epoch();
+        journal_.emplace(settings_);
         if (journal_->set_aside()) {
             spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
                           *journal_->set_aside());
@@ -86,6 +96,16 @@ bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string
         return false;
     }
     return true;
+}
+
+void ChangeLog::remember_scene(const std::string& started_with, const std::string& shown) {
+    try {
+        if (journal_) {
+            journal_->remember_scene(started_with, shown);
+        }
+    } catch (const JournalError& error) {
+        spdlog::error("after a restart another scene will be shown: {}", error.what());
+    }
 }
 
 std::vector<std::string> ChangeLog::notes(NoteKind kind) {

@@ -27,6 +27,11 @@ class ChangeLog {
 
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
+    /// Closes the journal, so that another log can use it, and opens it again. No change may be
+    /// recorded meanwhile.
+    void suspend() { journal_.reset(); }
+    void resume();
+
     /// Brings a scene as read from its file to the state of the journal.
     void restore(Scene& scene, PatchMesh& mesh);
 
@@ -44,11 +49,17 @@ class ChangeLog {
     }
     [[nodiscard]] const SceneHistory& history() const { return history_; }
 
+    /// As SessionJournal::remember_scene(); a failure is logged.
+    void remember_scene(const std::string& started_with, const std::string& shown);
+
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
     /// Whether the next change is expected to be stored.
     [[nodiscard]] bool working() const { return working_; }
 
   private:
+    void open();
+
+    JournalSettings settings_;
     bool required_ = false;
     bool working_ = true;
     std::optional<SessionJournal> journal_;

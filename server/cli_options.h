@@ -69,6 +69,8 @@ struct Options {
     bool print_config = false;
     bool allow_remote = false;
     bool watch = false;
+    std::string scenes;  // folder
+    int max_upload_megabytes = 256;
 
     // token
     std::string token_name;

@@ -51,7 +51,8 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
                    server_.send_frame(frame.viewer, frame.header, frame.bytes);
                    server_.inbox().interrupt();
                }),
-      review_(log, solver_->scene().patch_count()) {
+      review_(log, solver_->scene().patch_count()),
+      snapshots_(server) {
     epoch_ = log_.epoch();
 }
 
@@ -75,6 +76,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 }
 
 void RenderLoop::refuse_waiting() {
+    snapshots_.refuse_all();
     std::vector<ClientEvent> waiting = server_.inbox().drain();
     const std::vector<ClientEvent> changes = changes_.take_requests();
     waiting.insert(waiting.end(), changes.begin(), changes.end());
@@ -97,6 +99,7 @@ void RenderLoop::handle(const ClientEvent& event) {
     if (event.kind == ClientEvent::Kind::left) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
+        snapshots_.forget(event.viewer);
         std::erase(receivers_, &found->second->image());
         sessions_.erase(found);
         forget_leader(event.viewer);
@@ -138,6 +141,7 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->mutable_limits()->set_max_message_bytes(65536);
     welcome->set_renderer(settings_.renderer);
     welcome->set_software_rendering(settings_.software_rendering);
+    welcome->set_can_open_scenes(static_cast<bool>(settings_.scene_requests));
     review_.fill_welcome(welcome);
     sessions_[event.viewer]->set_role(event.role);
     presence_changed_ = true;
@@ -176,6 +180,13 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 return;  // answered when the change is made
             case v1::ClientMessage::kProbe:
                 answer_probe(session, event);
+                return;
+            case v1::ClientMessage::kSnapshot:
+                snapshots_.add(event, session.camera(), session.picture_exposure());
+                return;  // answered when it is done
+            case v1::ClientMessage::kListScenes:
+            case v1::ClientMessage::kOpenScene:
+                request_scenes(session, event);
                 return;
             default:
                 if (handle_review(session, event)) {
@@ -267,10 +278,8 @@ void RenderLoop::update_rate(Clock::time_point now) {
     publish_figures(now);
 }
 
-bool RenderLoop::idle() const {
-    if (solver_->correcting()) {
-        return false;
-    }
+/// Whether nobody who watches wants more iterations.
+bool RenderLoop::nobody_waits() const {
     const auto content = [](const auto& entry) {
         const auto& session = entry.second;
         return session->paused() || (session->has_target() && session->target_met());
@@ -283,16 +292,18 @@ bool RenderLoop::idle() const {
 }
 
 bool RenderLoop::solve() {
-    if (idle()) {
+    if (!solver_->correcting() && nobody_waits() && !snapshots_.waiting()) {
         return false;
     }
     choose_receivers();
     const auto start = Clock::now();
     solver_->step(receivers_);
     const double cost = milliseconds_since(start);
+    last_step_ms_ = cost;
     metrics_.note_step(solver_->last_strategy(), cost);
     if (solver_->last_strategy()) {
         cost_.note_iteration(cost, receiver_pixels_);
+        snapshots_.note_iteration(cost);
     }
     server_.set_ready(true);
     const auto now = Clock::now();

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -16,6 +17,7 @@
 #include "review_board.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "snapshot_desk.h"
 #include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
@@ -33,6 +35,9 @@ struct RenderLoopSettings {
     double min_frames_per_second = 1.0;
     std::string renderer;             ///< what viewers are told that draws
     bool software_rendering = false;  ///< and that it is no GPU
+    /// Takes listScenes and openScene with the viewer's name, and answers them; empty: there are
+    /// no scenes to open.
+    std::function<void(const ClientEvent& request, const std::string& name)> scene_requests;
 };
 
 /// The one place that sees both the network's messages and the GPU: owns the solution and the
@@ -67,6 +72,7 @@ class RenderLoop {
     void announce(const PendingChange& pending);
     void gather_all();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
+    void request_scenes(const ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
@@ -87,7 +93,7 @@ class RenderLoop {
     bool smooth_pictures();
     void send_solutions();
     bool solve();
-    [[nodiscard]] bool idle() const;
+    [[nodiscard]] bool nobody_waits() const;
     [[nodiscard]] v1::FrameHeader figures() const;
     void choose_receivers();
     void update_rate(Clock::time_point now);
@@ -108,11 +114,13 @@ class RenderLoop {
     std::uint32_t epoch_ = 0;
     std::uint64_t iterations_at_change_ = 0;
     double receiver_pixels_ = 0.0;
+    double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
     CostModel cost_;
     LoopMetrics metrics_;
     FrameEncoder encoder_;
     ReviewBoard review_;
+    SnapshotDesk snapshots_;
     bool presence_changed_ = false;
     Clock::time_point last_presence_;
     Clock::time_point last_solution_, rate_since_;

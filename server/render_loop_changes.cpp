@@ -87,6 +87,7 @@ bool RenderLoop::record(PendingChange& pending) {
 
 /// A change concerns also those who look away.
 void RenderLoop::gather_all() {
+    snapshots_.restart();
     receivers_.clear();
     for (const auto& [id, session] : sessions_) {
         receivers_.push_back(&session->image());

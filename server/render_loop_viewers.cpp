@@ -10,6 +10,7 @@ namespace raybundle {
 namespace {
 
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
+constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -55,6 +56,13 @@ void RenderLoop::choose_receivers() {
             receiver_pixels_ += session->pixels();
         }
     }
+    const bool alone = !watched || nobody_waits();
+    ViewerImage* const snapshot =
+        snapshots_.next_receiver(solver_->scene(), solver_->store(), *programs_, epoch_, alone);
+    if (snapshot != nullptr) {
+        receivers_.push_back(snapshot);
+        receiver_pixels_ += static_cast<double>(snapshot->size().x) * snapshot->size().y;
+    }
 }
 
 /// False where it has been refused and answered.
@@ -69,6 +77,14 @@ bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) 
     }
     session.set_viewport(size);
     return true;
+}
+
+void RenderLoop::request_scenes(const ViewerSession& session, const ClientEvent& event) {
+    if (settings_.scene_requests) {
+        settings_.scene_requests(event, session.name());
+    } else {
+        server_.reply_error(event, v1::Error::NOT_FOUND, "this server has no folder of scenes");
+    }
 }
 
 /// Hands finished frames to the encoder. True if there were any.
@@ -102,7 +118,12 @@ bool RenderLoop::send_frames() {
         }
     }
     const bool any = !requests.empty();
-    while (!requests.empty() && milliseconds_since(now) < frame_slice_ms) {
+    const bool moving = std::any_of(requests.begin(), requests.end(),
+                                    [](const FrameRequest& request) { return request.moving; });
+    // A step takes long where many pictures gather light: those who move shall not wait for it.
+    const double slice_ms =
+        moving ? std::max(frame_slice_ms, moving_share * last_step_ms_) : frame_slice_ms;
+    while (!requests.empty() && milliseconds_since(now) < slice_ms) {
         const ViewerId viewer = *scheduler_.next(requests);
         ViewerSession& session = *sessions_.at(viewer);
         const auto start = Clock::now();

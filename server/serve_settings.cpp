@@ -7,6 +7,8 @@
 namespace raybundle {
 namespace {
 
+constexpr std::uint32_t bytes_per_megabyte = 1'000'000;
+
 bool is_loopback(const std::string& host) {
     in_addr ipv4{};
     const bool numeric = inet_pton(AF_INET, host.c_str(), &ipv4) == 1;
@@ -46,6 +48,10 @@ ServerSettings server_settings(const Options& options) {
     settings.max_connections_per_address =
         static_cast<std::size_t>(options.max_connections_per_address);
     settings.max_messages_per_second = options.max_messages_per_second;
+    if (!options.scenes.empty()) {
+        settings.max_upload_bytes =
+            static_cast<std::uint32_t>(options.max_upload_megabytes) * bytes_per_megabyte;
+    }
     settings.access = {AccessTokens(options.tokens), options.allowed_origins};
     return settings;
 }

@@ -140,7 +140,7 @@ void ViewerSession::set_target(const v1::SetTarget& message) {
 }
 
 bool ViewerSession::moving(Clock::time_point now) const {
-    return since_change_s(now) < moving_s;
+    return wanted_camera_ || since_change_s(now) < moving_s;
 }
 
 bool ViewerSession::smooth(Clock::time_point now) {
@@ -174,6 +174,10 @@ bool ViewerSession::target_met() {
 
 FrameDemand ViewerSession::demand(Clock::time_point now) const {
     return {moving(now), lossless_ && !moving(now), pixels()};
+}
+
+float ViewerSession::picture_exposure() const {
+    return shown_exposure_.value_or(image_->automatic_exposure() + exposure_offset_);
 }
 
 float ViewerSession::exposure() {

@@ -45,7 +45,8 @@ class ViewerSession {
     bool smooth(Clock::time_point now);
     /// Something that the whole picture shows has changed: answer with a frame soon.
     void note_change();
-    /// The camera or an object moved within the last moments.
+    /// The camera or an object moved within the last moments, or no frame has shown the camera yet:
+    /// whoever waits long for it must not fall behind those who have just been served.
     [[nodiscard]] bool moving(Clock::time_point now) const;
     /// A new frame is worth sending now.
     [[nodiscard]] bool due(Clock::time_point now) const;
@@ -69,6 +70,8 @@ class ViewerSession {
 
     [[nodiscard]] ViewerImage& image() { return *image_; }
     [[nodiscard]] double pixels() const;
+    /// EV of the pictures it shows now.
+    [[nodiscard]] float picture_exposure() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Viewer whose camera it follows, 0: none.

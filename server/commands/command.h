@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "cli_options.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
@@ -17,6 +19,8 @@ struct LoadedScene {
     std::string digest;    ///< SHA-256 of the file, hexadecimal
 };
 LoadedScene load_scene(const Options& options);
+/// Calls `accepted` once the file has been checked, before it is cut into patches.
+LoadedScene load_scene(const Options& options, const std::function<void()>& accepted);
 
 // Each runs one subcommand and returns its exit status.
 int run_serve(const Options& options);

@@ -10,6 +10,10 @@
 namespace raybundle {
 
 LoadedScene load_scene(const Options& options) {
+    return load_scene(options, [] {});
+}
+
+LoadedScene load_scene(const Options& options, const std::function<void()>& accepted) {
     const auto start = std::chrono::steady_clock::now();
     spdlog::info("reading {}", options.scene);
     SceneSettings settings;
@@ -19,6 +23,7 @@ LoadedScene load_scene(const Options& options) {
     LoadedScene loaded;
     loaded.scene = load_gltf(options.scene, settings);
     loaded.digest = file_digest(options.scene).value_or("");
+    accepted();
     TessellationSettings tessellation;
     tessellation.patch_size = options.patch_size;
     loaded.mesh = tessellate(loaded.scene, tessellation);

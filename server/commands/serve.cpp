@@ -7,6 +7,7 @@
 
 #include "change_log.h"
 #include "commands/command.h"
+#include "commands/scene_opener.h"
 #include "commands/scene_watch.h"
 #include "commands/signal_watch.h"
 #include "config_file.h"
@@ -14,6 +15,7 @@
 #include "log_settings.h"
 #include "net/server.h"
 #include "render_loop.h"
+#include "scene/gltf_confinement.h"
 #include "serve_settings.h"
 
 namespace raybundle {
@@ -46,11 +48,25 @@ ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
     return ChangeLog(settings);
 }
 
+/// Stops the network however the program ends.
+class NetworkEnd {
+  public:
+    explicit NetworkEnd(Server& server) : server_(server) {}
+    ~NetworkEnd() { server_.stop(); }
+    NetworkEnd(const NetworkEnd&) = delete;
+    NetworkEnd& operator=(const NetworkEnd&) = delete;
+
+  private:
+    Server& server_;
+};
+
 /// Lets the server ask a loop for its metrics while both exist.
 class MetricsSource {
   public:
-    MetricsSource(Server& server, const RenderLoop& loop) : server_(server) {
-        server_.set_metrics_source([&loop] { return loop.metrics(); });
+    MetricsSource(Server& server, const RenderLoop& loop) : server_(server), loop_(loop) { use(); }
+    /// Answers from now on.
+    void use() {
+        server_.set_metrics_source([this] { return loop_.metrics(); });
     }
     ~MetricsSource() { server_.set_metrics_source({}); }
     MetricsSource(const MetricsSource&) = delete;
@@ -58,6 +74,7 @@ class MetricsSource {
 
   private:
     Server& server_;
+    const RenderLoop& loop_;
 };
 
 /// Why a loop ends: `leave` is set last.
@@ -65,39 +82,148 @@ struct Control {
     std::atomic<bool> stop{false};   ///< the program ends
     std::atomic<bool> leave{false};  ///< that, or another scene waits
     std::optional<SceneWatch> watch;
+    std::optional<SceneOpener> opener;
 };
 
-/// Serves one scene; returns the one to serve next, or nothing where the program is to end.
-std::optional<LoadedScene> serve_scene(const Options& options, const EglContext& context,
-                                       LoadedScene loaded, Server& server, Control& control) {
-    ChangeLog log = open_change_log(options, loaded);
-    log.restore(loaded.scene, loaded.mesh);
-    RenderLoopSettings settings;
-    settings.solver.seed = options.seed;
-    settings.solver.special = interactive_special();
-    settings.min_frames_per_second = options.min_frames_per_second;
-    settings.renderer = context.renderer();
-    settings.software_rendering = context.is_software();
-    RenderLoop loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log);
-    const MetricsSource source(server, loop);
-    if (server.port() == 0) {
-        server.start();
-        fmt::print("raybundle serves {} at {}\n", options.scene, server.address());
+/// A scene that is being served.
+struct ServedScene {
+    ServedScene(const Options& options, LoadedScene loaded, const RenderLoopSettings& settings,
+                Server& server)
+        : log(open_change_log(options, loaded)),
+          loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
+               std::move(loaded.mesh), settings, server, log),
+          metrics(server, loop) {}
+
+    ChangeLog log;
+    RenderLoop loop;
+    MetricsSource metrics;
+};
+
+/// Serves one scene after the other.
+class SceneServer {
+  public:
+    SceneServer(const Options& options, const EglContext& context, Server& server, Control& control)
+        : options_(options), server_(server), control_(control) {
+        settings_.solver.seed = options.seed;
+        settings_.solver.special = interactive_special();
+        settings_.min_frames_per_second = options.min_frames_per_second;
+        settings_.renderer = context.renderer();
+        settings_.software_rendering = context.is_software();
+        if (control.opener) {
+            settings_.scene_requests = [this](const ClientEvent& request, const std::string& name) {
+                control_.opener->handle(request, name);
+            };
+        }
+    }
+
+    void run() {
+        auto [file, loaded] = first_scene();
+        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
+        server_.start();
+        fmt::print("raybundle serves {} at {}\n", file, server_.address());
         std::fflush(stdout);
+        watch(file);
+        while (!control_.stop) {
+            served_->loop.run(control_.leave);
+            control_.leave = false;
+            if (!control_.stop) {
+                change_scene();
+            }
+        }
+        server_.set_ready(false);
+        served_->loop.refuse_waiting();
     }
-    std::optional<LoadedScene> next;
-    while (!control.stop && !next) {
-        loop.run(control.leave);
-        control.leave = false;
-        next = control.watch ? control.watch->take() : std::nullopt;
+
+  private:
+    /// The scene that was shown last time, where the journal knows one; else that of the options.
+    std::pair<std::string, LoadedScene> first_scene() {
+        const std::string name =
+            control_.opener && !options_.journal.empty()
+                ? SessionJournal::remembered_scene(options_.journal, options_.scene)
+                : std::string();
+        const std::optional<std::string> file =
+            name.empty() ? std::nullopt : control_.opener->library().find(name);
+        if (file) {
+            try {
+                Options options = options_;
+                options.scene = *file;
+                check_confined(*file);
+                LoadedScene loaded = load_scene(options);
+                control_.opener->set_shown(*file);
+                return {*file, std::move(loaded)};
+            } catch (const std::exception& error) {
+                spdlog::error("the scene of last time is not shown: {}", error.what());
+            }
+        }
+        return {options_.scene, load_scene(options_)};
     }
-    server.set_ready(false);
-    loop.refuse_waiting();
-    if (!control.stop) {
-        server.close_all(CloseCode::service_restart, "the scene has been replaced");
+
+    void watch(const std::string& file) {
+        if (options_.watch) {
+            Options options = options_;
+            options.scene = file;
+            control_.watch.reset();
+            control_.watch.emplace(options, [this] {
+                control_.leave = true;
+                server_.inbox().interrupt();
+            });
+        }
     }
-    return next;
-}
+
+    void change_scene() {
+        std::optional<LoadedScene> replaced =
+            control_.watch ? control_.watch->take() : std::nullopt;
+        if (replaced) {
+            replace(std::move(*replaced));
+        }
+        std::optional<OpenedScene> opened =
+            control_.opener ? control_.opener->take() : std::nullopt;
+        if (opened) {
+            open(*opened);
+        }
+    }
+
+    void open(OpenedScene& scene) {
+        control_.opener->announce(scene.progress, v1::SceneOpening::COMPILING);
+        const std::string problem =
+            replace(std::move(scene.loaded), [&] { control_.opener->accept(scene); });
+        if (problem.empty()) {
+            served_->log.remember_scene(options_.scene, scene.progress.name());
+            watch(scene.file);
+        } else {
+            control_.opener->reject(scene, problem);
+        }
+    }
+
+    /// Builds the next scene beside the present one, which stays where that fails. The reason in
+    /// that case, else empty; `shown` is called before viewers are told to come back.
+    std::string replace(
+        LoadedScene next, const std::function<void()>& shown = [] {}) {
+        served_->log.suspend();
+        std::unique_ptr<ServedScene> fresh;
+        try {
+            fresh = std::make_unique<ServedScene>(options_, std::move(next), settings_, server_);
+        } catch (const std::exception& error) {
+            spdlog::error("the scene stays as it was: {}", error.what());
+            served_->log.resume();
+            served_->metrics.use();
+            return "the server has no room for it";
+        }
+        server_.set_ready(false);
+        shown();
+        served_->loop.refuse_waiting();
+        server_.close_all(CloseCode::service_restart, "the scene has been replaced");
+        served_ = std::move(fresh);
+        served_->metrics.use();
+        return {};
+    }
+
+    const Options& options_;
+    Server& server_;
+    Control& control_;
+    RenderLoopSettings settings_;
+    std::unique_ptr<ServedScene> served_;
+};
 
 }  // namespace
 
@@ -118,14 +244,12 @@ int run_serve(const Options& options) {
             leave();
         },
         [&] { reload_settings(options, server); });
+    if (!options.scenes.empty()) {
+        control.opener.emplace(options, server, leave);
+    }
+    const NetworkEnd network_end(server);  // before the opener, which uploads use
     const EglContext context = create_egl_context({options.gpu, false});
-    std::optional<LoadedScene> loaded = load_scene(options);
-    if (options.watch) {
-        control.watch.emplace(options, leave);
-    }
-    while (loaded && !control.stop) {
-        loaded = serve_scene(options, context, std::move(*loaded), server, control);
-    }
+    SceneServer(options, context, server, control).run();
     spdlog::info("stopping");
     server.stop();
     return exit_done;

@@ -69,6 +69,8 @@ void SessionJournal::open(const JournalSettings& settings) {
         "CREATE TABLE IF NOT EXISTS note(session INTEGER NOT NULL REFERENCES session(id),"
         " kind INTEGER NOT NULL, number INTEGER NOT NULL, body BLOB NOT NULL,"
         " PRIMARY KEY(session, kind, number)) WITHOUT ROWID");
+    database_->execute(
+        "CREATE TABLE IF NOT EXISTS shown(started_with TEXT PRIMARY KEY, scene TEXT NOT NULL)");
     find_session(settings);
 }
 
@@ -164,6 +166,33 @@ void SessionJournal::append(const v1::SceneChanged& change) {
         epoch_ = change.epoch();
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+void SessionJournal::remember_scene(const std::string& started_with, const std::string& shown) {
+    try {
+        auto insert = database_->prepare("INSERT OR REPLACE INTO shown VALUES(?, ?)");
+        insert.bind(1, started_with);
+        insert.bind(2, shown);
+        insert.run();
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+std::string SessionJournal::remembered_scene(const std::string& file,
+                                             const std::string& started_with) {
+    std::error_code missing;
+    if (!std::filesystem::exists(file, missing)) {
+        return {};
+    }
+    try {
+        SqliteDatabase database(file);
+        auto select = database.prepare("SELECT scene FROM shown WHERE started_with=?");
+        select.bind(1, started_with);
+        return select.step() ? std::string(select.bytes(0)) : std::string();
+    } catch (const SqliteError&) {
+        return {};  // whoever opens it to write says what is wrong with it
     }
 }
 

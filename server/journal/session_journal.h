@@ -56,6 +56,13 @@ class SessionJournal {
     /// Bodies of all notes of a kind, by number. Throws JournalError.
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
 
+    /// Keeps in mind which scene of the library is shown in place of the one that the server was
+    /// started with. Throws JournalError.
+    void remember_scene(const std::string& started_with, const std::string& shown);
+    /// What a journal that nobody has open remembers for a server started with that scene; empty
+    /// where it remembers nothing or cannot be read.
+    static std::string remembered_scene(const std::string& file, const std::string& started_with);
+
     [[nodiscard]] const std::optional<std::string>& set_aside() const { return set_aside_; }
 
   private:

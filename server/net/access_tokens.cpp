@@ -98,6 +98,8 @@ v1::Role required_role(v1::ClientMessage::BodyCase body) {
         case Body::kSetLight:
         case Body::kSetMaterial:
         case Body::kUndo:
+        case Body::kListScenes:
+        case Body::kOpenScene:
             return v1::EDITOR;
         case Body::kAddPin:
         case Body::kRemovePin:

@@ -33,13 +33,18 @@ bool Gate::still_valid(const Pass& pass) const {
 }
 
 bool Gate::opens_metrics(std::string_view authorization) const {
+    return role_of(authorization).has_value();
+}
+
+std::optional<v1::Role> Gate::role_of(std::string_view authorization) const {
     constexpr std::string_view kScheme = "Bearer ";
     const auto current = access();
     if (current->tokens.empty()) {
-        return true;
+        return v1::EDITOR;
     }
-    return authorization.starts_with(kScheme) &&
-           current->tokens.find(token_digest(authorization.substr(kScheme.size()))).has_value();
+    return authorization.starts_with(kScheme)
+               ? current->tokens.role_of(token_digest(authorization.substr(kScheme.size())))
+               : std::nullopt;
 }
 
 std::shared_ptr<const Access> Gate::access() const {

@@ -52,6 +52,10 @@ class Gate {
     /// server, or anything where it has none.
     [[nodiscard]] bool opens_metrics(std::string_view authorization) const;
 
+    /// Role of an HTTP Authorization header, "Bearer TOKEN": EDITOR where the server has no tokens,
+    /// nothing for a wrong token or none.
+    [[nodiscard]] std::optional<v1::Role> role_of(std::string_view authorization) const;
+
     [[nodiscard]] std::shared_ptr<const Access> access() const;
     void set_access(Access access);
 

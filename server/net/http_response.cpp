@@ -22,7 +22,7 @@ constexpr std::array<NameValue, 6> kHeaders{{
 }};
 
 std::string_view content_type(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTypes{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kTypes{{
         {".html", "text/html; charset=utf-8"},
         {".js", "text/javascript; charset=utf-8"},
         {".css", "text/css; charset=utf-8"},
@@ -31,6 +31,7 @@ std::string_view content_type(std::string_view name) {
         {".png", "image/png"},
         {".ico", "image/x-icon"},
         {".woff2", "font/woff2"},
+        {".exr", "image/x-exr"},
     }};
     for (const auto& [suffix, type] : kTypes) {
         if (name.ends_with(suffix)) {
@@ -60,6 +61,16 @@ HttpResponse file_response(std::string_view path, const HttpContent& content) {
     return response;
 }
 
+HttpResponse snapshot_response(std::string_view path, const SnapshotStore& store) {
+    HttpResponse response;
+    response.file = store.find(path);
+    if (!response.file) {
+        return plain(404, "Not found, or not any more\n");
+    }
+    response.content_type = content_type(path);
+    return response;
+}
+
 HttpResponse get(std::string_view path, const HttpContent& content) {
     if (!path.starts_with('/')) {
         return plain(400, "Bad request\n");
@@ -75,6 +86,9 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
         response.content_type = "text/plain; version=0.0.4; charset=utf-8";
         return response;
     }
+    if (path.starts_with(SnapshotStore::kFolder) && content.snapshots != nullptr) {
+        return snapshot_response(path, *content.snapshots);
+    }
     if (path == "/ws") {
         return plain(426, "This is a WebSocket address\n");
     }
@@ -84,7 +98,7 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
 }  // namespace
 
 HttpResponse http_response(HttpMethod method, std::string_view path, const HttpContent& content) {
-    if (method == HttpMethod::other) {
+    if (method != HttpMethod::get && method != HttpMethod::head) {
         return plain(405, "Only GET and HEAD\n");
     }
     HttpResponse response = get(path, content);

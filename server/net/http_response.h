@@ -1,31 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "embedded_file.h"
+#include "net/snapshot_store.h"
 
 namespace raybundle {
 
-enum class HttpMethod { get, head, other };
+enum class HttpMethod { get, head, put, other };
 
 /// Answer to one HTTP request; headers common to all answers are http_headers().
 struct HttpResponse {
     int status = 200;
     std::string_view content_type = "text/plain; charset=utf-8";
     std::string body;
+    std::shared_ptr<const std::string> file;  ///< body where it is not null, shared with its store
     bool send_body = true;  ///< false for HEAD: the length is stated, the body is not sent
+
+    [[nodiscard]] const std::string& content() const { return file ? *file : body; }
 };
 
 /// What answers depend on.
 struct HttpContent {
-    std::span<const EmbeddedFile> files;  ///< served by exact name, "/" as index.html
-    bool ready = false;                   ///< of /healthz
-    std::string metrics;                  ///< of /metrics
-    bool metrics_allowed = true;          ///< the request has shown a token, or needs none
+    std::span<const EmbeddedFile> files;       ///< served by exact name, "/" as index.html
+    bool ready = false;                        ///< of /healthz
+    std::string metrics;                       ///< of /metrics
+    bool metrics_allowed = true;               ///< the request has shown a token, or needs none
+    const SnapshotStore* snapshots = nullptr;  ///< of /snapshots/...; null: there are none
 };
 
 /// Decides about a request. `path` is the decoded path without query. Only names in the table are

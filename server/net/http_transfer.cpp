@@ -26,9 +26,9 @@ bool HttpTransfer::begin(lws* connection) {
     unsigned char* const end = buffer.data() + buffer.size() - 1;
     unsigned char* next = start;
     const std::string type(response_.content_type);
-    size_ = response_.send_body ? response_.body.size() : 0;
+    size_ = response_.send_body ? response_.content().size() : 0;
     if (lws_add_http_common_headers(connection, static_cast<unsigned>(response_.status),
-                                    type.c_str(), response_.body.size(), &next, end) != 0) {
+                                    type.c_str(), response_.content().size(), &next, end) != 0) {
         return false;
     }
     for (const auto& [name, value] : http_headers()) {
@@ -54,7 +54,7 @@ bool HttpTransfer::begin(lws* connection) {
 bool HttpTransfer::write(lws* connection) {
     const std::size_t size = std::min(size_ - written_, kPieceBytes);
     std::vector<unsigned char> piece(LWS_PRE + size);
-    std::copy_n(response_.body.begin() + static_cast<std::ptrdiff_t>(written_), size,
+    std::copy_n(response_.content().begin() + static_cast<std::ptrdiff_t>(written_), size,
                 piece.begin() + LWS_PRE);
     const bool last = written_ + size == size_;
     const int count = lws_write(connection, piece.data() + LWS_PRE, size,

@@ -24,6 +24,7 @@ class HttpTransfer {
 
     /// The whole answer has been written.
     [[nodiscard]] bool done() const { return written_ == size_; }
+    [[nodiscard]] int status() const { return response_.status; }
 
   private:
     HttpResponse response_;

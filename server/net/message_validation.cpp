@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "net/scene_name.h"
+
 namespace raybundle {
 namespace {
 
@@ -267,6 +269,11 @@ void check_body(const v1::Snapshot& snapshot, Checker& check) {
                   "snapshot.format", "must be EXR or PNG");
 }
 
+void check_body(const v1::OpenScene& open, Checker& check) {
+    const std::string problem = scene_name_problem(open.name());
+    check.require(problem.empty(), "openScene.name", problem);
+}
+
 void check_message(const v1::ClientMessage& message, Checker& check) {
     using Body = v1::ClientMessage::BodyCase;
     switch (message.body_case()) {
@@ -304,9 +311,12 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
             return check_body(message.point_at(), check);
         case Body::kProbeGrid:
             return check_body(message.probe_grid(), check);
+        case Body::kOpenScene:
+            return check_body(message.open_scene(), check);
         case Body::kFollow:
         case Body::kPing:
         case Body::kUndo:
+        case Body::kListScenes:
         case Body::BODY_NOT_SET:
             return;
     }

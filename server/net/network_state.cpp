@@ -38,6 +38,16 @@ void NetworkState::set_metrics_source(std::function<std::string()> source) {
     metrics_source_ = std::move(source);
 }
 
+void NetworkState::set_upload_factory(UploadFactory factory) {
+    const std::lock_guard lock(upload_mutex_);
+    upload_factory_ = std::move(factory);
+}
+
+std::unique_ptr<Upload> NetworkState::begin_upload(const std::string& name) const {
+    const std::lock_guard lock(upload_mutex_);
+    return upload_factory_ ? upload_factory_(name) : nullptr;
+}
+
 std::string NetworkState::metrics() const {
     MetricsText out;
     const auto count = [](const std::atomic<std::uint64_t>& counter) {

@@ -10,6 +10,8 @@
 #include "net/gate.h"
 #include "net/inbox.h"
 #include "net/server_settings.h"
+#include "net/snapshot_store.h"
+#include "net/upload.h"
 #include "net/viewer_table.h"
 
 namespace raybundle {
@@ -26,16 +28,22 @@ struct NetworkCounters {
 /// What the network thread and the callers of Server share. Everything in it is thread-safe.
 struct NetworkState {
     explicit NetworkState(ServerSettings server_settings)
-        : settings(std::move(server_settings)), gate(settings.max_viewers, settings.access) {}
+        : settings(std::move(server_settings)),
+          gate(settings.max_viewers, settings.access),
+          snapshots(settings.max_snapshot_bytes) {}
 
     const ServerSettings settings;
     Gate gate;
     Inbox inbox;
     ViewerTable viewers;
     NetworkCounters counters;
+    SnapshotStore snapshots;
     std::atomic<bool> ready{false};
 
     void set_metrics_source(std::function<std::string()> source);
+    void set_upload_factory(UploadFactory factory);
+    /// Null where there is no factory or it cannot begin.
+    [[nodiscard]] std::unique_ptr<Upload> begin_upload(const std::string& name) const;
 
     /// Prometheus text: the network's own figures, then those of the metrics source.
     [[nodiscard]] std::string metrics() const;
@@ -43,6 +51,8 @@ struct NetworkState {
   private:
     mutable std::mutex metrics_mutex_;
     std::function<std::string()> metrics_source_;
+    mutable std::mutex upload_mutex_;
+    UploadFactory upload_factory_;
 };
 
 }  // namespace raybundle

@@ -22,6 +22,8 @@ HttpMethod method_of(int method) {
             return HttpMethod::get;
         case LWSHUMETH_HEAD:
             return HttpMethod::head;
+        case LWSHUMETH_PUT:
+            return HttpMethod::put;
         default:
             return HttpMethod::other;
     }
@@ -32,6 +34,12 @@ std::string header(lws* connection, lws_token_indexes token) {
     const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), token);
     text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
     return text;
+}
+
+bool is_http_event(int reason) {
+    return reason == LWS_CALLBACK_HTTP || reason == LWS_CALLBACK_HTTP_BODY ||
+           reason == LWS_CALLBACK_HTTP_BODY_COMPLETION || reason == LWS_CALLBACK_HTTP_WRITEABLE ||
+           reason == LWS_CALLBACK_CLOSED_HTTP || reason == LWS_CALLBACK_HTTP_CONFIRM_UPGRADE;
 }
 
 bool is_viewer_event(int reason) {
@@ -137,6 +145,7 @@ void NetworkThread::install_certificate() {
 
 void NetworkThread::on_woken() {
     install_certificate();
+    answer_uploads();
     const bool recheck = recheck_passes_.exchange(false);
     for (const auto& [connection, viewer] : viewers_) {
         if (recheck) {
@@ -165,6 +174,7 @@ void NetworkThread::add_connection(lws* connection) {
 }
 
 void NetworkThread::remove_connection(lws* connection) {
+    uploads_.forget(connection);
     transfers_.erase(connection);
     viewers_.erase(connection);
     const auto found = connections_.find(connection);
@@ -198,16 +208,10 @@ int NetworkThread::on_network_event(lws* connection, int reason, void* in) {
 }
 
 int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t size) {
+    if (is_http_event(reason)) {
+        return on_http_event(connection, reason, in, size);
+    }
     switch (reason) {
-        case LWS_CALLBACK_HTTP:
-            return on_http_request(connection);
-        case LWS_CALLBACK_HTTP_WRITEABLE:
-            return on_http_writable(connection);
-        case LWS_CALLBACK_CLOSED_HTTP:
-            transfers_.erase(connection);
-            return 0;
-        case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-            return confirm_upgrade(connection) ? 0 : 1;
         case LWS_CALLBACK_ESTABLISHED:
             viewers_[connection] = std::make_unique<ViewerConnection>(connection, state_);
             return 0;
@@ -221,6 +225,29 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
     return viewer != viewers_.end() && is_viewer_event(reason)
                ? on_viewer_event(*viewer->second, reason, in, size)
                : on_network_event(connection, reason, in);
+}
+
+int NetworkThread::on_http_event(lws* connection, int reason, void* in, std::size_t size) {
+    switch (reason) {
+        case LWS_CALLBACK_HTTP:
+            return on_http_request(connection);
+        case LWS_CALLBACK_HTTP_WRITEABLE:
+            return on_http_writable(connection);
+        case LWS_CALLBACK_HTTP_BODY:
+            if (auto problem = uploads_.write(connection, {static_cast<const char*>(in), size})) {
+                return answer(connection, std::move(*problem));
+            }
+            return 0;
+        case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+            uploads_.complete(connection);
+            return 0;
+        case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+            return confirm_upgrade(connection) ? 0 : 1;
+        default:
+            uploads_.forget(connection);
+            transfers_.erase(connection);
+            return 0;
+    }
 }
 
 int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* in,
@@ -262,7 +289,10 @@ int NetworkThread::on_http_request(lws* connection) {
     int length = 0;
     const HttpMethod method = method_of(lws_http_get_uri_and_method(connection, &uri, &length));
     const std::string_view path(uri, length > 0 ? static_cast<std::size_t>(length) : 0);
-    HttpContent content{client_files(), state_.ready, {}, true};
+    if (method == HttpMethod::put) {
+        return on_upload(connection, std::string(path));
+    }
+    HttpContent content{client_files(), state_.ready, {}, true, &state_.snapshots};
     if (path == "/metrics") {
         content.metrics_allowed =
             state_.gate.opens_metrics(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
@@ -270,12 +300,33 @@ int NetworkThread::on_http_request(lws* connection) {
     if (path == "/metrics" && content.metrics_allowed) {
         content.metrics = state_.metrics();
     }
+    return answer(connection, http_response(method, path, content));
+}
+
+int NetworkThread::answer(lws* connection, HttpResponse response) {
     auto& transfer = transfers_[connection];
-    transfer = std::make_unique<HttpTransfer>(http_response(method, path, content));
+    transfer = std::make_unique<HttpTransfer>(std::move(response));
     if (!transfer->begin(connection)) {
         return -1;
     }
     return transfer->done() ? end_transfer(connection) : 0;
+}
+
+int NetworkThread::on_upload(lws* connection, const std::string& path) {
+    const UploadRequest request{
+        path, header(connection, WSI_TOKEN_ORIGIN), header(connection, WSI_TOKEN_HOST),
+        state_.gate.role_of(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION)),
+        parse_length(header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
+    auto refusal = uploads_.begin(connection, request);
+    return refusal ? answer(connection, std::move(*refusal)) : 0;
+}
+
+void NetworkThread::answer_uploads() {
+    for (auto& [connection, response] : uploads_.finished()) {
+        if (answer(connection, std::move(response)) != 0) {
+            lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+        }
+    }
 }
 
 int NetworkThread::on_http_writable(lws* connection) {
@@ -289,9 +340,15 @@ int NetworkThread::on_http_writable(lws* connection) {
     return transfer->second->done() ? end_transfer(connection) : 0;
 }
 
-/// The connection stays open for the next request where the client wants that.
+/// The connection stays open for the next request where the client wants that, unless more is on
+/// its way than anybody wants to read.
 int NetworkThread::end_transfer(lws* connection) {
+    constexpr int kTooLarge = 413;
+    const bool close = transfers_.at(connection)->status() == kTooLarge;
     transfers_.erase(connection);
+    if (close) {
+        return -1;
+    }
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
 }
 

@@ -11,6 +11,7 @@
 
 #include "net/address_count.h"
 #include "net/http_transfer.h"
+#include "net/http_uploads.h"
 #include "net/network_state.h"
 #include "net/tls_certificate.h"
 #include "net/viewer_connection.h"
@@ -24,7 +25,8 @@ namespace raybundle {
 /// Owns the libwebsockets context and the only thread that touches it.
 class NetworkThread {
   public:
-    explicit NetworkThread(NetworkState& state) : state_(state) {}
+    explicit NetworkThread(NetworkState& state)
+        : state_(state), uploads_(state, [this] { wake(); }) {}
     ~NetworkThread() { stop(); }
     NetworkThread(const NetworkThread&) = delete;
     NetworkThread& operator=(const NetworkThread&) = delete;
@@ -56,6 +58,10 @@ class NetworkThread {
     void remove_connection(lws* connection);
     bool confirm_upgrade(lws* connection);
     int on_http_request(lws* connection);
+    int on_http_event(lws* connection, int reason, void* in, std::size_t size);
+    int on_upload(lws* connection, const std::string& path);
+    int answer(lws* connection, HttpResponse response);
+    void answer_uploads();
     int on_http_writable(lws* connection);
     int on_viewer_event(ViewerConnection& viewer, int reason, void* in, std::size_t size);
     int end_transfer(lws* connection);
@@ -77,6 +83,7 @@ class NetworkThread {
     AddressCount addresses_;
     std::map<lws*, std::unique_ptr<ViewerConnection>> viewers_;
     std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
+    HttpUploads uploads_;
     bool said_goodbye_ = false;
 };
 

@@ -148,6 +148,14 @@ void Server::set_metrics_source(std::function<std::string()> source) {
     impl_->state.set_metrics_source(std::move(source));
 }
 
+void Server::set_upload_factory(UploadFactory factory) {
+    impl_->state.set_upload_factory(std::move(factory));
+}
+
+std::optional<std::string> Server::keep_snapshot(std::string bytes, std::string_view extension) {
+    return impl_->state.snapshots.add(std::move(bytes), extension);
+}
+
 double Server::now_ms() {
     return server_time_ms();
 }

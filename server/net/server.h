@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "net/client_event.h"
 #include "net/inbox.h"
 #include "net/server_settings.h"
+#include "net/upload.h"
 
 namespace raybundle {
 
@@ -76,6 +79,14 @@ class Server {
     void reload_certificate();
 
     void set_ready(bool ready);  ///< what /healthz says: 200 or 503
+
+    /// Takes the scene files that editors upload; called on the network thread. Without one, or
+    /// with max_upload_bytes 0, there are no uploads.
+    void set_upload_factory(UploadFactory factory);
+
+    /// Keeps a file for a quarter of an hour; the path under which the server has it, which nobody
+    /// can guess. Nothing where it is larger than all that may be kept.
+    std::optional<std::string> keep_snapshot(std::string bytes, std::string_view extension);
 
     /// Called on the network thread for each GET /metrics; returns more Prometheus text.
     void set_metrics_source(std::function<std::string()> source);

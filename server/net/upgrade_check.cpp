@@ -28,21 +28,22 @@ std::string_view authority(std::string_view origin) {
 
 }  // namespace
 
+bool origin_allowed(std::string_view origin, std::string_view host,
+                    std::span<const std::string> allowed_origins) {
+    const std::string_view page = authority(origin);
+    if (origin.empty() || (!page.empty() && equal_ignoring_case(page, host))) {
+        return true;
+    }
+    return std::any_of(
+        allowed_origins.begin(), allowed_origins.end(),
+        [&](const std::string& allowed) { return equal_ignoring_case(allowed, origin); });
+}
+
 int refusal_status(const UpgradeRequest& request, std::span<const std::string> allowed_origins) {
     if (request.path != "/ws") {
         return kNotFound;
     }
-    if (request.origin.empty()) {
-        return 0;
-    }
-    const std::string_view page = authority(request.origin);
-    if (!page.empty() && equal_ignoring_case(page, request.host)) {
-        return 0;
-    }
-    const bool allowed = std::any_of(
-        allowed_origins.begin(), allowed_origins.end(),
-        [&](const std::string& origin) { return equal_ignoring_case(origin, request.origin); });
-    return allowed ? 0 : kForbidden;
+    return origin_allowed(request.origin, request.host, allowed_origins) ? 0 : kForbidden;
 }
 
 }  // namespace raybundle

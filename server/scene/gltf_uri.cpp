@@ -79,31 +79,6 @@ bool has_scheme(std::string_view uri) {
     return colon != std::string_view::npos && colon > 0 && uri.find('/') > colon;
 }
 
-/// The file that a relative reference names.
-std::string local_path(const std::string& scene_file, const std::string& json_path,
-                       const std::string& uri) {
-    if (uri.empty()) {
-        throw SceneError(scene_file, json_path, "empty URI");
-    }
-    const std::filesystem::path relative(percent_decoded(uri));
-    if (has_scheme(uri) || relative.is_absolute()) {
-        throw SceneError(
-            scene_file, json_path,
-            fmt::format("\"{}\": only data URIs and relative paths are read", uri.substr(0, 200)));
-    }
-    if (relative.native().find('\0') != std::string::npos) {
-        throw SceneError(scene_file, json_path, "URI contains a zero byte");
-    }
-    const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
-    // Files whose names contain a literal "%" are looked for as written, too.
-    std::error_code error;
-    if (!std::filesystem::exists(folder / relative, error) &&
-        std::filesystem::exists(folder / uri, error)) {
-        return (folder / uri).string();
-    }
-    return (folder / relative).string();
-}
-
 int hex_digit(char c) {
     const int lower = std::tolower(static_cast<unsigned char>(c));
     if (lower >= '0' && lower <= '9') {
@@ -130,12 +105,36 @@ std::string percent_decoded(std::string_view text) {
     return decoded;
 }
 
+std::string local_file(const std::string& scene_file, const std::string& json_path,
+                       const std::string& uri) {
+    if (uri.empty()) {
+        throw SceneError(scene_file, json_path, "empty URI");
+    }
+    const std::filesystem::path relative(percent_decoded(uri));
+    if (has_scheme(uri) || relative.is_absolute()) {
+        throw SceneError(
+            scene_file, json_path,
+            fmt::format("\"{}\": only data URIs and relative paths are read", uri.substr(0, 200)));
+    }
+    if (relative.native().find('\0') != std::string::npos) {
+        throw SceneError(scene_file, json_path, "URI contains a zero byte");
+    }
+    const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
+    // Files whose names contain a literal "%" are looked for as written, too.
+    std::error_code error;
+    if (!std::filesystem::exists(folder / relative, error) &&
+        std::filesystem::exists(folder / uri, error)) {
+        return (folder / uri).string();
+    }
+    return (folder / relative).string();
+}
+
 std::vector<std::uint8_t> read_uri(const std::string& scene_file, const std::string& json_path,
                                    const std::string& uri, std::uint64_t max_bytes) {
     if (uri.starts_with("data:")) {
         return decode_data_uri(scene_file, json_path, uri);
     }
-    return read_file_bounded(local_path(scene_file, json_path, uri), max_bytes, scene_file,
+    return read_file_bounded(local_file(scene_file, json_path, uri), max_bytes, scene_file,
                              json_path);
 }
 
@@ -144,7 +143,7 @@ void check_uri(const std::string& scene_file, const std::string& json_path,
     if (uri.starts_with("data:")) {
         return;
     }
-    const std::string path = local_path(scene_file, json_path, uri);
+    const std::string path = local_file(scene_file, json_path, uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
         throw SceneError(scene_file, json_path, fmt::format("file \"{}\" not found", path));

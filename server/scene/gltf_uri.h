@@ -18,6 +18,10 @@ std::vector<std::uint8_t> read_uri(const std::string& scene_file, const std::str
 /// As read_uri(), but only makes sure that a referenced file exists.
 void check_uri(const std::string& scene_file, const std::string& json_path, const std::string& uri);
 
+/// The file that a relative reference names. Throws SceneError for what read_uri() refuses.
+std::string local_file(const std::string& scene_file, const std::string& json_path,
+                       const std::string& uri);
+
 /// "%20" becomes a space; a "%" that starts no escape stays as it is.
 std::string percent_decoded(std::string_view text);
 

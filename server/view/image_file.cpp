@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <filesystem>
@@ -39,20 +40,40 @@ void write_image(const std::string& path, const OIIO::ImageSpec& spec, const OII
     }
 }
 
-}  // namespace
-
-void write_exr(const std::string& path, int width, int height,
-               std::span<const glm::vec4> radiance) {
+std::vector<float> without_alpha(std::span<const glm::vec4> radiance) {
     std::vector<float> rgb;
     rgb.reserve(radiance.size() * 3);
     for (const glm::vec4& value : radiance) {
         rgb.insert(rgb.end(), {value.r, value.g, value.b});
     }
+    return rgb;
+}
+
+OIIO::ImageSpec exr_spec(int width, int height) {
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
     spec.attribute("Software", "Raybundle " RAYBUNDLE_VERSION);
     spec.attribute("comments", "linear radiance, cd/m^2, Rec. 709 primaries");
-    write_image(path, spec, OIIO::TypeDesc::FLOAT, rgb);
+    return spec;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, int width, int height,
+               std::span<const glm::vec4> radiance) {
+    write_image(path, exr_spec(width, height), OIIO::TypeDesc::FLOAT, without_alpha(radiance));
+}
+
+std::string exr_bytes(int width, int height, std::span<const glm::vec4> radiance) {
+    const std::vector<float> rgb = without_alpha(radiance);
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("exr", &memory);
+    if (!output || !output->open("picture.exr", exr_spec(width, height)) ||
+        !output->write_image(OIIO::TypeDesc::FLOAT, rgb.data()) || !output->close()) {
+        throw std::runtime_error("EXR: " + (output ? output->geterror() : OIIO::geterror()));
+    }
+    return {bytes.begin(), bytes.end()};
 }
 
 void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba) {

@@ -13,6 +13,9 @@ namespace raybundle {
 /// whole or not at all. Throws std::runtime_error naming the path and the reason.
 void write_exr(const std::string& path, int width, int height, std::span<const glm::vec4> radiance);
 
+/// The bytes of such a file. Throws std::runtime_error.
+std::string exr_bytes(int width, int height, std::span<const glm::vec4> radiance);
+
 /// Writes an 8-bit picture as PNG, likewise. rgba: 4 bytes a pixel, row 0 at the top.
 void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba);
 

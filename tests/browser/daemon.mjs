@@ -34,13 +34,14 @@ export class Daemon {
      *
      * @param {string} scene  file, relative to the root of the repository
      * @param {number} port  0: any free one
+     * @param {string[]} more  options
      * @returns {Promise<Daemon>} once it listens
      */
-    static async start(scene, port = 0) {
+    static async start(scene, port = 0, more = []) {
         if (!existsSync(EXECUTABLE)) {
             throw new Error(`${EXECUTABLE} is missing: build first, or name it in RAYBUNDLE`);
         }
-        const options = ['serve', path.join(ROOT, scene), '--listen', `127.0.0.1:${port}`];
+        const options = ['serve', path.join(ROOT, scene), '--listen', `127.0.0.1:${port}`, ...more];
         const child = spawn(EXECUTABLE, options, {stdio: ['ignore', 'pipe', 'pipe']});
         return new Daemon(child, await listeningPort(child));
     }

@@ -13,6 +13,7 @@ import {frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
 import * as placement from '../../client_web/placement.js';
 import {escaped, reportHtml} from '../../client_web/report.js';
+import {openingText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
 import {PlacedObject} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
@@ -26,6 +27,21 @@ import {outsideDeadZone} from '../../client_web/walking.js';
 const VIEW = {eye: vec3(1, 1.6, 4), target: vec3(0, 1, 0), up: vec3(0, 1, 0), verticalFov: 0.8};
 const close = (actual, expected, bound, what) =>
     assert.ok(Math.abs(actual - expected) <= bound, `${what ?? ''} ${actual}, not ${expected}`);
+
+describe('files of scenes', () => {
+    it('are refused before they are sent where the server would not take them', () => {
+        assert.equal(uploadProblem({name: 'a.GLB', size: 10}, 10), '');
+        assert.match(uploadProblem({name: 'a.obj', size: 10}, 10), /no \.glb file/);
+        assert.match(uploadProblem({name: 'a.glb', size: 2e6}, 1e6), /2\.0 MB.*1\.0 MB/);
+        assert.equal(sizeText(1), '1 kB');
+    });
+
+    it('are followed on their way, with the reason where they are rejected', () => {
+        const opening = {name: 'a.glb', by: 1, byName: '', reason: 'no'};
+        assert.equal(openingText({...opening, stage: 'READING'}), 'a.glb is being read.');
+        assert.equal(openingText({...opening, stage: 'REJECTED'}), 'a.glb cannot be opened: no');
+    });
+});
 
 describe('the last picture under another camera', () => {
     /** Where a homography takes a point of the picture. */

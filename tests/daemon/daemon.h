@@ -22,6 +22,7 @@ class Daemon {
     Daemon& operator=(const Daemon&) = delete;
 
     [[nodiscard]] std::uint16_t port() const { return port_; }
+    [[nodiscard]] pid_t process() const { return process_; }
     void signal(int number) const;
 
     /// Waits for the end: the exit status, or minus the signal that ended it. Nothing where it

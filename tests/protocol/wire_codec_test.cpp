@@ -205,7 +205,7 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
         R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true}],"cameras":[],)"
         R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":""}]},)"
-        R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false}})");
+        R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
 
 TEST(WireCodec, PrintsErrorsAndOneofChanges) {

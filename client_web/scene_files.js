@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes that the server can open for everybody: a list, and uploads by button or by dropping a
+// file on the page. For editors; everybody is told when a scene is being opened.
+
+import {byId, listRow} from './elements.js';
+
+/**
+ * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./protocol.js').SceneFile} SceneFile
+ * @typedef {import('./protocol.js').SceneOpening} SceneOpening
+ */
+
+/** What the stages of opening a scene are called. */
+const STAGES = /** @type {Record<string, string>} */ ({
+    READING: 'is being read',
+    PREPARING: 'is being cut into patches',
+    COMPILING: 'is about to be shown',
+    READY: 'is shown',
+});
+
+/**
+ * One line about a scene that somebody opens.
+ *
+ * @param {SceneOpening} opening
+ */
+export function openingText({name, stage, reason}) {
+    return stage === 'REJECTED'
+        ? `${name} cannot be opened: ${reason}`
+        : `${name} ${STAGES[stage] ?? 'is being opened'}.`;
+}
+
+/**
+ * Size for people.
+ *
+ * @param {number} bytes
+ */
+export function sizeText(bytes) {
+    return bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/**
+ * Why a file is not even sent; empty where it is.
+ *
+ * @param {{name: string, size: number}} file
+ * @param {number} maxBytes  that the server takes
+ */
+export function uploadProblem({name, size}, maxBytes) {
+    if (!name.toLowerCase().endsWith('.glb')) {
+        return `${name} is no .glb file. Export the scene as binary glTF, one file that holds everything.`;
+    }
+    return size > maxBytes
+        ? `${name} has ${sizeText(size)}; this server takes up to ${sizeText(maxBytes)}.`
+        : '';
+}
+
+export class SceneFiles {
+    #section = byId('scene-files', HTMLElement);
+    #list = byId('scene-file-list', HTMLElement);
+    #state = byId('scene-file-state', HTMLElement);
+    #progress = byId('scene-file-progress', HTMLProgressElement);
+    #chooser = byId('scene-file', HTMLInputElement);
+    #add = byId('add-scene', HTMLButtonElement);
+    #maxBytes = 0;
+
+    /** @param {RaybundleApp} app */
+    constructor(app) {
+        this.app = app;
+        app.on('welcome', () => this.#refresh());
+        app.on('message', ({sceneOpening}) => sceneOpening && this.#opening(sceneOpening));
+        this.#add.addEventListener('click', () => this.#chooser.click());
+        this.#chooser.addEventListener('change', () => {
+            this.#upload(this.#chooser.files?.[0]);
+            this.#chooser.value = '';
+        });
+        document.addEventListener('dragover', (event) => {
+            if (this.#mayUpload && event.dataTransfer?.types.includes('Files')) {
+                event.preventDefault();
+                event.dataTransfer.dropEffect = 'copy';
+            }
+        });
+        document.addEventListener('drop', (event) => {
+            if (this.#mayUpload && event.dataTransfer?.files.length) {
+                event.preventDefault();
+                this.#upload(event.dataTransfer.files[0]);
+            }
+        });
+    }
+
+    get #mayUpload() {
+        return !this.#section.hidden && this.#maxBytes > 0;
+    }
+
+    async #refresh() {
+        this.#section.hidden = !(this.app.mayEdit && this.app.client.welcome?.canOpenScenes);
+        if (this.#section.hidden) {
+            return;
+        }
+        const list = (await this.app.ask({listScenes: {}}))?.sceneList;
+        if (!list) {
+            return;
+        }
+        this.#maxBytes = list.maxUploadBytes;
+        this.#add.hidden = this.#maxBytes === 0;
+        const rows = list.scenes.map(({name, bytes}) => {
+            const shown = name === list.current;
+            const row = listRow(name, () => this.#open(name), shown ? 'shown' : sizeText(bytes));
+            row.firstElementChild?.setAttribute('aria-pressed', String(shown));
+            return row;
+        });
+        this.#list.replaceChildren(...rows);
+        byId('scene-files-none', HTMLElement).hidden = rows.length > 0;
+    }
+
+    /** @param {string} name */
+    async #open(name) {
+        this.#say(`${name} is being opened.`);
+        await this.app.ask({openScene: {name}});
+    }
+
+    /** @param {SceneOpening} opening */
+    #opening(opening) {
+        const text = openingText(opening);
+        const mine = opening.by === this.app.client.welcome?.viewer;
+        this.#say(text, opening.stage === 'REJECTED');
+        if (!mine && ['READING', 'REJECTED'].includes(opening.stage)) {
+            const who = opening.byName ? `${opening.byName}: ` : '';
+            this.app.status.notify(who + text);
+        }
+    }
+
+    /** @param {File | undefined} file */
+    #upload(file) {
+        if (!file) {
+            return;
+        }
+        const problem = uploadProblem(file, this.#maxBytes);
+        if (problem) {
+            this.#say(problem, true);
+            return;
+        }
+        const name = file.name.replace(/\.glb$/i, '.glb');
+        const request = new XMLHttpRequest();
+        request.open('PUT', new URL(`scenes/${encodeURIComponent(name)}`, location.href));
+        const {token} = this.app.client.settings;
+        if (token) {
+            request.setRequestHeader('Authorization', `Bearer ${token}`);
+        }
+        request.upload.onprogress = ({loaded, total}) => {
+            this.#progress.value = loaded / Math.max(total, 1);
+        };
+        request.upload.onload = () => this.#say(`${name} is being checked.`);
+        request.onload = () => {
+            const stored = request.status === 200 || request.status === 201;
+            this.#ended(stored ? `${name} is in the list now.` : request.responseText.trim(), !stored);
+        };
+        request.onerror = () => this.#ended(`${name} could not be sent.`, true);
+        this.#say(`${name} is being sent.`);
+        this.#progress.value = 0;
+        this.#progress.hidden = false;
+        this.#add.disabled = true;
+        request.send(file);
+    }
+
+    /**
+     * @param {string} text
+     * @param {boolean} failed
+     */
+    #ended(text, failed) {
+        this.#progress.hidden = true;
+        this.#add.disabled = false;
+        this.#say(text, failed);
+        this.#refresh();
+    }
+
+    /**
+     * @param {string} text
+     * @param {boolean} failed
+     */
+    #say(text, failed = false) {
+        this.#state.textContent = text;
+        this.#state.classList.toggle('problem', failed);
+    }
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace raybundle {
+
+/// Makes sure that a scene file refers to nothing outside its own folder, through symbolic links
+/// either: neither its buffers nor its images nor IES files. For scenes of people who may not read
+/// every file of this machine. Throws SceneError.
+void check_confined(const std::string& scene_file);
+
+}  // namespace raybundle

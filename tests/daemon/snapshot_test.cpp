@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures rendered off-screen for a viewer.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "daemon.h"
+#include "json_viewer.h"
+#include "test_folder.h"
+#include "view/image_file.h"
+
+namespace raybundle {
+namespace {
+
+constexpr int width = 160;
+constexpr int height = 120;
+
+std::string body_of(const std::string& answer) {
+    const std::size_t end = answer.find("\r\n\r\n");
+    return answer.starts_with("HTTP/1.1 200") && end != std::string::npos ? answer.substr(end + 4)
+                                                                          : std::string();
+}
+
+class SnapshotTest : public testing::Test {
+  protected:
+    std::string get(const std::string& path) {
+        return body_of(http_exchange(
+            daemon_.port(), "GET " + path + " HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"));
+    }
+
+    Daemon daemon_{scene_file("cornell_box.gltf")};
+};
+
+Json snapshot(const std::string& format, int columns, int rows, double error) {
+    return {{"snapshot",
+             {{"width", columns}, {"height", rows}, {"relativeError", error}, {"format", format}}}};
+}
+
+/// Whoever needs nothing more leaves all the time to the snapshot.
+void be_content(JsonViewer& viewer) {
+    viewer.request({{"setTarget", {{"relativeError", 1.0}}}});
+}
+
+TEST_F(SnapshotTest, IsAsLargeAndAsAccurateAsAskedAndShowsWhatTheViewerSees) {
+    JsonViewer viewer(daemon_.port());
+    viewer.join("", width, height);
+    be_content(viewer);
+    viewer.send({{"id", 5},
+                 {"moveObject",
+                  {{"object", 2},
+                   {"transform", {{"translation", {{"x", 2.2}, {"y", 0.825}, {"z", 1.7}}}}}}}});
+    viewer.answer_to(5);
+    const Json answer = viewer.request(snapshot("EXR", width, height, 0.05)).at("snapshotReady");
+    EXPECT_LE(answer.at("relativeError").get<double>(), 0.05);
+    EXPECT_EQ(answer.at("epoch"), 1);
+    const TestFolder folder;
+    folder.write("picture.exr", get(answer.at("url")));
+    const LinearPicture picture = read_exr(folder.path("picture.exr"));
+    ASSERT_EQ(picture.width, width);
+    ASSERT_EQ(picture.height, height);
+    // Walls, floor and boxes: the light there as the viewer measures it, both within some per cent.
+    for (const auto& [x, y] : {std::pair(40, 60), std::pair(120, 60), std::pair(80, 100),
+                               std::pair(60, 45), std::pair(100, 80)}) {
+        const Json probe =
+            viewer.request({{"probe", {{"pixel", {{"x", x + 0.5}, {"y", y + 0.5}}}}}});
+        const glm::vec3& pixel = picture.radiance[static_cast<std::size_t>(y * width + x)];
+        const double luminance = 0.2126 * pixel.r + 0.7152 * pixel.g + 0.0722 * pixel.b;
+        const double measured = probe.at("probeResult").at("luminance").get<double>();
+        EXPECT_NEAR(luminance, measured, 0.25 * measured) << x << ", " << y;
+        EXPECT_GT(measured, 0.0);
+    }
+}
+
+TEST_F(SnapshotTest, MayBeLargerThanThePictureAndIsGivenToOneAddressOnly) {
+    JsonViewer viewer(daemon_.port());
+    viewer.join("", width, height);
+    be_content(viewer);
+    const std::string url =
+        viewer.request(snapshot("PNG", 800, 450, 0.3)).at("snapshotReady").at("url");
+    const std::string png = get(url);
+    ASSERT_TRUE(png.starts_with("\x89PNG")) << png.size();
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(png[i]); };
+    EXPECT_EQ(256 * byte(18) + byte(19), 800);
+    EXPECT_EQ(256 * byte(22) + byte(23), 450);
+    EXPECT_TRUE(get("/snapshots/").empty());
+    EXPECT_TRUE(get(url.substr(0, url.size() - 5) + "0.png").empty());
+    EXPECT_EQ(viewer.request(snapshot("PNG", 5000, 450, 0.3)).at("error").at("code"),
+              "INVALID_ARGUMENT");
+}
+
+TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
+    JsonViewer viewer(daemon_.port());
+    viewer.join("", width, height);
+    {
+        JsonViewer greedy(daemon_.port());
+        greedy.join("", width, height);
+        for (int i = 1; i <= 12; ++i) {
+            Json request = snapshot("EXR", 400, 300, 1e-6);
+            request["id"] = i;
+            greedy.send(request);
+        }
+        EXPECT_EQ(greedy.answer_to(12).at("error").at("code"), "RESOURCE_EXHAUSTED");
+    }
+    be_content(viewer);
+    Json answer;
+    for (int i = 0; i < 50 && !answer.contains("snapshotReady"); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 100));
+        answer = viewer.request(snapshot("PNG", 64, 48, 0.5));
+    }
+    EXPECT_TRUE(answer.contains("snapshotReady")) << answer.dump();
+}
+
+}  // namespace
+}  // namespace raybundle

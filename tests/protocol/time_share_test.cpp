@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/time_share.h"
+
+#include <gtest/gtest.h>
+
+namespace raybundle {
+namespace {
+
+/// Extra time over usual time, where an iteration costs `usual` and taking part `extra` more, in
+/// groups of eight.
+double measured_share(double share, double usual, double extra) {
+    TimeShare time(share);
+    double spent = 0.0;
+    constexpr int kGroups = 20000;
+    for (int group = 0; group < kGroups; ++group) {
+        const bool takes_part = time.may();
+        for (int i = 0; i < 8; ++i) {
+            time.note_iteration(usual + (takes_part ? extra : 0.0), takes_part);
+            spent += takes_part ? extra : 0.0;
+        }
+    }
+    return spent / (8.0 * kGroups * usual);
+}
+
+TEST(TimeShareTest, WhatIsAddedStaysBelowItsShareWhateverItCosts) {
+    for (const double extra : {3.0, 10.0, 100.0, 2000.0}) {
+        const double share = measured_share(0.15, 20.0, extra);
+        EXPECT_LE(share, 0.16) << extra;
+        EXPECT_GE(share, 0.13) << extra << ": it gets what it may have";
+    }
+    EXPECT_NEAR(measured_share(0.15, 20.0, 1.0), 0.05, 0.01) << "what is cheap always takes part";
+}
+
+TEST(TimeShareTest, WaitsUntilTheUsualCostIsKnown) {
+    TimeShare time(0.15);
+    EXPECT_FALSE(time.may());
+    time.note_iteration(20.0, false);
+    EXPECT_TRUE(time.may());
+    time.charge(4.0);
+    EXPECT_FALSE(time.may());
+}
+
+TEST(TimeShareTest, DoesNotSaveUpWithoutBounds) {
+    TimeShare time(0.15, 500.0);
+    for (int i = 0; i < 100000; ++i) {
+        time.note_iteration(20.0, false);
+    }
+    time.charge(500.0);
+    EXPECT_FALSE(time.may());
+}
+
+}  // namespace
+}  // namespace raybundle

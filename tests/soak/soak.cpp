@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server under load for as long as one likes: 16 viewers, half of them moving, then 2 beside a
+// crowd of stalled and flapping connections. Prints figures; status 1 where memory grows, a viewer
+// is lost or a contribution was not finite. Times are reported, not judged: they are the machine's.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <memory>
+
+#include "daemon.h"
+#include "raw_client.h"
+#include "soak_viewers.h"
+
+namespace raybundle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Viewers = std::vector<std::unique_ptr<SoakViewer>>;
+
+constexpr int viewers = 16;
+constexpr int moving = 8;
+constexpr int good_viewers = 2;
+constexpr int stalled = 100;
+constexpr int flapping = 50;
+constexpr double most_growth = 0.02;  // of memory, after it has settled
+constexpr double settling_s = 60.0;   // or a quarter of the time, where that is shorter
+constexpr double sample_s = 1.0;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Resident memory of a process, MiB.
+double resident_mib(pid_t process) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    std::string line;
+    while (std::getline(status, line)) {
+        if (line.starts_with("VmRSS:")) {
+            return std::stod(line.substr(6)) / 1024.0;
+        }
+    }
+    return 0.0;
+}
+
+double metric(std::uint16_t port, const std::string& name) {
+    const std::string text =
+        http_exchange(port, "GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+    const std::size_t found = text.find("\n" + name + " ");
+    return found == std::string::npos ? std::nan("")
+                                      : std::stod(text.substr(found + name.size() + 2));
+}
+
+/// Memory over a phase: what it was once settled, and the mean of the last quarter.
+struct Memory {
+    double settled = 0.0;
+    double last = 0.0;
+
+    [[nodiscard]] double growth() const { return last / settled - 1.0; }
+};
+
+Memory watch_memory(const Daemon& daemon, double seconds) {
+    const double settling = std::min(settling_s, 0.25 * seconds);
+    std::vector<double> before, after;
+    const auto start = Clock::now();
+    while (seconds_since(start) < seconds) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(sample_s));
+        const double now = seconds_since(start);
+        if (now >= settling && now < 2.0 * settling) {
+            before.push_back(resident_mib(daemon.process()));
+        } else if (now >= 0.75 * seconds) {
+            after.push_back(resident_mib(daemon.process()));
+        }
+    }
+    const auto mean = [](const std::vector<double>& values) {
+        double sum = 0.0;
+        for (const double value : values) {
+            sum += value;
+        }
+        return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+    };
+    return {mean(before), mean(after)};
+}
+
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) {
+        return std::nan("");
+    }
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// Ends viewers; false where one was lost.
+bool stop(Viewers& all) {
+    bool fine = true;
+    for (auto& viewer : all) {
+        if (const std::string problem = viewer->stop(); !problem.empty()) {
+            fmt::print("  LOST: {}\n", problem);
+            fine = false;
+        }
+    }
+    return fine;
+}
+
+bool report(const Daemon& daemon, const Memory& memory) {
+    const double non_finite = metric(daemon.port(), "raybundle_non_finite_total");
+    fmt::print("  memory {:.1f} MiB settled, {:.1f} MiB at the end ({:+.1f} %)\n", memory.settled,
+               memory.last, 100.0 * memory.growth());
+    fmt::print("  {:.0f} iterations, {:.1f} a second at the end, error {:.4f}, {:.0f} non-finite\n",
+               metric(daemon.port(), "raybundle_iterations_total"),
+               metric(daemon.port(), "raybundle_iterations_per_second"),
+               metric(daemon.port(), "raybundle_relative_error"), non_finite);
+    return memory.growth() <= most_growth && non_finite == 0.0;
+}
+
+bool many_viewers(double seconds) {
+    fmt::print("{} viewers of 640x360, {} moving, {:.0f} s\n", viewers, moving, seconds);
+    Daemon daemon(scene_file("cornell_box.gltf"),
+                  {"--min-frames-per-second", "0.1", "--log-level", "warn"});
+    Viewers all;
+    for (int i = 0; i < viewers; ++i) {
+        all.push_back(std::make_unique<SoakViewer>(daemon.port(), i < moving, i));
+    }
+    const Memory memory = watch_memory(daemon, seconds);
+    std::vector<double> rates, latencies;
+    for (int i = 0; i < moving; ++i) {
+        SoakViewer& viewer = *all[static_cast<std::size_t>(i)];
+        rates.push_back(static_cast<double>(viewer.frames()) / seconds);
+        const std::vector<double> some = viewer.latencies();
+        latencies.insert(latencies.end(), some.begin(), some.end());
+    }
+    const bool flat = report(daemon, memory);
+    fmt::print(
+        "  moving viewers: {:.1f} to {:.1f} frames/s; camera to frame: median {:.0f} ms, "
+        "p95 {:.0f} ms\n",
+        *std::min_element(rates.begin(), rates.end()),
+        *std::max_element(rates.begin(), rates.end()), percentile(latencies, 0.5),
+        percentile(latencies, 0.95));
+    return stop(all) && flat;
+}
+
+bool hostile_crowd(double seconds) {
+    fmt::print("{} viewers beside {} stalled and {} flapping connections, {:.0f} s\n", good_viewers,
+               stalled, flapping, seconds);
+    Daemon daemon(scene_file("cornell_box.gltf"),
+                  {"--min-frames-per-second", "0.1", "--max-viewers", "300", "--max-connections",
+                   "600", "--log-level", "warn"});
+    Viewers all;
+    for (int i = 0; i < good_viewers; ++i) {
+        all.push_back(std::make_unique<SoakViewer>(daemon.port(), true, i));
+    }
+    const auto frames = [&] {
+        std::uint64_t sum = 0;
+        for (const auto& viewer : all) {
+            sum += viewer->frames();
+        }
+        return static_cast<double>(sum);
+    };
+    const double alone_s = 0.25 * seconds;
+    std::this_thread::sleep_for(std::chrono::duration<double>(alone_s));
+    const double alone = frames();
+    const HostileClients crowd(daemon.port(), stalled, flapping);
+    const Memory memory = watch_memory(daemon, seconds - alone_s);
+    const double rate = (frames() - alone) / (seconds - alone_s) / good_viewers;
+    fmt::print("  each good viewer: {:.1f} frames/s alone, {:.1f} in the crowd; {} flaps\n",
+               alone / alone_s / good_viewers, rate, crowd.flaps());
+    const bool flat = report(daemon, memory);
+    return stop(all) && flat;
+}
+
+}  // namespace
+}  // namespace raybundle
+
+int main(int count, char** arguments) {
+    const double minutes = count == 2 ? std::atof(arguments[1]) : 0.0;
+    if (!(minutes >= 0.2 && minutes <= 100000.0)) {
+        fmt::print(stderr, "usage: raybundle_soak MINUTES (0.2 or more)\n");
+        return 2;
+    }
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    try {
+        const bool first = raybundle::many_viewers(60.0 * minutes * 0.6);
+        const bool second = raybundle::hostile_crowd(60.0 * minutes * 0.4);
+        fmt::print("{}\n", first && second ? "fine" : "FAILED");
+        return first && second ? 0 : 1;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "soak: {}\n", error.what());
+        return 1;
+    }
+}
