@@ -237,6 +237,12 @@ void define_options(CLI::App& app, Options& options) {
         } else {
             command->add_option("--json", options.json_file,
                                 "Also write the results as JSON (bench: plots beside it)");
+            if (row.command == Options::Command::bench) {
+                command
+                    ->add_option("--seconds", options.seconds,
+                                 "How long moves are followed (default: 3, and fewer variants)")
+                    ->check(CLI::Range(0.5, 600.0));
+            }
         }
     }
     app.require_subcommand(0, 1);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "commands/bench_moves.h"
@@ -75,6 +76,7 @@ class SceneBench {
     SceneBench(const Options& options, Json& report)
         : report_(report),
           seed_(options.seed),
+          seconds_(options.seconds),
           json_file_(options.json_file),
           loaded_(load_scene(options)) {
         report_["scene"] = loaded_.scene.name;
@@ -92,7 +94,7 @@ class SceneBench {
         walkthrough();
         moves();
         const std::string svg = json_file_.empty() ? "" : json_file_ + ".moves.svg";
-        report_["moveCurves"] = bench_moves(loaded_, seed_, svg);
+        report_["moveCurves"] = bench_moves(loaded_, seed_, seconds_, svg);
         convergence();
     }
 
@@ -295,6 +297,7 @@ class SceneBench {
 
     Json& report_;
     std::uint64_t seed_;
+    std::optional<double> seconds_;
     std::string json_file_;
     LoadedScene loaded_;
 };

@@ -21,11 +21,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr glm::uvec2 picture_size(256, 256);
-constexpr std::uint64_t iterations_before = 768;      // of the solution that is corrected
-constexpr std::uint64_t iterations_reference = 3072;  // of the fresh solve
-constexpr double measured_s = 4.0;                    // after the move
 constexpr double move_m = 0.6;
-const std::vector<double> sample_times = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1, 1.5, 2, 3, 4};
+const std::vector<double> sample_times = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1,  1.5, 2,
+                                          3,    4,   6,    8,   10,  15,  20,   30, 60};
+
+/// How much is measured.
+struct Effort {
+    std::uint64_t iterations_before = 384;      ///< of the solution that is corrected
+    std::uint64_t iterations_reference = 1152;  ///< of the fresh solve
+    double seconds = 3.0;                       ///< after the move
+    bool unscissored = false;
+};
+
+Effort effort_for(std::optional<double> seconds) {
+    return seconds ? Effort{768, 3072, *seconds, true} : Effort{};
+}
 
 using Picture = std::vector<glm::dvec3>;
 
@@ -38,12 +48,16 @@ struct Variant {
     std::size_t style = 0;
 };
 
-std::vector<Variant> variants() {
+std::vector<Variant> variants(const Effort& effort) {
     std::vector<Variant> all;
+    std::size_t style = 0;
     for (const unsigned bundles : {1U, 3U, 10U, 30U}) {
         const std::string name = "K = " + std::to_string(bundles);
-        all.push_back({name, bundles, true, false, all.size() / 2});
-        all.push_back({name + ", whole bundles", bundles, false, false, all.size() / 2});
+        all.push_back({name, bundles, true, false, style});
+        if (effort.unscissored) {
+            all.push_back({name + ", whole bundles", bundles, false, false, style});
+        }
+        ++style;
     }
     all.push_back({"no special phase", 0, true, false, 4});
     all.push_back({"restart", 0, true, true, 5});
@@ -73,6 +87,14 @@ class Run {
     void move(std::uint32_t object, const glm::mat4& place) {
         solver_.move_object(object, place, receivers_);
     }
+    /// Builds the programs of special phases: a move to where the object is.
+    void warm_up(std::uint32_t object, const Scene& scene) {
+        iterate(1);
+        move(object, scene.objects[object].world_from_object());
+        while (solver_.correcting()) {
+            step();
+        }
+    }
     [[nodiscard]] Picture picture() {
         Picture result;
         for (const glm::vec4& p : image_.read_radiance()) {
@@ -91,11 +113,12 @@ class Run {
 
 class MoveBench {
   public:
-    MoveBench(const LoadedScene& loaded, std::uint32_t object, std::uint64_t seed)
-        : loaded_(loaded), object_(object), seed_(seed), moved_(loaded.scene) {
+    MoveBench(const LoadedScene& loaded, std::uint32_t object, std::uint64_t seed,
+              const Effort& effort)
+        : loaded_(loaded), object_(object), seed_(seed), effort_(effort), moved_(loaded.scene) {
         moved_.objects[object].transform.translation.x += static_cast<float>(move_m);
         Run fresh(moved_, loaded_.mesh, settings(seed_ + 1000));
-        fresh.iterate(iterations_reference);
+        fresh.iterate(effort_.iterations_reference);
         reference_ = fresh.picture();
         choose_pixels();
     }
@@ -104,12 +127,13 @@ class MoveBench {
         SolverSettings s = settings(seed_);
         s.special.bundles = s.special.most_bundles = std::max(variant.bundles, 1U);
         s.special.scissored = variant.scissored;
-        s.special.bounces = variant.bundles == 0 ? 0 : std::min(variant.bundles, 6U);
+        s.special.bounces = 0;
         s.special.skipped = variant.bundles == 0;
         const Scene& first = variant.restart ? moved_ : loaded_.scene;
         Run run(first, loaded_.mesh, s);
         if (!variant.restart) {
-            run.iterate(iterations_before);
+            run.warm_up(object_, first);
+            run.iterate(effort_.iterations_before);
         }
         const double stale = error_of(run);
         double clock = 0.0;
@@ -122,7 +146,7 @@ class MoveBench {
             clock = stopwatch.seconds();
         }
         Json points = Json::array();
-        for (std::size_t next = 0; clock < measured_s && next < sample_times.size();) {
+        for (std::size_t next = 0; clock < effort_.seconds && next < sample_times.size();) {
             const Stopwatch stopwatch;
             run.step();
             clock += stopwatch.seconds();
@@ -170,14 +194,18 @@ class MoveBench {
     const LoadedScene& loaded_;
     std::uint32_t object_;
     std::uint64_t seed_;
+    Effort effort_;
     Scene moved_;
     Picture reference_;
     std::vector<bool> measured_;
 };
 
 /// Which variant has the least error at each time.
-void print_winners(const Json& curves) {
-    for (const double time : {0.2, 0.5, 1.0, 2.0, 4.0}) {
+void print_winners(const Json& curves, double seconds) {
+    for (const double time : {0.2, 0.5, 1.0, 2.0, 4.0, 10.0}) {
+        if (time > seconds) {
+            break;
+        }
         const Json* best = nullptr;
         double least = 1e30;
         for (const Json& curve : curves) {
@@ -196,13 +224,13 @@ void print_winners(const Json& curves) {
     }
 }
 
-void draw(const std::string& file, const std::string& scene, const Json& curves) {
+void draw(const std::string& file, const std::string& scene, const std::vector<Variant>& all,
+          const Json& curves) {
     LinePlot plot;
     plot.title = "Error after a move: " + scene;
     plot.description = "relRMSE against a converged fresh solve over the time since the move";
     plot.x = {"time since the move", " s", AxisScale::logarithmic};
     plot.y = {"relRMSE", " %", AxisScale::logarithmic};
-    const std::vector<Variant> all = variants();
     for (std::size_t i = 0; i < curves.size(); ++i) {
         PlotSeries series;
         series.name = all[i].name;
@@ -219,31 +247,37 @@ void draw(const std::string& file, const std::string& scene, const Json& curves)
 
 }  // namespace
 
-Json bench_moves(const LoadedScene& loaded, std::uint64_t seed, const std::string& svg) {
+Json bench_moves(const LoadedScene& loaded, std::uint64_t seed, std::optional<double> seconds,
+                 const std::string& svg) {
     const auto& objects = loaded.scene.objects;
     const auto found =
         std::find_if(objects.begin(), objects.end(), [](const Object& o) { return o.movable; });
     if (found == objects.end()) {
         return nullptr;
     }
+    const Effort effort = effort_for(seconds);
+    const std::vector<Variant> all = variants(effort);
     fmt::print(
-        "  error after moving '{}' by {} m, 256x256, against {} iterations of another seed:\n",
-        found->name, move_m, iterations_reference);
-    const MoveBench bench(loaded, static_cast<std::uint32_t>(found - objects.begin()), seed);
+        "  error after moving '{}' by {} m, 256x256, against {} iterations of another seed (and "
+        "`settled`):\n",
+        found->name, move_m, effort.iterations_reference);
+    const MoveBench bench(loaded, static_cast<std::uint32_t>(found - objects.begin()), seed,
+                          effort);
     Json curves = Json::array();
-    for (const Variant& variant : variants()) {
+    for (const Variant& variant : all) {
         curves.push_back(bench.measure(variant));
         std::string line;
         for (const Json& point : curves.back()["points"]) {
-            line += fmt::format(" {:.2f}s {:.1f}%", point["seconds"].get<double>(),
-                                100.0 * point["relRMSE"].get<double>());
+            line +=
+                fmt::format(" {:.2f}s {:.1f}% ({:.2f})", point["seconds"].get<double>(),
+                            100.0 * point["relRMSE"].get<double>(), point["settled"].get<double>());
         }
         fmt::print("    {:<24}{}\n", variant.name, line);
         std::fflush(stdout);
     }
-    print_winners(curves);
+    print_winners(curves, effort.seconds);
     if (!svg.empty()) {
-        draw(svg, loaded.scene.name, curves);
+        draw(svg, loaded.scene.name, all, curves);
     }
     return {{"object", found->name}, {"metres", move_m}, {"curves", std::move(curves)}};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // End of a special iteration phase (ch. 7.4): adds the averaged increments to the mean and to the iterate.
-// The mean of w samples of relative deviation s has the variance s^2 E^2 / w; with the increment's own it
-// is worth as much as  w' = 1 / (1/w + variance / (s E)^2)  samples. So where much has changed for what is
-// left new samples soon dominate; elsewhere value and weight stay.
+// The mean of w samples of relative deviation s has the variance s^2 E^2 / w; with the squared error that the
+// increment leaves it is worth as much as  w' = 1 / (1/w + error^2 / (s E)^2)  samples. So where much has changed
+// for what is left new samples soon dominate; elsewhere value and weight stay.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "corrected_weight.glsl"
@@ -19,7 +19,8 @@ layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
 layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
 #endif
 uniform uint patch_count;
-uniform float most_weight;  // that any patch keeps
+uniform float most_weight;    // that any patch keeps
+uniform float bundles_noise;  // 1/K
 
 const float inverse_pi = 0.31830988618;
 
@@ -30,21 +31,22 @@ void main() {
     }
     if (irradiance[i].w > most_weight) {
         irradiance[i].w = most_weight;
-        checkpoint[i].y = most_weight;
     }
-    if (increments[i].rgb == vec3(0.0)) {
+    float moved = moved_error(i, luminance(irradiance[i].rgb));
+    if (increments[i].rgb == vec3(0.0) && moved <= 0.0) {
         return;
     }
-    vec3 increment = increments[i].rgb;
-    float variance = increments[i].w;
+    float measured = luminance(abs(increments[i].rgb));
+    float noise = increments[i].w / max(measured * measured, 1e-30);
+    vec3 increment = trusted_share(noise) * increments[i].rgb;
     vec4 mean = irradiance[i];
     float before = luminance(mean.rgb);
     float change = luminance(abs(increment));
     mean.rgb = max(mean.rgb + increment, 0.0);
     float after = luminance(mean.rgb);
-    float kept = kept_weight(mean.w, after, variance);
-    mean.w *= kept;
-    checkpoint[i] = vec4(checkpoint[i].x, mean.w, variance, variance / max(change * change, 1e-30));
+    float error = left_error(noise, bundles_noise, measured * measured, after) + moved;
+    mean.w *= kept_weight(mean.w, after, error);
+    checkpoint[i].z = noise;
     irradiance[i] = mean;
     vec4 iterate = source[i];
     iterate.rgb = max(iterate.rgb + increment, 0.0);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the
-// correction since the last change (since loading: of everything), y = its estimated squared error.
-// Of a patch that a special phase has left with weight w0 and an error of this variance, and that has
-// weight w now,
-//   error^2 = variance (w0/w)^2 + (s E)^2 (w - w0)/w^2,
-// the phase's error fading as new samples of relative deviation s come in; after loading w0 = 0.
+// correction since the last change (since loading: of everything), y = its squared error that is left. A mean
+// E of weight w has the variance (s E)^2 / w, whatever a special phase has left of the weight; what it had
+// before the change, with the weight w0, is no part of the correction:  error^2 = (s E)^2 (1/w - 1/w0).
 // And the squared irradiance (z), with the squared distance of the iterate from the mean (w): how noisy
 // samples are.
 #include "layouts.glsl"
@@ -17,7 +15,7 @@ layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 sou
 uniform uint patch_count;
 uniform float relevance;         // changes below this share of the value count as noise
 
-const float sample_deviation = 0.5;  // s
+const float sample_deviation = 0.7;  // s: of patches, relative to the mean
 
 shared vec4 sums[256];
 
@@ -33,11 +31,10 @@ void main() {
         sum.z += patches[i].area * now * now;
         sum.w += patches[i].area * astray * astray;
         if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
-            float kept = min(checkpoint[i].y / weight, 1.0);
             float deviation = sample_deviation * now;
-            float fresh = deviation * deviation * (1.0 - kept) / weight;
-            // An error cannot be worse than having done nothing.
-            float error = min(checkpoint[i].z * kept * kept + fresh, correction * correction);
+            float before = checkpoint[i].y > 0.0 ? 1.0 / checkpoint[i].y : 0.0;
+            float error = deviation * deviation * max(1.0 / weight - before, 0.0);
+            error = min(error, correction * correction);  // not worse than having done nothing
             sum.x += patches[i].area * correction * correction;
             sum.y += patches[i].area * error;
         }

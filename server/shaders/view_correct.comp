@@ -19,7 +19,7 @@ layout(std430, binding = BINDING_PIXEL_GLOSS) buffer PixelGlossBuffer { vec4 pix
 layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer { vec4 pixel_gloss_delta[]; };
 #endif
 uniform float most_weight;    // see solution_correct.comp
-uniform float assumed_noise;  // variance over square of an increment that the patch has not seen
+uniform float bundles_noise;  // 1/K: variance over square of an increment that the patch has not seen
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
@@ -35,21 +35,27 @@ void main() {
     sum.rgb += constant;
 #endif
     float old_weight = pixel_weight(sum, view.weights.x);
-    if ((increment == vec3(0.0) && old_weight <= most_weight) || old_weight <= 0.0) {
+    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
+    if (patch_id == NO_PATCH || old_weight <= 0.0) {
         return;
     }
-    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
-    float noise = patch_id == NO_PATCH ? 0.0 : checkpoint[patch_id].w;
-    noise = noise > 0.0 ? min(noise, 1.0) : assumed_noise;
-    vec3 mean = max(pixel_mean(sum, view.weights.x) + increment, 0.0);
+    float moved = moved_error(patch_id, luminance(pixel_mean(sum, view.weights.x)));
+    if (increment == vec3(0.0) && old_weight <= most_weight && moved <= 0.0) {
+        return;
+    }
+    float noise = checkpoint[patch_id].z;
+    noise = noise > 0.0 ? noise : bundles_noise;
+    float trusted = trusted_share(noise);
+    vec3 mean = max(pixel_mean(sum, view.weights.x) + trusted * increment, 0.0);
     float change = luminance(abs(increment));
     // The common weight stays: a weight below it is a negative one of the pixel's own.
-    float weight =
-        min(old_weight * kept_weight(old_weight, luminance(mean), noise * change * change), most_weight);
+    float value = luminance(mean);
+    float error = left_error(noise, bundles_noise, change * change, value) + moved;
+    float weight = min(old_weight * kept_weight(old_weight, value, error), most_weight);
     pixel_irradiance[index] = vec4(mean * weight - constant, weight - view.weights.x);
 #ifdef GLOSSY
     vec4 gloss = pixel_gloss[index];
-    vec3 gloss_mean = pixel_mean(gloss, view.weights.x) + pixel_gloss_delta[index].rgb;
+    vec3 gloss_mean = pixel_mean(gloss, view.weights.x) + trusted * pixel_gloss_delta[index].rgb;
     float gloss_weight = pixel_weight(gloss, view.weights.x) * (weight / old_weight);
     pixel_gloss[index] = vec4(gloss_mean * gloss_weight, gloss_weight - view.weights.x);
 #endif

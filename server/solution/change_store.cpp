@@ -6,7 +6,8 @@
 namespace raybundle {
 
 ChangeStore::ChangeStore(const GpuScene& scene, RadianceStore& store)
-    : store_(store),
+    : scene_(scene),
+      store_(store),
       patch_count_(scene.patch_count()),
       block_count_((patch_count_ + POWER_BLOCK - 1) / POWER_BLOCK),
       increments_("increments", std::size_t{patch_count_} * sizeof(glm::vec4)),
@@ -112,9 +113,11 @@ void ChangeStore::fold(unsigned bundles, float unseen) const {
     fold_.dispatch(patch_count_);
 }
 
-void ChangeStore::correct(float most_weight) const {
+void ChangeStore::correct(float bundles_noise, float most_weight) const {
     increments_.bind_storage(BINDING_INCREMENTS);
     correct_.set("patch_count", patch_count_);
+    scene_.set_move(correct_);
+    correct_.set("bundles_noise", bundles_noise);
     correct_.set("most_weight", most_weight);
     correct_.dispatch(patch_count_);
 }

@@ -52,11 +52,12 @@ class ChangeStore {
     /// Ends a stage. unseen: share of its mean that may be missing altogether.
     void fold(unsigned bundles, float unseen) const;
     /// Adds the increments to the solution, whose weights shrink where these are uncertain.
-    /// most_weight: that any patch keeps.
-    void correct(float most_weight) const;
+    /// bundles_noise: 1 / bundles. most_weight: that any patch keeps.
+    void correct(float bundles_noise, float most_weight) const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    const GpuScene& scene_;
     RadianceStore& store_;
     unsigned patch_count_, block_count_;
     Buffer increments_, stage_, changed_, old_surfaces_;

@@ -59,6 +59,8 @@ class GpuScene {
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
     [[nodiscard]] std::uint32_t vertex_base(Place place) const;
+    /// What programs that include corrected_weight.glsl have to know of a move.
+    void set_move(const ShaderProgram& program) const;
 
     [[nodiscard]] std::uint32_t patch_count() const { return patch_count_; }
     [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights and materials that change while the scene is shown.
+// Lights, materials and places that change while the scene is shown.
 #include "solution/gpu_scene.h"
 
 namespace raybundle {
@@ -25,6 +25,12 @@ void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh
                                                i * sizeof(layout::MaterialData));
     }
     upload_surfaces(mesh);
+}
+
+void GpuScene::set_move(const ShaderProgram& program) const {
+    constexpr float far_share = 0.2F;  // of the diameter
+    program.set("place_before", vertex_count_);
+    program.set("far_move", far_share * diameter_);
 }
 
 }  // namespace raybundle

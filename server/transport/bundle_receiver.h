@@ -41,9 +41,9 @@ class BundleReceiver {
                                 bool redraw) = 0;
     /// The increments so far count less: there will be more bundles than planned.
     virtual void scale_special(float factor) = 0;
-    /// All increments of the special phase have been received. assumed_noise: their variance over
-    /// their square where the patches know nothing of it. most_weight: that anything keeps.
-    virtual void end_special(float assumed_noise, float most_weight) = 0;
+    /// All increments of the special phase have been received. bundles_noise: 1 / number of its
+    /// bundles. most_weight: that anything keeps.
+    virtual void end_special(float bundles_noise, float most_weight) = 0;
 };
 
 }  // namespace raybundle

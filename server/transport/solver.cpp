@@ -14,6 +14,10 @@ constexpr float transient_iterations =
     64.0F;                                  // times 1/(1 - albedo): over which sample weights rise
 constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
 constexpr std::uint64_t statistics_interval = 16;
+/// Samples after a change weigh like the square root of their number up to this many:
+/// low-discrepancy means gain by n^-1.5 in variance, so that what is kept must lose its share like
+/// n^-1.5, too.
+constexpr float change_ramp = 1024.0F;
 
 /// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
 float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
@@ -55,7 +59,7 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
       transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
 
 const BundleResolution& Solver::resolution() const {
-    return fine_ ? settings_.fine : settings_.coarse;
+    return is_fine() ? settings_.fine : settings_.coarse;
 }
 
 std::uint64_t Solver::non_finite() const {
@@ -138,7 +142,11 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
 /// Weight of a sample in the means: rises at first, so that the dark beginning fades like 1/n^2.
 float Solver::sample_weight() const {
     const float age = std::min(static_cast<float>(iterations_ + 1), transient_) / transient_;
-    return age * (fine_ ? fine_sample_weight : 1.0F);
+    const float ramp =
+        changes_ == 0
+            ? 1.0F
+            : std::sqrt(std::min(static_cast<float>(since_change_ + 1) / change_ramp, 1.0F));
+    return age * ramp * (is_fine() ? fine_sample_weight : 1.0F);
 }
 
 /// Step of the transferred iterate, see solution_update.comp.
@@ -151,8 +159,8 @@ float Solver::iterate_step() const {
     const bool balanced = scene_.sky() == glm::vec3(0.0F) && probabilities_.perspective > 0.0F;
     const float exponent = balanced ? 0.8F : 0.66F;
     constexpr float smallest = 1.0F / 2048.0F;
-    const auto age = static_cast<float>(changes_ == 0 ? iterations_ + 1
-                                                      : std::min(iterations_, since_change_ + 32));
+    const auto age = static_cast<float>(
+        changes_ == 0 ? iterations_ + 1 : std::min(iterations_ + 1, since_change_ + 32));
     return std::max(std::pow(age, -exponent), smallest);
 }
 

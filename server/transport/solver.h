@@ -132,7 +132,10 @@ class Solver {
     void adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale);
     ChangeStore& change_store();
     void refresh_statistics();
-    [[nodiscard]] Transfer& transfer() { return fine_ ? *fine_ : *coarse_; }
+    [[nodiscard]] bool is_fine() const {
+        return fine_ != nullptr && (changes_ == 0 || since_change_ >= settings_.coarse_iterations);
+    }
+    [[nodiscard]] Transfer& transfer() { return is_fine() ? *fine_ : *coarse_; }
     [[nodiscard]] float sample_weight() const;
     [[nodiscard]] float iterate_step() const;
 

@@ -13,13 +13,13 @@ namespace {
 constexpr float no_limit = 1e30F;
 /// Where gloss has changed, the phase knows only what a Lambert surface of the same albedo would
 /// send: every mean is then worth so many samples at most.
-constexpr float glossy_weight = 32.0F;
+constexpr float glossy_weight = 4.0F;
 /// Emission may leave the unit of radiance by this factor before another unit is chosen: sums in
 /// fixed point and half floats have room for it.
 constexpr float unit_range = 64.0F;
 /// Samples that what punctual lights bring anew is worth, against those taken with their light
 /// before.
-constexpr float first_shot_weight = 8.0F;
+constexpr float first_shot_weight = 1.0F;
 constexpr float rounding = 1e-6F;  // of a product of two floats, relative
 
 /// Whether an emitter has come or gone among the patches.

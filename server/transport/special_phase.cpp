@@ -176,9 +176,10 @@ void SpecialPhase::step_bounce(std::span<BundleReceiver* const> receivers) {
 
 void SpecialPhase::finish(std::span<BundleReceiver* const> receivers) {
     change_.stop_sending();
-    change_.correct(settings_.most_weight);
+    const float bundles_noise = 1.0F / static_cast<float>(bundles_);
+    change_.correct(bundles_noise, settings_.most_weight);
     for (BundleReceiver* receiver : receivers) {
-        receiver->end_special(1.0F / static_cast<float>(bundles_), settings_.most_weight);
+        receiver->end_special(bundles_noise, settings_.most_weight);
     }
     done_ = true;
 }

@@ -109,7 +109,7 @@ class ViewerImage : public BundleReceiver {
     void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
                         bool redraw) override;
     void scale_special(float factor) override;
-    void end_special(float assumed_noise, float most_weight) override;
+    void end_special(float bundles_noise, float most_weight) override;
 
     /// Composes the picture with an exposure (EV: display white is 2^-exposure * a mid-grey scale;
     /// see display_factor()) and queues its readback. finished() and take() deliver it.

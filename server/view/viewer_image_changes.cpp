@@ -50,13 +50,14 @@ void ViewerImage::scale_special(float factor) {
     programs_.scale_delta.dispatch(std::size_t{size_.x} * size_.y);
 }
 
-void ViewerImage::end_special(float assumed_noise, float most_weight) {
+void ViewerImage::end_special(float bundles_noise, float most_weight) {
     upload_view();
     store_.bind();
     bind_pixels();
     batches_.clear();
     parameters_.weights.y = 0.0F;
-    programs_.correct.set("assumed_noise", assumed_noise);
+    scene_.set_move(programs_.correct);
+    programs_.correct.set("bundles_noise", bundles_noise);
     programs_.correct.set("most_weight", most_weight);
     programs_.correct.dispatch(std::size_t{size_.x} * size_.y);
 }
