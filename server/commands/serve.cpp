@@ -75,6 +75,7 @@ std::optional<LoadedScene> serve_scene(const Options& options, const EglContext&
     RenderLoopSettings settings;
     settings.solver.seed = options.seed;
     settings.solver.special = interactive_special();
+    settings.rehearse = true;
     settings.min_frames_per_second = options.min_frames_per_second;
     settings.renderer = context.renderer();
     settings.software_rendering = context.is_software();
