@@ -17,6 +17,7 @@ constexpr double solution_interval_s = 0.25;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
 constexpr const char* no_memory = "the server has no memory for a picture of this size";
+constexpr glm::uvec2 rehearsal_size(24);
 constexpr std::uint32_t max_width = 3840;
 constexpr std::uint32_t max_height = 2160;
 
@@ -58,6 +59,9 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
 
 void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
+    if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
+        rehearse();
+    }
     while (!stop) {
         for (const ClientEvent& event : server_.inbox().drain()) {
             handle(event);
@@ -65,6 +69,9 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         start_pending_change();
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;
+        if (sent) {
+            collect_frames();  // a software renderer is done already: no iteration comes between
+        }
         send_solutions();
         send_presence(Clock::now());
         const bool smoothed = smooth_pictures();
@@ -73,6 +80,28 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
             server_.inbox().wait_for(idle_wait);
         }
     }
+}
+
+/// Software drivers compile shaders when they are first used, each for some tenths of a second: a
+/// small picture goes through all that a viewer's does. Its iterations count as any others.
+void RenderLoop::rehearse() {
+    ViewerImage image(solver_->scene(), solver_->store(), *programs_, rehearsal_size);
+    image.set_camera(scene_.cameras.front());
+    BundleReceiver* const receivers[] = {&image};
+    const auto movable = std::find_if(scene_.objects.begin(), scene_.objects.end(),
+                                      [](const Object& object) { return object.movable; });
+    if (movable != scene_.objects.end()) {
+        solver_->rehearse_move(static_cast<std::uint32_t>(movable - scene_.objects.begin()),
+                               movable->world_from_object(), receivers);
+    }
+    do {
+        solver_->step(receivers);
+    } while (!solver_->between_groups());
+    image.set_camera(scene_.cameras.front());
+    image.request_statistics();
+    image.smooth();
+    image.compose(DisplayMode::photo, 0.0F);
+    image.take();
 }
 
 void RenderLoop::refuse_waiting() {

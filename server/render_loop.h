@@ -33,6 +33,8 @@ struct RenderLoopSettings {
     std::uint64_t idle_iterations = 4096;
     /// A viewer is refused where the others would fall below this.
     double min_frames_per_second = 1.0;
+    /// All that viewers and moves need is done once before anybody waits for it.
+    bool rehearse = false;
     std::string renderer;             ///< what viewers are told that draws
     bool software_rendering = false;  ///< and that it is no GPU
     /// Takes listScenes and openScene with the viewer's name, and answers them; empty: there are
@@ -60,6 +62,7 @@ class RenderLoop {
   private:
     using Clock = std::chrono::steady_clock;
 
+    void rehearse();
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
     void join(const ClientEvent& event);

@@ -106,6 +106,7 @@ class SceneServer {
         : options_(options), server_(server), control_(control) {
         settings_.solver.seed = options.seed;
         settings_.solver.special = interactive_special();
+        settings_.rehearse = true;
         settings_.min_frames_per_second = options.min_frames_per_second;
         settings_.renderer = context.renderer();
         settings_.software_rendering = context.is_software();

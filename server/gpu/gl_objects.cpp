@@ -68,8 +68,9 @@ void Buffer::download(void* data, std::size_t bytes, std::size_t offset) const {
     }
 }
 
-void Buffer::clear() const {
-    glClearNamedBufferData(get(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+void Buffer::clear(std::size_t bytes) const {
+    glClearNamedBufferSubData(get(), GL_R32UI, 0, static_cast<GLsizeiptr>(bytes), GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, nullptr);
 }
 
 void Buffer::bind_storage(GLuint binding) const {

@@ -73,7 +73,8 @@ class Buffer {
         download(values.data(), values.size_bytes(), byte_offset);
     }
 
-    void clear() const;  ///< all bytes zero
+    void clear() const { clear(bytes_); }  ///< all bytes zero
+    void clear(std::size_t bytes) const;   ///< so many from its beginning on, a multiple of 4
     void bind_storage(GLuint binding) const;
     void bind_uniform(GLuint binding) const;
     [[nodiscard]] GLuint get() const { return name_.get(); }

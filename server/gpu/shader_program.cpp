@@ -130,6 +130,9 @@ void ShaderProgram::set(const char* name, float value) const {
 void ShaderProgram::set(const char* name, const glm::vec3& value) const {
     glProgramUniform3fv(program_.get(), location(name), 1, glm::value_ptr(value));
 }
+void ShaderProgram::set(const char* name, const glm::uvec4& value) const {
+    glProgramUniform4uiv(program_.get(), location(name), 1, glm::value_ptr(value));
+}
 void ShaderProgram::set(const char* name, const glm::mat4& value) const {
     glProgramUniformMatrix4fv(program_.get(), location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
@@ -150,17 +153,21 @@ void ShaderProgram::dispatch(std::size_t threads_x, std::size_t threads_y) const
         const auto local = static_cast<std::size_t>(size);
         return static_cast<GLuint>((threads + local - 1) / local);
     };
+    dispatch_groups(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]));
+}
+
+void ShaderProgram::dispatch_groups(unsigned x, unsigned y) const {
     const GlScope scope(label_.c_str());
     use();
-    glDispatchCompute(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]), 1);
+    glDispatchCompute(x, y, 1);
     storage_barrier();
 }
 
-void ShaderProgram::dispatch_indirect(const Buffer& command) const {
+void ShaderProgram::dispatch_indirect(const Buffer& command, std::size_t byte_offset) const {
     const GlScope scope(label_.c_str());
     use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command.get());
-    glDispatchComputeIndirect(0);
+    glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
     storage_barrier();
 }
 

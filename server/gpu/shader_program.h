@@ -26,7 +26,9 @@ class ShaderProgram {
     void set(const char* name, int value) const;
     void set(const char* name, unsigned value) const;
     void set(const char* name, float value) const;
+    void set(const char* name, bool value) const { set(name, value ? 1 : 0); }
     void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::uvec4& value) const;
     void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, std::span<const glm::vec4> values) const;
 
@@ -35,8 +37,10 @@ class ShaderProgram {
     void dispatch(std::size_t threads) const;
     /// The same over a plane of invocations.
     void dispatch(std::size_t threads_x, std::size_t threads_y) const;
-    /// As many work groups as the first three numbers of a buffer say.
-    void dispatch_indirect(const Buffer& command) const;
+    /// So many work groups.
+    void dispatch_groups(unsigned x, unsigned y) const;
+    /// As many work groups as three numbers of a buffer say.
+    void dispatch_indirect(const Buffer& command, std::size_t byte_offset = 0) const;
 
   private:
     [[nodiscard]] GLint location(const char* name) const;

@@ -60,10 +60,14 @@
 #define BINDING_PUNCTUAL 55           // PunctualData[]
 #define BINDING_PIXEL_FIRST_SHOT 56   // vec4[]: see view_first_shot.comp
 #define BINDING_IES 57                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
+#define BINDING_TILES 59              // see tiles.glsl
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
+#define VIEW_TILE 8  // pixels along a tile of a viewer
+#define MOST_DIFFERENCES 8  // pairs of bundles whose affected tiles are listed at once
+#define MOST_BOXES 8  // that hold what has moved
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Loops that run once are conditions: a software rasteriser skips those that no lane enters.
 // Pixels of a viewer as receivers of a bundle (design: the image estimate M L of ch. 2.6 evaluated per
 // pixel): each looks its surface point up in the bundle, as in a shadow map.
 #include "octahedral.glsl"
@@ -11,6 +12,11 @@ layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pix
 layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float pixel_batches[]; };
 #ifdef SPECIAL
 #include "mesh.glsl"
+#define TILE_LISTS (2 * MOST_DIFFERENCES)  // of view_affected_tiles.comp
+#define TILES_ACCESS readonly
+#include "tiles.glsl"
+uniform bool listed_tiles;  // else all of them
+uniform uint tile_list;
 #endif
 // In a GLOSSY scene there are two programs: one for the other pixels, one for the glossy ones (GLOSSY_PIXELS).
 #ifdef GLOSSY_PIXELS
@@ -52,7 +58,8 @@ bool load_receiver(uint index, out Receiver x) {
 #ifdef SPECIAL
     // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
     x.object = facet_object(facet_base + facet);
-    if (vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH) {
+    bool before = vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH;
+    for (bool elsewhere = before; elsewhere; elsewhere = false) {
         vec2 v = unpackUnorm2x16(q.z);
         uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz + vertex_base;
         x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
@@ -68,9 +75,17 @@ bool load_receiver(uint index, out Receiver x) {
 #endif
 }
 
-/// Pixel of this invocation.
+/// Pixel of this invocation, or one beyond the picture.
 uint receiving_pixel() {
+#ifdef SPECIAL
 #ifdef GLOSSY_PIXELS
+    if (!listed_tiles) {
+        return specular_pixel();
+    }
+#endif
+    uvec2 at = tile_pixel(tile_of_group(listed_tiles, tile_list), gl_LocalInvocationID.x);
+    return all(lessThan(at, view.size.xy)) ? at.y * view.size.x + at.x : 0xffffffffu;
+#elif defined(GLOSSY_PIXELS)
     return specular_pixel();
 #else
     return gl_GlobalInvocationID.x;
@@ -118,23 +133,23 @@ vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
 
 /// Adds one sample (irradiance, radiance units; from w_in) of the running bundle.
 void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
-    if (!(value.r + value.g + value.b < 1e30) || value == vec3(0.0)) {
-        return;
-    }
-    vec3 seen = value;
+    bool something = value.r + value.g + value.b < 1e30 && value != vec3(0.0);
+    for (bool some = something; some; some = false) {
+        vec3 seen = value;
 #ifdef GLOSSY_PIXELS
-    seen = receive_gloss(index, x, w_in, value);
+        seen = receive_gloss(index, x, w_in, value);
 #endif
 #ifdef SPECIAL
-    pixel_delta[index].rgb += value * bundle.weights.x;
+        pixel_delta[index].rgb += value * bundle.weights.x;
 #else
-    float w = bundle.weights.y;
-    pixel_irradiance[index].rgb += w * value;
-    // One pixel in 16 keeps its batches apart for the error estimate.
-    uvec2 at = uvec2(index % view.size.x, index / view.size.x);
-    if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
-        uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
-        pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(seen, vec3(0.2126, 0.7152, 0.0722));
-    }
+        float w = bundle.weights.y;
+        pixel_irradiance[index].rgb += w * value;
+        // One pixel in 16 keeps its batches apart for the error estimate.
+        uvec2 at = uvec2(index % view.size.x, index / view.size.x);
+        if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
+            uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
+            pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(seen, vec3(0.2126, 0.7152, 0.0722));
+        }
 #endif
+    }
 }

@@ -28,18 +28,16 @@ vec3 sent_radiance(vec3 w_out) {
 /// True where the shooter sees x. d: x in bundle coordinates.
 bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
     uint surface = texelFetch(surface_ids, texel, 0).r;
-    if (surface == NO_HIT || surface == x.surface) {
-        return true;
-    }
     float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;
-    if (depth <= hit_depth * 1.0001) {
-        return true;
+    bool seen = surface == NO_HIT || surface == x.surface || depth <= hit_depth * 1.0001;
+    for (bool behind = !seen; behind; behind = false) {
+        int face;
+        vec3 hit = hemicube_direction(sample_point(texel), float(bundle.resolution.x), face) * hit_depth;
+        float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
+        vec3 towards_shooter = (bundle.origin.xyz - x.position) / r;
+        seen = beside_receiver(x, surface, hit - d, towards_shooter, footprint, 2e-5 * r);
     }
-    int face;
-    vec3 hit = hemicube_direction(sample_point(texel), float(bundle.resolution.x), face) * hit_depth;
-    float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
-    vec3 towards_shooter = (bundle.origin.xyz - x.position) / r;
-    return beside_receiver(x, surface, hit - d, towards_shooter, footprint, 2e-5 * r);
+    return seen;
 }
 
 void main() {
@@ -52,7 +50,8 @@ void main() {
     vec3 offset = x.position - bundle.origin.xyz;
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     float r = length(d);
-    if (d.z > 1e-6 * r && dot(x.geometric, offset) < -bundle.sky.w) {
+    bool mutual = d.z > 1e-6 * r && dot(x.geometric, offset) < -bundle.sky.w;
+    for (bool facing = mutual; facing; facing = false) {
         int face;
         float depth;
         vec2 pixel = hemicube_pixel(d, float(bundle.resolution.x), face, depth);

@@ -33,6 +33,8 @@ layout(std430, binding = BINDING_SPECULAR_FLAGS) buffer SpecularFlagBuffer { uin
 #ifdef SMOOTH
 layout(std430, binding = BINDING_OBJECTS) readonly buffer ObjectBuffer { mat4 world_from_object[]; };
 #endif
+uniform uvec4 refreshed;        // pixels [x, z) x [y, w) that are made
+uniform float common_weight;    // of all pixels, see pixel_sum.glsl
 uniform float crease_distance;  // m, see receiving_point()
 #ifdef REPROJECT
 #include "reproject.glsl"
@@ -111,11 +113,12 @@ uint patch_seen(uint surface, vec3 direction) {
 }
 
 void main() {
-    uvec2 at = gl_GlobalInvocationID.xy;
-    if (at.x >= view.size.x || at.y >= view.size.y) {
+    uvec2 at = refreshed.xy + gl_GlobalInvocationID.xy;
+    if (at.x >= refreshed.z || at.y >= refreshed.w) {
         return;
     }
     uint index = at.y * view.size.x + at.x;
+    vec4 no_samples = vec4(0.0, 0.0, 0.0, -common_weight);
     uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
     vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
     vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
@@ -123,7 +126,7 @@ void main() {
     if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
         pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
         pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : surface >> 1 | PIXEL_BACK);
-        pixel_irradiance[index] = vec4(0.0);
+        pixel_irradiance[index] = no_samples;
         return;
     }
     vec3 normal = patch_plane(id).xyz;
@@ -170,6 +173,9 @@ void main() {
                                     packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0)),
                                     packUnorm2x16(vec2(v1, v2)),
                                     surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) | flags);
+#ifdef CONSTANT_RADIANCE
+    no_samples.rgb -= constant_share(packSnorm2x16(octahedral_from_vector(shaded)), surface >> 1) * view.constant.rgb;
+#endif
 #ifdef REPROJECT
     uint old_index = old_pixel(position_before(position, object, triangle.xyz, weights), normal, id, object);
     vec4 old_sum = vec4(0.0);
@@ -181,8 +187,8 @@ void main() {
 #endif
         old_sum = carried(old_sum, kept_weight);
     }
-    pixel_irradiance[index] = old_sum;
+    pixel_irradiance[index] = old_sum + no_samples;
 #else
-    pixel_irradiance[index] = vec4(0.0);
+    pixel_irradiance[index] = no_samples;
 #endif
 }

@@ -17,6 +17,8 @@ layout(std430, binding = BINDING_PIXELS) buffer PixelBuffer { uvec4 pixels[]; };
 #ifdef GLOSSY
 layout(std430, binding = BINDING_PIXEL_GLOSS) writeonly buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
 #endif
+uniform uvec4 refreshed;      // as in view_resolve.comp
+uniform float common_weight;
 #ifdef REPROJECT
 #include "reproject.glsl"
 layout(binding = UNIT_OLD_PIXEL_GLOSS) uniform samplerBuffer old_gloss_texels;
@@ -46,7 +48,8 @@ vec4 reprojected_gloss(vec3 position, uvec4 p, uvec4 q, Brdf brdf) {
 
 void main() {
     uint index = specular_pixel();
-    if (index >= view.size.x * view.size.y) {
+    uvec2 at = uvec2(index % view.size.x, index / view.size.x);
+    if (any(lessThan(at, refreshed.xy)) || any(greaterThanEqual(at, refreshed.zw))) {
         return;
     }
     uvec4 p = pixels[2u * index];
@@ -64,9 +67,9 @@ void main() {
     pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0));
 #ifdef GLOSSY
 #ifdef REPROJECT
-    pixel_gloss[index] = reprojected_gloss(position, p, q, brdf);
+    pixel_gloss[index] = reprojected_gloss(position, p, q, brdf) - vec4(0.0, 0.0, 0.0, common_weight);
 #else
-    pixel_gloss[index] = vec4(0.0);
+    pixel_gloss[index] = vec4(0.0, 0.0, 0.0, -common_weight);
 #endif
 #endif
 }

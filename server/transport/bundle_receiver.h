@@ -9,6 +9,14 @@
 
 namespace raybundle {
 
+/// The rays of a bundle as its receivers look along them.
+struct BundleRays {
+    bool perspective = true;
+    glm::vec3 source{
+        0.0F};            ///< shooting point, or direction (unit) of parallel rays; shifted world
+    float spread = 0.0F;  ///< m: how far from its own ray a receiver may look something up
+};
+
 /// What gathers from the running bundle besides the patches: the pixels of a viewer. The bundle's
 /// parameters, textures and lists are bound when these are called.
 class BundleReceiver {
@@ -19,6 +27,8 @@ class BundleReceiver {
         glm::vec3 constant_irradiance{0.0F};  ///< that the bundle does not carry, of every receiver
         bool special = false;                 ///< signed increments of a special phase
         std::uint32_t moved_object = NO_PATCH;
+        /// Which of plan_differences() the bundle is one of; NO_PATCH: none, anything may change.
+        std::uint32_t difference = NO_PATCH;
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
     };
 
@@ -35,6 +45,11 @@ class BundleReceiver {
     virtual void discard_sample(const Context& context) = 0;
     /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special(std::uint32_t moved_object) = 0;
+    /// The next pairs of bundles before and after the move, at most MOST_DIFFERENCES: receivers
+    /// whose rays do not pass any of the boxes, which hold the object at both places (shifted
+    /// world), receive the same from both and may skip them.
+    virtual void plan_differences(std::span<const BundleRays> bundles,
+                                  std::span<const Bounds> boxes) = 0;
     /// Surfaces have changed: what has been received so far is multiplied by `scale`. reflecting:
     /// materials whose reflection is another. redraw: what is seen looks different by itself.
     virtual void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,

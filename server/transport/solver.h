@@ -60,6 +60,10 @@ class Solver {
     /// Requires !correcting(). world_from_object is in the scene's own world.
     void move_object(std::uint32_t object, const glm::mat4& world_from_object,
                      std::span<BundleReceiver* const> receivers);
+    /// Carries through the move of an object to where it is, before the first iteration: nothing
+    /// changes, but a driver that compiles shaders at their first use has done so.
+    void rehearse_move(std::uint32_t object, const glm::mat4& world_from_object,
+                       std::span<BundleReceiver* const> receivers);
     /// Lights or materials have changed in the scene: gives their patches their colours in the
     /// mesh, and starts the special iteration phase. Requires !correcting(), covers() of each, and
     /// the scene and mesh that the solver was made of. reflecting: those of the materials that

@@ -81,6 +81,19 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
     start_phase(object, no_limit);
 }
 
+void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_object,
+                           std::span<BundleReceiver* const> receivers) {
+    if (iterations_ > 0 || changes_ > 0) {
+        return;
+    }
+    move_object(object, world_from_object, receivers);
+    while (correcting()) {
+        step(receivers);
+    }
+    changes_ = 0;
+    special_bundles_ = 0;
+}
+
 /// Chooses another unit of radiance where emission is far from the present one. scale: what the
 /// solution is multiplied by, in the present unit; becomes what it is in the new one.
 void Solver::adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale) {

@@ -23,7 +23,7 @@ enum Dimension : unsigned {
 
 constexpr unsigned second_stage = 64;       // first number of the second stage's bundles
 constexpr unsigned parallel_numbers = 128;  // and of parallel bundles' turns and shifts
-constexpr std::size_t shooters_at_once = 8;
+constexpr unsigned shooters_at_once = MOST_DIFFERENCES;
 constexpr float unseen_share = 0.3F;     // of the light that has gone round more than once
 constexpr double relevant_noise = 0.01;  // of increments, relative to the irradiance
 
@@ -83,6 +83,33 @@ void SpecialPhase::choose_source_shooters() {
     shooters_ = moved_ ? store_.choose_shooters(numbers) : change_.choose_shooters(numbers);
 }
 
+/// Tells the receivers of the bundles whose shooters have been chosen.
+void SpecialPhase::plan_differences(std::span<BundleReceiver* const> receivers) const {
+    std::vector<BundleRays> bundles;
+    for (unsigned i = 0; i < shooters_at_once; ++i) {
+        if (is_layered(next_ + i, settings_.bundles)) {
+            const ParallelWindow window = window_of(next_ + i);
+            bundles.push_back({false, window.frame.z, window.pixel_size});
+            continue;
+        }
+        const glm::vec3& eye = shooters_[i].position;
+        float farthest = 0.0F;
+        for (const Bounds& box : boxes_) {
+            farthest = std::max(
+                farthest, glm::length(glm::max(glm::abs(box.min - eye), glm::abs(box.max - eye))));
+        }
+        const float pixel = 2.0F / static_cast<float>(transfer_.hemicube().size());
+        bundles.push_back({true, eye, farthest * pixel});
+    }
+    for (BundleReceiver* receiver : receivers) {
+        receiver->plan_differences(bundles, boxes_);
+    }
+}
+
+bool SpecialPhase::carried(const layout::Shooter& shooter) const {
+    return moved_ && shooter.object == *moved_;
+}
+
 TransferSettings SpecialPhase::transfer_settings(Place place) const {
     const unsigned all = bouncing_ ? settings_.bounces : settings_.bundles;
     TransferSettings settings;
@@ -95,6 +122,16 @@ TransferSettings SpecialPhase::transfer_settings(Place place) const {
     settings.context.sample_weight = 0.0F;
     settings.context.special = true;
     settings.context.moved_object = moved_.value_or(NO_PATCH);
+    return settings;
+}
+
+TransferSettings SpecialPhase::difference_settings(Place place, unsigned index) const {
+    TransferSettings settings = transfer_settings(place);
+    const std::size_t slot = index % shooters_at_once;
+    const bool everywhere = !is_layered(index, settings_.bundles) && carried(shooters_[slot]);
+    if (settings_.scissored && !everywhere) {
+        settings.context.difference = static_cast<std::uint32_t>(slot);
+    }
     return settings;
 }
 
@@ -114,6 +151,9 @@ void SpecialPhase::step(std::span<BundleReceiver* const> receivers) {
 void SpecialPhase::step_source(std::span<BundleReceiver* const> receivers) {
     if (next_ % shooters_at_once == 0) {
         choose_source_shooters();
+        if (moved_ && settings_.scissored) {
+            plan_differences(receivers);
+        }
     }
     if (is_layered(next_, settings_.bundles)) {
         layered(next_, receivers);
@@ -189,12 +229,11 @@ void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned ind
                                     std::span<BundleReceiver* const> receivers) {
     const unsigned n = first_number_ + index + 1;
     const float angle = static_cast<float>(numbers_.sample(turn, n)) * glm::two_pi<float>();
-    const bool carried = shooter.object == *moved_;
     const glm::vec2 pixel_shift(numbers_.sample(shift_x, n) - 0.5,
                                 numbers_.sample(shift_y, n) - 0.5);
     for (const Place place : {Place::before, Place::now}) {
         BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
-        if (carried && place == Place::before) {
+        if (carried(shooter) && place == Place::before) {
             const glm::mat4 before_from_now =
                 scene_.world_from_object(*moved_, Place::before) *
                 glm::inverse(scene_.world_from_object(*moved_, Place::now));
@@ -204,10 +243,11 @@ void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned ind
         }
         frame.pixel_shift = pixel_shift;
         // A shooter on the object moves with it: everything that it sees changes.
-        const auto rectangles = carried || !settings_.scissored
+        const auto rectangles = carried(shooter) || !settings_.scissored
                                     ? transfer_.hemicube().full()
                                     : transfer_.hemicube().covering(frame, boxes_);
-        transfer_.perspective(frame, shooter, rectangles, transfer_settings(place), receivers);
+        transfer_.perspective(frame, shooter, rectangles, difference_settings(place, index),
+                              receivers);
     }
 }
 
@@ -222,7 +262,7 @@ void SpecialPhase::perspective(const layout::Shooter& shooter, unsigned index,
                           transfer_settings(Place::now), receivers);
 }
 
-void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> receivers) {
+ParallelWindow SpecialPhase::window_of(unsigned index) const {
     const unsigned n = first_number_ + index + 1;
     const unsigned m = n + parallel_numbers;
     IterationSample sample;
@@ -230,7 +270,11 @@ void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> rece
     sample.angle = numbers_.sample(turn, m) * glm::two_pi<double>();
     sample.shift = {static_cast<float>(numbers_.sample(point_u, m)),
                     static_cast<float>(numbers_.sample(point_v, m))};
-    const ParallelWindow window = transfer_.parallel_window(sample);
+    return transfer_.parallel_window(sample);
+}
+
+void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> receivers) {
+    const ParallelWindow window = window_of(index);
     const bool both = moved_ && !bouncing_;
     const PixelRectangle rectangle =
         both && settings_.scissored ? window.covering(boxes_) : window.full();
@@ -240,7 +284,9 @@ void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> rece
             continue;
         }
         do {
-            transfer_.layered(window, rectangle, transfer_settings(place), receivers);
+            transfer_.layered(window, rectangle,
+                              both ? difference_settings(place, index) : transfer_settings(place),
+                              receivers);
         } while (transfer_.take_overflow() != 0);
     }
 }

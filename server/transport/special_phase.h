@@ -40,6 +40,7 @@ class SpecialPhase {
 
   private:
     void choose_source_shooters();
+    void plan_differences(std::span<BundleReceiver* const> receivers) const;
     void step_source(std::span<BundleReceiver* const> receivers);
     void step_bounce(std::span<BundleReceiver* const> receivers);
     void end_source(std::span<BundleReceiver* const> receivers);
@@ -50,6 +51,10 @@ class SpecialPhase {
                      std::span<BundleReceiver* const> receivers);
     void layered(unsigned index, std::span<BundleReceiver* const> receivers);
     [[nodiscard]] TransferSettings transfer_settings(Place place) const;
+    /// Of a bundle of the first stage, which is drawn with the moved object at a place.
+    [[nodiscard]] TransferSettings difference_settings(Place place, unsigned index) const;
+    [[nodiscard]] bool carried(const layout::Shooter& shooter) const;
+    [[nodiscard]] ParallelWindow window_of(unsigned index) const;
     [[nodiscard]] std::vector<glm::vec4> shooter_numbers(unsigned first, unsigned count) const;
 
     const GpuScene& scene_;

@@ -17,13 +17,16 @@ constexpr std::array<int, EdgeFilter::samples> sub_sample_rows = {5, 13, 1,  10,
 
 EdgePrograms::EdgePrograms(const GpuScene& scene)
     : count({"view_edge_count.comp"}, scene.defines()),
+      list({"view_edge_tiles.comp"}),
+      finish({"view_tile_commands.comp"}),
       average({"view_edge_average.comp"}),
       average_linear({"view_edge_average.comp"}, {"LINEAR 1"}) {}
 
 EdgeFilter::EdgeFilter(glm::uvec2 size)
     : size_(size),
       counts_("edge counts", std::size_t{size.x} * size.y * sizeof(std::uint32_t)),
-      smoothed_("smoothed frame", std::size_t{size.x} * size.y * sizeof(std::uint32_t)) {}
+      smoothed_("smoothed frame", std::size_t{size.x} * size.y * sizeof(std::uint32_t)),
+      tiles_("tiles with edges", size, 1) {}
 
 glm::vec2 EdgeFilter::next_offset() const {
     const glm::vec2 cell(static_cast<float>(counted_),
@@ -39,6 +42,11 @@ void EdgeFilter::count(const EdgePrograms& programs) {
     programs.count.set("offset", glm::vec3(next_offset(), 0.0F));
     programs.count.dispatch(size_.x, size_.y);
     ++counted_;
+    if (complete()) {
+        tiles_.begin();
+        programs.list.dispatch(tiles_.tile_count());
+        tiles_.end(programs.finish);
+    }
 }
 
 void EdgeFilter::average(const ShaderProgram& program, const Buffer& frame,
@@ -46,9 +54,9 @@ void EdgeFilter::average(const ShaderProgram& program, const Buffer& frame,
     counts_.bind_storage(BINDING_EDGE_COUNTS);
     frame.bind_storage(BINDING_FRAME);
     result.bind_storage(BINDING_SMOOTHED);
-    program.set("width", size_.x);
-    program.set("height", size_.y);
-    program.dispatch(std::size_t{size_.x} * size_.y);
+    glCopyNamedBufferSubData(frame.get(), result.get(), 0, 0,
+                             static_cast<GLsizeiptr>(result.bytes()));
+    tiles_.dispatch(program, 0);
 }
 
 const Buffer& EdgeFilter::average(const EdgePrograms& programs, const Buffer& frame) const {

@@ -8,6 +8,7 @@
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
 #include "solution/gpu_scene.h"
+#include "view/tile_lists.h"
 
 namespace raybundle {
 
@@ -15,7 +16,7 @@ namespace raybundle {
 struct EdgePrograms {
     explicit EdgePrograms(const GpuScene& scene);
 
-    ShaderProgram count, average, average_linear;
+    ShaderProgram count, list, finish, average, average_linear;
 };
 
 /// Antialiasing of a picture at rest: a box filter over the pixels at the edges of surfaces. Light
@@ -43,19 +44,24 @@ class EdgeFilter {
     /// are bound to UNIT_SURFACE_IDS, the picture's pixels and parameters and the scene as well.
     void count(const EdgePrograms& programs);
 
+    // The picture's parameters are bound when these are called.
+
     /// The frame (RGBA8, sRGB, row 0 at the top) with its edges smoothed: means of displayed light,
     /// so that bright lamps have smooth edges too. Requires complete(). Valid until the next call.
     [[nodiscard]] const Buffer& average(const EdgePrograms& programs, const Buffer& frame) const;
     /// The same for radiance (vec4 per pixel).
     [[nodiscard]] Buffer average_linear(const EdgePrograms& programs, const Buffer& frame) const;
 
-    [[nodiscard]] std::size_t bytes() const { return counts_.bytes() + smoothed_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const {
+        return counts_.bytes() + smoothed_.bytes() + tiles_.bytes();
+    }
 
   private:
     void average(const ShaderProgram& program, const Buffer& frame, const Buffer& result) const;
 
     glm::uvec2 size_;
     Buffer counts_, smoothed_;
+    TileLists tiles_;       // with edges
     unsigned counted_ = 0;  // sub-samples
 };
 

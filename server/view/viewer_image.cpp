@@ -84,7 +84,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene)
       layers_pixels(make_receive("transport_layers_pixels.comp", scene, {})),
       layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})),
       planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})),
-      edges(scene) {
+      edges(scene),
+      affected_tiles(scene) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
     for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -133,6 +134,7 @@ void ViewerImage::allocate() {
     batches_.clear();
     create_pixel_textures();
     edges_.emplace(size_);
+    affected_.emplace(size_);
     if (scene_.reflectance().specular()) {
         specular_.emplace(pixels);
     }
@@ -199,10 +201,16 @@ void ViewerImage::upload_view() {
     view_.bind_uniform(BINDING_VIEW);
 }
 
-void ViewerImage::raster(const glm::mat4& clip_from_world) const {
+PixelRectangle ViewerImage::whole_picture() const {
+    return {0, 0, static_cast<int>(size_.x), static_cast<int>(size_.y)};
+}
+
+void ViewerImage::raster(const glm::mat4& clip_from_world, const PixelRectangle& rectangle) const {
     const GlScope scope("view raster");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
     const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
     const float far_depth = 0.0F;
     glClearBufferuiv(GL_COLOR, 0, no_hit);
@@ -213,6 +221,7 @@ void ViewerImage::raster(const glm::mat4& clip_from_world) const {
     programs_.raster.set("clip_from_world", clip_from_world);
     scene_.draw(Place::now, clip_from_world, true, programs_.raster);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 bool ViewerImage::smooth_step() {
@@ -221,7 +230,8 @@ bool ViewerImage::smooth_step() {
     }
     // A sub-sample at +x sees what the centre sees of a picture shifted by -x.
     const glm::vec2 shift = -2.0F * edges_->next_offset() / glm::vec2(size_);
-    raster(glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world);
+    raster(glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world,
+           whole_picture());
     store_.bind();
     bind_pixels();
     glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
@@ -238,7 +248,7 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     parameters_.display = display;
     parameters_.sky = glm::vec4(scene_.sky(), 0.0F);
     upload_view();
-    raster(parameters_.clip_from_world);
+    raster(parameters_.clip_from_world, whole_picture());
     std::swap(pixels_, old_pixels_);
     std::swap(irradiance_, old_irradiance_);
     std::swap(pixel_texture_, old_pixel_texture_);
@@ -247,14 +257,14 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     std::swap(gloss_texture_, old_gloss_texture_);
     store_.bind();
     bind_pixels();
-    glBindTextureUnit(UNIT_OLD_PIXELS, old_pixel_texture_.get());
-    glBindTextureUnit(UNIT_OLD_PIXEL_IRRADIANCE, old_irradiance_texture_.get());
-    glBindTextureUnit(UNIT_OLD_PIXEL_GLOSS, old_gloss_texture_.get());
-    glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
+    bind_old_picture();
+    if (specular_) {
+        specular_->begin();
+    }
     resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
             : moved_object == NO_PATCH           ? programs_.resolve_reprojected
                                                  : programs_.resolve_moved,
-            kept_weight, moved_object);
+            whole_picture(), kept_weight, moved_object);
     shoot_first();
     batches_.clear();
     edges_->restart();
@@ -262,9 +272,20 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     has_picture_ = true;
 }
 
-void ViewerImage::resolve(const ViewPrograms::Resolve& programs, float kept_weight,
-                          std::uint32_t moved_object) {
+void ViewerImage::bind_old_picture() const {
+    glBindTextureUnit(UNIT_OLD_PIXELS, old_pixel_texture_.get());
+    glBindTextureUnit(UNIT_OLD_PIXEL_IRRADIANCE, old_irradiance_texture_.get());
+    glBindTextureUnit(UNIT_OLD_PIXEL_GLOSS, old_gloss_texture_.get());
+    glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
+}
+
+/// Makes the pixels of a rectangle from the surfaces rasterised there.
+void ViewerImage::resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
+                          float kept_weight, std::uint32_t moved_object) {
     const auto set_common = [&](const ShaderProgram& program) {
+        program.set("refreshed",
+                    glm::uvec4(rectangle.x0, rectangle.y0, rectangle.x1, rectangle.y1));
+        program.set("common_weight", parameters_.weights.x);
         program.set("vertex_count", scene_.vertex_count());
         program.set("old_clip_from_world", old_.clip_from_world);
         program.set("old_eye", old_.eye);
@@ -280,10 +301,8 @@ void ViewerImage::resolve(const ViewPrograms::Resolve& programs, float kept_weig
     };
     set_common(programs.all);
     programs.all.set("crease_distance", crease_share * scene_.diameter());
-    if (specular_) {
-        specular_->begin();
-    }
-    programs.all.dispatch(size_.x, size_.y);
+    programs.all.dispatch(static_cast<std::size_t>(rectangle.width()),
+                          static_cast<std::size_t>(rectangle.height()));
     if (specular_) {
         specular_->end();
         set_common(programs.specular);
@@ -325,18 +344,21 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
         program.set("moved_object", context.moved_object);
     };
     set_common(programs.all);
-    programs.all.dispatch(pixel_count(size_));
     if (gloss_.bytes() > 0) {
         set_common(programs.glossy);
+    }
+    if (context.special) {
+        receive_special(programs, context);
+        return;
+    }
+    programs.all.dispatch(pixel_count(size_));
+    if (gloss_.bytes() > 0) {
         specular_->dispatch(programs.glossy);
     }
-    if (!context.special) {
-        ++samples_;
-        parameters_.weights.x += context.sample_weight;
-        parameters_.weights.y += context.sample_weight / BATCHES;
-        parameters_.constant +=
-            glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
-    }
+    ++samples_;
+    parameters_.weights.x += context.sample_weight;
+    parameters_.weights.y += context.sample_weight / BATCHES;
+    parameters_.constant += glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
 }
 
 void ViewerImage::receive_hemicube(const Context& context) {
@@ -514,7 +536,7 @@ float ViewerImage::automatic_exposure() const {
 }
 
 std::size_t ViewerImage::bytes() const {
-    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes();
+    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes();
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
           &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {

@@ -9,10 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "bundle/bundle_frame.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
 #include "solution/radiance_store.h"
 #include "transport/bundle_receiver.h"
+#include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
 #include "view/edge_filter.h"
 #include "view/specular_groups.h"
@@ -73,6 +75,7 @@ struct ViewPrograms {
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
     EdgePrograms edges;
+    AffectedTilePrograms affected_tiles;
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -106,6 +109,8 @@ class ViewerImage : public BundleReceiver {
     void receive_planes(const Context& context) override;
     void discard_sample(const Context& context) override;
     void begin_special(std::uint32_t moved_object) override;
+    void plan_differences(std::span<const BundleRays> bundles,
+                          std::span<const Bounds> boxes) override;
     void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
                         bool redraw) override;
     void scale_special(float factor) override;
@@ -147,17 +152,23 @@ class ViewerImage : public BundleReceiver {
 
   private:
     void allocate();
-    void resolve(const ViewPrograms::Resolve& programs, float kept_weight,
-                 std::uint32_t moved_object);
+    [[nodiscard]] PixelRectangle whole_picture() const;
+    [[nodiscard]] PixelRectangle rectangle_of(std::uint32_t object) const;
+    void bind_old_picture() const;
+    void copy_rows(const PixelRectangle& rectangle) const;
+    void resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
+                 float kept_weight, std::uint32_t moved_object);
     void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
+    void refresh_moved(std::uint32_t moved_object);
     void allocate_gloss();
     void allocate_first_shot();
     void shoot_first() const;
-    void raster(const glm::mat4& clip_from_world) const;
+    void raster(const glm::mat4& clip_from_world, const PixelRectangle& rectangle) const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
     void receive(const ViewPrograms::Receive& programs, const Context& context);
+    void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void interpolate_vertices();
     void evaluate(std::span<const glm::vec4> partial);
@@ -183,6 +194,7 @@ class ViewerImage : public BundleReceiver {
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<EdgeFilter> edges_;         // always
+    std::optional<AffectedTiles> affected_;   // always
     std::optional<SpecularGroups> specular_;  // only where the scene is specular
     Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
     Buffer first_shot_;                       // only where it has punctual lights

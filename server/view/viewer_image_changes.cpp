@@ -12,8 +12,103 @@ void ViewerImage::clear_increments() const {
 }
 
 void ViewerImage::begin_special(std::uint32_t moved_object) {
-    refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
+    if (has_picture_ && store_.first_shot() == nullptr) {
+        refresh_moved(moved_object);
+    } else {
+        refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
+    }
     clear_increments();
+}
+
+/// Smallest rectangle that holds an object at both places: with whole work groups of
+/// view_resolve.comp, and rounding.
+PixelRectangle ViewerImage::rectangle_of(std::uint32_t object) const {
+    glm::vec2 low(1e30F);
+    glm::vec2 high(-1e30F);
+    for (const Place place : {Place::now, Place::before}) {
+        const Bounds box = scene_.object_bounds(object, place);
+        if (box.empty()) {
+            continue;
+        }
+        for (const glm::vec3& corner : corners(box)) {
+            const glm::vec4 clip = parameters_.clip_from_world * glm::vec4(corner, 1.0F);
+            if (clip.w <= clip.z) {
+                return whole_picture();
+            }
+            const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5F + 0.5F) * glm::vec2(size_);
+            low = glm::min(low, pixel);
+            high = glm::max(high, pixel);
+        }
+    }
+    if (low.x > high.x) {
+        return {};
+    }
+    constexpr float group = 8.0F;
+    const glm::vec2 first = glm::floor((low - 2.0F) / group) * group;
+    const glm::vec2 last = glm::ceil((high + 2.0F) / group) * group;
+    return dilated(first + 1.0F, last - 1.0F, whole_picture());
+}
+
+/// What the rows of a rectangle show becomes what they showed before.
+void ViewerImage::copy_rows(const PixelRectangle& rectangle) const {
+    const auto copy = [&](const Buffer& from, const Buffer& to, std::size_t bytes_a_pixel) {
+        const std::size_t row = size_.x * bytes_a_pixel;
+        const auto offset = static_cast<GLintptr>(static_cast<std::size_t>(rectangle.y0) * row);
+        glCopyNamedBufferSubData(
+            from.get(), to.get(), offset, offset,
+            static_cast<GLsizeiptr>(static_cast<std::size_t>(rectangle.height()) * row));
+    };
+    copy(pixels_, old_pixels_, sizeof(layout::PixelSurface));
+    copy(irradiance_, old_irradiance_, sizeof(glm::vec4));
+    if (gloss_.bytes() > 0) {
+        copy(gloss_, old_gloss_, sizeof(glm::vec4));
+    }
+}
+
+/// The camera rests, and an object is elsewhere: only where it is and was the picture differs, and
+/// all other pixels keep what they have to the bit.
+void ViewerImage::refresh_moved(std::uint32_t moved_object) {
+    parameters_.weights.y = 0.0F;
+    batches_.clear();
+    samples_ = 0;
+    const PixelRectangle rectangle = rectangle_of(moved_object);
+    if (rectangle.empty()) {
+        return;
+    }
+    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
+            glm::vec3(parameters_.constant)};
+    upload_view();
+    raster(parameters_.clip_from_world, rectangle);
+    copy_rows(rectangle);
+    store_.bind();
+    bind_pixels();
+    bind_old_picture();
+    resolve(programs_.resolve_moved, rectangle, 1.0F, moved_object);
+    edges_->restart();
+}
+
+void ViewerImage::plan_differences(std::span<const BundleRays> bundles,
+                                   std::span<const Bounds> boxes) {
+    upload_view();
+    store_.bind();
+    bind_pixels();
+    affected_->find(programs_.affected_tiles, bundles, boxes);
+}
+
+void ViewerImage::receive_special(const ViewPrograms::Receive& programs, const Context& context) {
+    const bool glossy = gloss_.bytes() > 0;
+    if (context.difference == NO_PATCH) {
+        affected_->dispatch_all(programs.all);
+        if (glossy) {
+            programs.glossy.set("listed_tiles", false);
+            specular_->dispatch(programs.glossy);
+        }
+        return;
+    }
+    affected_->dispatch(programs.all, context.difference, false);
+    if (glossy) {
+        affected_->dispatch(programs.glossy, context.difference, true);
+    }
 }
 
 void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
