@@ -85,7 +85,8 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                    settings.probabilities.plane / (two_pi * parallel_depth(scene_.diameter())),
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
-    p.sky = glm::vec4(scene_.sky(), tie_share * scene_.diameter());
+    p.sky = glm::vec4(scene_.sky_towards(frame.z), tie_share * scene_.diameter());
+    p.sky_behind = glm::vec4(scene_.sky_towards(-frame.z), 0.0F);
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
                  static_cast<float>(settings.batch)};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
