@@ -58,6 +58,8 @@ void add_row(CLI::App& app, Options& o, const ServeOption& row) {
     const auto add = [&](const auto member) {
         if constexpr (std::is_same_v<decltype(member), bool Options::*const>) {
             app.add_flag(flag_of(row.key), o.*member, row.help);
+        } else if constexpr (std::is_same_v<decltype(member), SkyChoice Options::*const>) {
+            app.add_option(flag_of(row.key), (o.*member).text, row.help);
         } else {
             app.add_option(flag_of(row.key), o.*member, row.help)->capture_default_str();
         }

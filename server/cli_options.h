@@ -35,6 +35,14 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What --sky says: nothing, a luminance or the name of a standard sky. A number in a configuration
+/// file is a luminance too.
+struct SkyChoice {
+    std::string text;
+
+    [[nodiscard]] std::optional<float> luminance() const;  ///< cd/m², of a uniform sky
+};
+
 /// Everything the command line can say.
 struct Options {
     enum class Command { none, serve, render, accuracy, inspect, bench, selftest, token };
@@ -44,7 +52,12 @@ struct Options {
     int gpu = -1;
     bool list_gpus = false;
     std::string unit = "m";
-    std::optional<float> sky;      // cd/m²
+    // Daylight; option_table.cpp says what each means.
+    SkyChoice sky;
+    std::optional<float> sky_zenith, sun_elevation, sun_azimuth, sun_illuminance, sun_diameter;
+    std::optional<float> ground_albedo;
+    std::string environment;  // file
+    std::optional<float> environment_rotation, environment_scale;
     std::vector<std::string> ies;  // LIGHT=FILE
     std::string log_level = "info";
 

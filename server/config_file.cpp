@@ -130,6 +130,16 @@ void read(const Json& value, std::optional<float>& target) {
     read(value, target.emplace());
 }
 
+void read(const Json& value, SkyChoice& target) {
+    if (value.is_null()) {
+        target.text.clear();
+    } else if (value.is_number()) {
+        target.text = fmt::format("{}", value.get<double>());
+    } else {
+        read(value, target.text);
+    }
+}
+
 /// Text member of a token's entry.
 std::string token_text(const Json& entry, const char* key) {
     const auto found = entry.find(key);
@@ -233,6 +243,11 @@ Json parse(const std::string& name, const std::string& text) {
 
 Json to_json(const std::optional<float>& value) {
     return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const SkyChoice& value) {
+    const std::optional<float> luminance = value.luminance();
+    return luminance ? Json(*luminance) : value.text.empty() ? Json(nullptr) : Json(value.text);
 }
 
 template <typename Value>

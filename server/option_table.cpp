@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "scene/cie_sky.h"
 
 namespace raybundle {
 namespace {
@@ -60,6 +63,18 @@ std::string origin_problem(const std::string& text) {
     return fits ? "" : "'" + text + "' is not an origin, e.g. https://example.org";
 }
 
+std::string sky_problem(const std::string& text) {
+    if (text.empty() || cie_sky_type(text) != 0) {
+        return {};
+    }
+    const auto luminance = SkyChoice{text}.luminance();
+    if (!luminance) {
+        return fmt::format("'{}' is neither a luminance in cd/m² nor one of {}", text,
+                           cie_sky_names());
+    }
+    return *luminance >= 0.0F ? "" : "must be a number of at least 0";
+}
+
 constexpr std::array serve_table{
     ServeOption{"listen", "Address and port; port 0: any free one", &Options::listen, 0, 0,
                 address_problem},
@@ -94,8 +109,28 @@ constexpr std::array serve_table{
                 &Options::gpu, -1, 1000, nullptr, true},
     ServeOption{"unit", "Length unit of the scene file: m, cm, mm, in, ft", &Options::unit, 0, 0,
                 unit_problem, true},
-    ServeOption{"sky", "Luminance of a uniform sky, cd/m²", &Options::sky, 0, no_limit, nullptr,
-                true},
+    ServeOption{"sky",
+                "Luminance of a uniform sky, cd/m², or a standard sky: overcast, intermediate, "
+                "clear, cie-1 to cie-15",
+                &Options::sky, 0, no_limit, sky_problem, true},
+    ServeOption{"skyZenith", "Luminance of a standard sky's zenith, cd/m² (default: typical)",
+                &Options::sky_zenith, 0, 1e9, nullptr, true},
+    ServeOption{"sunElevation", "Of a standard sky's sun, degrees above the horizon (default: 45)",
+                &Options::sun_elevation, 0, 90, nullptr, true},
+    ServeOption{"sunAzimuth", "From north (-Z) over east (+X), degrees (default: 180)",
+                &Options::sun_azimuth, -360, 360, nullptr, true},
+    ServeOption{"sunIlluminance", "Of a surface that faces the sun, lx (default: typical; 0: none)",
+                &Options::sun_illuminance, 0, 1e9, nullptr, true},
+    ServeOption{"sunDiameter", "Of the sun's disc, degrees (default: 0.533)",
+                &Options::sun_diameter, 0, 10, nullptr, true},
+    ServeOption{"groundAlbedo", "Of the plain below a standard sky (default: 0.2)",
+                &Options::ground_albedo, 0, 1, nullptr, true},
+    ServeOption{"environment", "Equirectangular image of the surroundings, .hdr or .exr",
+                &Options::environment, 0, 0, nullptr, true},
+    ServeOption{"environmentRotation", "Clockwise as seen from above, degrees",
+                &Options::environment_rotation, -360, 360, nullptr, true},
+    ServeOption{"environmentScale", "cd/m² of one unit of the image (default: 1)",
+                &Options::environment_scale, 0, 1e9, nullptr, true},
     ServeOption{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES file",
                 &Options::ies, 0, 0, ies_problem, true},
     ServeOption{"logLevel", "trace, debug, info, warn, error, off", &Options::log_level, 0, 0,
@@ -128,6 +163,10 @@ std::string value_problem(const ServeOption& option, const std::optional<float>&
     return value ? range_problem(option, *value) : "";
 }
 
+std::string value_problem(const ServeOption& option, const SkyChoice& value) {
+    return value_problem(option, value.text);
+}
+
 std::string value_problem(const ServeOption& /*option*/, bool /*value*/) {
     return {};
 }
@@ -138,6 +177,14 @@ std::string value_problem(const ServeOption& option, const Number& value) {
 }
 
 }  // namespace
+
+std::optional<float> SkyChoice::luminance() const {
+    float value = 0.0F;
+    const char* const end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    const bool number = parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value);
+    return number ? std::optional(value) : std::nullopt;
+}
 
 std::span<const ServeOption> serve_options() {
     return serve_table;

@@ -17,7 +17,7 @@ namespace raybundle {
 using OptionMember =
     std::variant<bool Options::*, int Options::*, std::uint64_t Options::*, float Options::*,
                  double Options::*, std::optional<float> Options::*, std::string Options::*,
-                 std::vector<std::string> Options::*>;
+                 std::vector<std::string> Options::*, SkyChoice Options::*>;
 
 /// One option of `serve`, on the command line and in the configuration file alike.
 struct ServeOption {

@@ -77,4 +77,51 @@ def ies_profile() -> SceneModel:
                       profile="downlight.ies") for i, x in enumerate((1.0, 3.0))])
 
 
-SCENES = (punctual_lights, ies_profile)
+def _daylight(name: str, daylight: dict[str, object], **more: object) -> SceneModel:
+    return SceneModel(
+        name=f"effects/{name}", materials=MATERIALS, objects=[_room(), _box()],
+        cameras=CAMERAS, embed_buffer=True, daylight=daylight, **more)
+
+
+def overcast_sky() -> SceneModel:
+    """A room lit through its open front by an overcast sky of 10 000 lx."""
+    return _daylight("overcast_sky", {"sky": "overcast", "zenithLuminance": 4092.6})
+
+
+def clear_sky() -> SceneModel:
+    """Sun and clear sky through the open front, which looks north."""
+    return _daylight("clear_sky", {"sky": "clear", "sunElevation": 32.0, "sunAzimuth": 20.0})
+
+
+SURROUNDINGS_WIDTH, SURROUNDINGS_HEIGHT = 128, 64
+
+
+def _surroundings() -> bytes:
+    """An evening: orange in the west, blue in the east, dark ground, and a small bright sun in the
+    north-west."""
+    pixels = bytearray()
+    for y in range(SURROUNDINGS_HEIGHT):
+        elevation = 90.0 - 180.0 * (y + 0.5) / SURROUNDINGS_HEIGHT
+        for x in range(SURROUNDINGS_WIDTH):
+            azimuth = 360.0 * (x + 0.5) / SURROUNDINGS_WIDTH - 180.0
+            west = 0.5 - 0.5 * math.sin(math.radians(azimuth))
+            colour = [1.0 + 5.0 * west, 1.2 + 2.0 * west, 2.5 - 1.0 * west]
+            if elevation < 0.0:
+                colour = [0.3, 0.35, 0.2]
+            if abs(elevation - 24.0) < 3.0 and abs(azimuth + 30.0) < 3.0:
+                colour = [900.0, 600.0, 300.0]
+            mantissa, exponent = math.frexp(max(colour))
+            scale = mantissa * 256.0 / max(colour)
+            pixels += bytes([*(int(c * scale) for c in colour), exponent + 128])
+    header = (f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"
+              f"-Y {SURROUNDINGS_HEIGHT} +X {SURROUNDINGS_WIDTH}\n")
+    return header.encode("ascii") + bytes(pixels)
+
+
+def environment() -> SceneModel:
+    """An image of an evening sky lights the room through its open front."""
+    return _daylight("environment", {"environment": "surroundings.hdr", "environmentScale": 500.0},
+                     files={"effects/surroundings.hdr": _surroundings()})
+
+
+SCENES = (punctual_lights, ies_profile, overcast_sky, clear_sky, environment)

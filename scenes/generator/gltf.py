@@ -195,7 +195,10 @@ def scene_files(model: SceneModel) -> dict[str, bytes]:
     nodes = [_add_object(document, thing) for thing in model.objects]
     nodes += _add_lights(document)
     nodes += [_add_camera(document, camera) for camera in model.cameras]
-    document.append("scenes", {"name": model.name, "nodes": nodes})
+    scene: dict[str, object] = {"name": model.name, "nodes": nodes}
+    if model.daylight:
+        scene["extras"] = {"raybundle": {"daylight": model.daylight}}
+    document.append("scenes", scene)
     _add_textures(document)
     files = dict(model.textures) | model.files
     data = bytes(document.binary)

@@ -173,4 +173,5 @@ class SceneModel:
     embed_buffer: bool = False
     lights: list[Light] = field(default_factory=list)
     files: dict[str, bytes] = field(default_factory=dict)  # that the scene refers to besides
+    daylight: dict[str, object] = field(default_factory=dict)  # extras.raybundle.daylight
     position_step: float = 0.0  # positions are rounded to multiples of this, metres; 0: not at all

@@ -7,6 +7,7 @@
 #include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
 #include "reference/solution_picture.h"
+#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -27,7 +28,7 @@ std::string filter_name(PixelFilter filter) {
 
 std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera) {
     std::vector<bool> left_out = pixels_that_see_emitters(scene, camera);
-    if (scene.scene().sky_radiance != glm::vec3(0.0F)) {
+    if (has_sky(scene.scene())) {
         const auto centres = pixel_centres(scene, camera);
         for (std::size_t i = 0; i < centres.size(); ++i) {
             left_out[i] = left_out[i] || !centres[i];

@@ -59,6 +59,13 @@ std::string scene_fingerprint(const std::string& scene_file, const std::string& 
         const Json& profiles = json["extensions"]["EXT_lights_ies"];
         add_files(scene_file, array_or_empty(profiles, "lights"), "lights", hash);
     }
+    for (const Json& scene : array_or_empty(json, "scenes")) {
+        const Json::json_pointer environment("/extras/raybundle/daylight/environment");
+        if (scene.contains(environment) && scene[environment].is_string()) {
+            hash.add(
+                read_uri(scene_file, "scenes", scene[environment].get<std::string>(), most_bytes));
+        }
+    }
     return fmt::format("{:016x}", hash.value());
 }
 

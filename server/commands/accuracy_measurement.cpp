@@ -12,6 +12,7 @@
 #include "accuracy/error_map.h"
 #include "accuracy/scene_fingerprint.h"
 #include "commands/accuracy_reference.h"
+#include "journal/session_journal.h"
 #include "view/tone_curve.h"
 
 namespace raybundle {
@@ -43,10 +44,21 @@ PatchMesh mesh_with_edges(const Scene& scene, const Options& options, double sca
     return tessellate(copy, settings);
 }
 
+/// All options of daylight; an image by its content.
+std::string daylight_text(const Options& options) {
+    std::string text = options.sky.text.empty() ? "own sky" : options.sky.text;
+    for (const auto& number : {options.sky_zenith, options.sun_elevation, options.sun_azimuth,
+                               options.sun_illuminance, options.sun_diameter, options.ground_albedo,
+                               options.environment_rotation, options.environment_scale}) {
+        text += number ? fmt::format(" {}", *number) : " -";
+    }
+    return options.environment.empty() ? text
+                                       : text + " " + file_digest(options.environment).value_or("");
+}
+
 /// What decides how a scene's files are read, for the cache's key.
 std::string reading_options(const Options& options) {
-    return fmt::format("{} {} {} {}", RAYBUNDLE_VERSION, options.unit,
-                       options.sky ? std::to_string(*options.sky) : "own sky",
+    return fmt::format("{} {} {} {}", RAYBUNDLE_VERSION, options.unit, daylight_text(options),
                        fmt::join(options.ies, " "));
 }
 

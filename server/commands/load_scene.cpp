@@ -5,9 +5,40 @@
 
 #include "commands/command.h"
 #include "journal/session_journal.h"
+#include "scene/gltf_container.h"
 #include "scene/gltf_loader.h"
 
 namespace raybundle {
+
+namespace {
+
+constexpr std::uint64_t max_environment_bytes = 512ULL << 20U;
+
+Daylight daylight_of(const Options& options) {
+    Daylight daylight;
+    if (!options.sky.text.empty() && !options.sky.luminance()) {
+        daylight.sky = options.sky.text;
+    }
+    daylight.zenith_luminance = options.sky_zenith;
+    daylight.sun_elevation = options.sun_elevation;
+    daylight.sun_azimuth = options.sun_azimuth;
+    daylight.sun_illuminance = options.sun_illuminance;
+    daylight.sun_diameter = options.sun_diameter;
+    daylight.ground_albedo = options.ground_albedo;
+    daylight.environment_rotation = options.environment_rotation;
+    daylight.environment_scale = options.environment_scale;
+    if (!options.environment.empty()) {
+        if (!options.sky.text.empty()) {
+            throw UsageError("--environment: goes not together with --sky");
+        }
+        daylight.environment = options.environment;
+        daylight.environment_bytes =
+            read_file_bounded(options.environment, max_environment_bytes, options.environment, "");
+    }
+    return daylight;
+}
+
+}  // namespace
 
 LoadedScene load_scene(const Options& options) {
     return load_scene(options, [] {});
@@ -18,7 +49,8 @@ LoadedScene load_scene(const Options& options, const std::function<void()>& acce
     spdlog::info("reading {}", options.scene);
     SceneSettings settings;
     settings.metres_per_unit = metres_per_unit(options.unit);
-    settings.sky_luminance = options.sky;
+    settings.sky_luminance = options.sky.luminance();
+    settings.daylight = daylight_of(options);
     settings.ies = options.ies;
     LoadedScene loaded;
     loaded.scene = load_gltf(options.scene, settings);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/environment.h"
+
 namespace raybundle {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr double defensive_share = 0.1;
 
 /// Share of the samples that goes to the sky. emitted: power of all emitters, own space.
 double sky_share(const RayScene& scene, double emitted) {
-    const double luminance = raybundle::luminance(scene.scene().sky_radiance);
+    const double luminance = raybundle::luminance(glm::vec3(mean_sky(scene.scene())));
     if (!(luminance > 0.0)) {
         return 0.0;
     }
@@ -39,6 +41,14 @@ double flux_of(const RayScene& scene, const PlacedLight& light) {
     return 0.25 * pi * scene.diameter() * scene.diameter() * luminance(glm::vec3(light.intensity));
 }
 
+/// A direction within a disc about another, evenly as a surface across it receives light.
+glm::dvec3 in_disc(const glm::dvec3& centre, double radius, const glm::dvec2& at) {
+    const double from_axis = std::sin(radius) * std::sqrt(at.y);
+    const double angle = 2.0 * pi * at.x;
+    return Frame(centre).to_world({from_axis * std::cos(angle), from_axis * std::sin(angle),
+                                   std::sqrt(1.0 - from_axis * from_axis)});
+}
+
 /// Directions of a light with a position are drawn evenly within a cone of this solid angle, sr.
 double solid_angle_of(const PlacedLight& light) {
     return 2.0 * pi * (light.kind == PunctualKind::spot ? 1.0 - light.outer_cosine : 2.0);
@@ -47,9 +57,7 @@ double solid_angle_of(const PlacedLight& light) {
 }  // namespace
 
 LightSampling::LightSampling(const RayScene& scene)
-    : scene_(scene),
-      density_per_area_(scene.mesh().patch_count(), 0.0),
-      sky_(scene.scene().sky_radiance) {
+    : scene_(scene), density_per_area_(scene.mesh().patch_count(), 0.0), sky_(scene.scene()) {
     std::vector<double> powers;
     double total_power = 0.0;
     double total_area = 0.0;
@@ -101,15 +109,15 @@ void LightSampling::choose_punctual_lights(double emitted) {
     sky_probability_ *= 1.0 - punctual_probability_;
 }
 
-std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from,
-                                                          double choice) const {
+std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from, double choice,
+                                                          const glm::dvec2& at) const {
     const std::size_t index = choice_.sample(choice);
     const PlacedLight& light = punctual_[index];
     LightSample result;
     result.punctual = static_cast<int>(index);
     result.density = punctual_probability(result.punctual);
     if (light.kind == PunctualKind::directional) {
-        result.direction = -light.direction();
+        result.direction = in_disc(-light.direction(), light.angular_radius, at);
         result.radiance = light.intensity;
         return result;
     }
@@ -133,7 +141,7 @@ EmittedParticle LightSampling::emit_punctual(double choice, const glm::dvec2& at
     const double probability = punctual_probability(particle.punctual);
     if (light.kind == PunctualKind::directional) {
         particle.distant = true;
-        particle.direction = light.direction();
+        particle.direction = in_disc(light.direction(), light.angular_radius, direction);
         particle.origin = on_disc(particle.direction, at);
         particle.power = light.intensity / (probability * sky_disc_density());
         return particle;
@@ -193,7 +201,8 @@ EmittedParticle LightSampling::emit_from_sky(const glm::dvec2& at,
     particle.distant = true;
     particle.direction = {r * std::cos(angle), r * std::sin(angle), z};
     particle.origin = on_disc(particle.direction, at);
-    particle.power = 4.0 * pi * pi * radius * radius / sky_probability_ * sky_;
+    particle.power = 4.0 * pi * pi * radius * radius / sky_probability_ *
+                     sky_towards(scene_.scene(), -particle.direction);
     return particle;
 }
 
@@ -209,7 +218,7 @@ double LightSampling::sky_disc_density() const {
 std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const Frame& receiver,
                                                  double choice, const glm::dvec2& at) const {
     if (choice < punctual_probability_) {
-        return sample_punctual(from, choice / punctual_probability_);
+        return sample_punctual(from, choice / punctual_probability_, at);
     }
     const double others = choice - punctual_probability_;
     if (others >= sky_probability_) {
@@ -217,12 +226,23 @@ std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const
             from, (others - sky_probability_) / (1.0 - punctual_probability_ - sky_probability_),
             at);
     }
-    const glm::dvec3 local = cosine_hemisphere(at);
     LightSample light;
-    light.direction = receiver.to_world(local);
-    light.radiance = sky_;
-    light.density = sky_probability_ * local.z / pi;
+    const double way = others / sky_probability_;  // which of the two ways to draw it
+    light.direction = sky_.uniform() || way < 0.5 ? receiver.to_world(cosine_hemisphere(at))
+                                                  : sky_.sample(2.0 * way - 1.0, at);
+    light.radiance = sky_towards(scene_.scene(), light.direction);
+    light.density = sky_density(receiver, light.direction);
+    if (!(glm::dot(light.direction, from.normal) > 0.0)) {
+        return std::nullopt;
+    }
     return light;
+}
+
+/// Density, 1/sr, with which sample() draws a direction of the sky.
+double LightSampling::sky_density(const Frame& receiver, const glm::dvec3& direction) const {
+    const double by_cosine = std::max(glm::dot(direction, receiver.z), 0.0) / pi;
+    return sky_probability_ *
+           (sky_.uniform() ? by_cosine : 0.5 * (by_cosine + sky_.density(direction)));
 }
 
 std::optional<LightSample> LightSampling::sample_emitter(const SurfacePoint& from, double choice,
@@ -260,7 +280,7 @@ double LightSampling::density(const SurfacePoint& from, const Frame& receiver,
                               const glm::dvec3& direction,
                               const std::optional<SurfacePoint>& hit) const {
     if (!hit) {
-        return sky_probability_ * std::max(glm::dot(direction, receiver.z), 0.0) / pi;
+        return sky_density(receiver, direction);
     }
     if (hit->absorbs() || density_per_area_[hit->patch] <= 0.0) {
         return 0.0;

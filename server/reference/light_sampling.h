@@ -9,6 +9,7 @@
 #include "reference/directions.h"
 #include "reference/discrete_distribution.h"
 #include "reference/ray_scene.h"
+#include "reference/sky_distribution.h"
 
 namespace raybundle {
 
@@ -54,7 +55,8 @@ class LightSampling {
     [[nodiscard]] bool empty() const {
         return emitters_.empty() && !(sky_probability_ > 0.0) && punctual_.empty();
     }
-    /// For next-event estimation; a direction of the sky by its cosine. receiver: frame about the
+    /// For next-event estimation; a direction of the sky half by its cosine, half by its radiance
+    /// where that varies. receiver: frame about the
     /// normal whose cosine counts. choice and at: uniform random numbers.
     [[nodiscard]] std::optional<LightSample> sample(const SurfacePoint& from, const Frame& receiver,
                                                     double choice, const glm::dvec2& at) const;
@@ -92,7 +94,9 @@ class LightSampling {
     [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
                                                             const glm::dvec2& at) const;
     [[nodiscard]] std::optional<LightSample> sample_punctual(const SurfacePoint& from,
-                                                             double choice) const;
+                                                             double choice,
+                                                             const glm::dvec2& at) const;
+    [[nodiscard]] double sky_density(const Frame& receiver, const glm::dvec3& direction) const;
     [[nodiscard]] EmittedParticle emit_punctual(double choice, const glm::dvec2& at,
                                                 const glm::dvec2& direction) const;
     [[nodiscard]] glm::dvec3 on_disc(const glm::dvec3& direction, const glm::dvec2& at) const;
@@ -102,7 +106,7 @@ class LightSampling {
     DiscreteDistribution emitters_;         // over patches_
     std::vector<double> density_per_area_;  // of all patches, 1/area; 0: not chosen
     double sky_probability_ = 0.0;
-    glm::dvec3 sky_;
+    SkyDistribution sky_;
     std::vector<PlacedLight> punctual_;
     DiscreteDistribution choice_;  // over punctual_
     double punctual_probability_ = 0.0;

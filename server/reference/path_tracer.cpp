@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "reference/roulette.h"
+#include "scene/environment.h"
 
 namespace raybundle {
 
@@ -32,8 +33,11 @@ double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& 
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
     const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
-    const glm::dvec3 sum = emitted(hit);
-    if (!hit || hit->absorbs()) {
+    if (!hit) {
+        return background_towards(scene_.scene(), direction);
+    }
+    const glm::dvec3 sum = scene_.emission(*hit);
+    if (hit->absorbs()) {
         return sum;
     }
     return sum +
@@ -44,8 +48,9 @@ glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) c
     return glm::pi<double>() * reflected(point, Scattering::white(point), sampler);
 }
 
-glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit) const {
-    return hit ? scene_.emission(*hit) : glm::dvec3(scene_.scene().sky_radiance);
+glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit,
+                               const glm::dvec3& direction) const {
+    return hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), direction);
 }
 
 glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
@@ -68,7 +73,7 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
             throughput /= chance;
         }
         const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
-        const glm::dvec3 emission = emitted(hit);
+        const glm::dvec3 emission = emitted(hit, next->direction);
         if (emission != glm::dvec3(0.0)) {
             const double other = settings_.next_event ? lights_.density(point, scattering.frame(),
                                                                         next->direction, hit)

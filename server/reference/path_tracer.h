@@ -43,7 +43,9 @@ class PathTracer {
                                         Sampler& sampler) const;
     [[nodiscard]] double survival_chance(const SurfacePoint& point, const Scattering& scattering,
                                          const glm::dvec3& throughput) const;
-    [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit) const;
+    /// Of what a ray of that direction has met, without punctual lights.
+    [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit,
+                                     const glm::dvec3& direction) const;
 
     const RayScene& scene_;
     const LightSampling& lights_;

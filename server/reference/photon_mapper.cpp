@@ -2,6 +2,7 @@
 #include "reference/photon_mapper.h"
 
 #include "reference/roulette.h"
+#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -16,7 +17,7 @@ glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& orig
                                   const glm::dvec3& direction, PixelSampler& sampler) const {
     const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
     if (!hit) {
-        return glm::dvec3(scene_.scene().sky_radiance);
+        return background_towards(scene_.scene(), direction);
     }
     const glm::dvec3 emission = scene_.emission(*hit);
     if (hit->absorbs()) {
@@ -52,7 +53,7 @@ glm::dvec3 PhotonMapper::met_light(const SurfacePoint& point, const Scattering& 
                                    const ScatterSample& drawn,
                                    const std::optional<SurfacePoint>& hit) const {
     const glm::dvec3 emission =
-        hit ? scene_.emission(*hit) : glm::dvec3(scene_.scene().sky_radiance);
+        hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), drawn.direction);
     if (emission == glm::dvec3(0.0)) {
         return emission;
     }

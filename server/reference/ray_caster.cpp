@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/ray_caster.h"
 
+#include "scene/environment.h"
+
 namespace raybundle {
 
 glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                PixelSampler& sampler) const {
     const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
     if (!hit) {
-        return glm::dvec3(scene_.scene().sky_radiance);
+        return background_towards(scene_.scene(), direction);
     }
     if (hit->absorbs() || lights_.empty()) {
         return scene_.emission(*hit);
@@ -47,7 +49,7 @@ glm::dvec3 RayCaster::met(const SurfacePoint& point, const Scattering& scatterin
     }
     const std::optional<SurfacePoint> hit = scene_.trace_from(point, drawn->direction);
     const glm::dvec3 emitted =
-        hit ? scene_.emission(*hit) : glm::dvec3(scene_.scene().sky_radiance);
+        hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), drawn->direction);
     if (emitted == glm::dvec3(0.0)) {
         return emitted;
     }

@@ -10,6 +10,7 @@
 #include "reference/albedo_tables.h"
 #include "reference/random.h"
 #include "reference/roulette.h"
+#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -55,7 +56,7 @@ WalkSums measure_pixel(const RayScene& scene, const AlbedoTables& tables, const 
         }
         const auto lit = scene.trace_from(*hit, next->direction);
         const glm::dvec3 emission =
-            lit ? scene.emission(*lit) : glm::dvec3(scene.scene().sky_radiance);
+            lit ? scene.emission(*lit) : sky_towards(scene.scene(), next->direction);
         const double alpha = luminance(glm::vec3(next->weight * emission));
         sum += alpha;
         sums.mean_square += alpha * alpha;

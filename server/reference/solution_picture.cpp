@@ -5,6 +5,8 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "scene/environment.h"
+
 namespace raybundle {
 namespace {
 
@@ -24,7 +26,7 @@ glm::dvec3 radiance(const RayScene& scene, const AlbedoTables& tables,
                     const VertexIrradiance& irradiance, const std::optional<SurfacePoint>& hit,
                     const glm::dvec3& direction) {
     if (!hit) {
-        return glm::dvec3(scene.scene().sky_radiance);
+        return background_towards(scene.scene(), direction);
     }
     if (hit->absorbs()) {
         return glm::dvec3(0.0);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/brdf.h"
+#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -22,12 +23,15 @@ struct Survey {
     std::vector<bool> used;  // materials
     double area_flux = 0.0;  // lm, luminance, of emitting surfaces
     double punctual_flux = 0.0;
-    double sky_flux = 0.0;  // through the scene's bounding sphere
+    double sky_flux = 0.0;  // through the scene's bounding sphere, as are the next two
+    double environment_flux = 0.0;
+    double sun_flux = 0.0;
+    std::size_t punctual = 0, suns = 0;
     std::size_t glossy = 0, mirrors = 0, textured = 0, masked = 0, profiles = 0;
     double specular_share = 0.0;  // largest of a material, of what it reflects
 
     [[nodiscard]] double share(double flux) const {
-        const double all = area_flux + punctual_flux + sky_flux;
+        const double all = area_flux + punctual_flux + sky_flux + environment_flux + sun_flux;
         return all > 0.0 ? flux / all : 0.0;
     }
 };
@@ -56,14 +60,22 @@ void survey_lights(const Scene& scene, Survey& survey) {
         }
     }
     const auto diameter = static_cast<double>(glm::length(scene.bounds.extent()));
-    survey.sky_flux =
-        pi * static_cast<double>(luminance(scene.sky_radiance)) * pi * diameter * diameter;
+    const double sphere = pi * diameter * diameter;
+    const bool image = scene.environment && scene.environment->is_image();
+    const auto from_environment =
+        scene.environment
+            ? pi * static_cast<double>(luminance(glm::vec3(scene.environment->mean()))) * sphere
+            : 0.0;
+    survey.sky_flux = pi * static_cast<double>(luminance(scene.sky_radiance)) * sphere;
+    (image ? survey.environment_flux : survey.sky_flux) += from_environment;
     for (const PunctualLight& light : scene.punctual_lights) {
         const PlacedLight placed = place_light(scene, light);
         const bool directional = light.kind == PunctualKind::directional;
         const glm::vec3 flux(directional ? placed.intensity * (0.25 * pi * diameter * diameter)
                                          : placed.flux());
-        survey.punctual_flux += static_cast<double>(luminance(flux));
+        (light.of_sky ? survey.sun_flux : survey.punctual_flux) +=
+            static_cast<double>(luminance(flux));
+        ++(light.of_sky ? survey.suns : survey.punctual);
         survey.profiles += light.profile ? 1 : 0;
     }
 }
@@ -150,9 +162,9 @@ class Planner {
     }
 
     void plan_lights() {
-        const bool punctual = !scene_.punctual_lights.empty();
+        const bool punctual = survey_.punctual > 0;
         add("punctual-lights", punctual,
-            punctual ? count_of(scene_.punctual_lights.size(), "light") + " without extent"
+            punctual ? count_of(survey_.punctual, "light") + " without extent"
                      : "no light of the scene is without extent",
             "L(D|G)+E", survey_.share(survey_.punctual_flux), first_shot_bytes);
         const bool ies = survey_.profiles > 0;
@@ -160,14 +172,31 @@ class Planner {
             ies ? count_of(survey_.profiles, "light") + " with an IES profile"
                 : "no light has an IES profile",
             "L(D|G)+E", survey_.share(survey_.punctual_flux), 0);
-        const float sky = luminance(scene_.sky_radiance);
-        add("sky", sky > 0.0F,
-            sky > 0.0F ? fmt::format("uniform sky of {:.4g} cd/m²{}", sky,
-                                     has_emitter(scene_) ? "" : ": nothing in the scene emits")
-                       : "no sky is set",
-            "L(D|G)+E", survey_.share(survey_.sky_flux), 0);
-        absent("sun", "no sun is set; a directional light is one without a diameter", "L(D|G)+E");
-        absent("environment", "no environment map is given", "L(D|G)+E");
+        plan_sky();
+    }
+
+    void plan_sky() {
+        const bool image = scene_.environment && scene_.environment->is_image();
+        const float uniform = luminance(scene_.sky_radiance);
+        const bool dome = scene_.environment && !image;
+        std::string reason = "no sky is set";
+        if (dome) {
+            reason = scene_.environment->description();
+        } else if (uniform > 0.0F) {
+            reason = fmt::format("uniform sky of {:.4g} cd/m²{}", uniform,
+                                 has_emitter(scene_) ? "" : ": nothing in the scene emits");
+        }
+        add("sky", dome || uniform > 0.0F, std::move(reason), "L(D|G)+E",
+            survey_.share(survey_.sky_flux), 0);
+        const bool sun = survey_.suns > 0;
+        add("sun", sun,
+            sun ? count_of(survey_.suns, "disc") + " in the sky, by the first shot"
+                : "no sun is set; a directional light is one without a diameter",
+            "L(D|G)+E", survey_.share(survey_.sun_flux),
+            survey_.punctual > 0 ? 0 : first_shot_bytes);
+        add("environment", image,
+            image ? scene_.environment->description() : "no environment map is given", "L(D|G)+E",
+            survey_.share(survey_.environment_flux), 0);
     }
 
     const Scene& scene_;
@@ -211,13 +240,18 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
     } else if (name == "textures") {
         remove_textures(scene, mesh);
     } else if (name == "punctual-lights") {
-        scene.punctual_lights.clear();
+        std::erase_if(scene.punctual_lights,
+                      [](const PunctualLight& light) { return !light.of_sky; });
     } else if (name == "ies") {
         for (PunctualLight& light : scene.punctual_lights) {
             light.profile.reset();
         }
-    } else if (name == "sky") {
+    } else if (name == "sun") {
+        std::erase_if(scene.punctual_lights,
+                      [](const PunctualLight& light) { return light.of_sky; });
+    } else if (name == "sky" || name == "environment") {
         scene.sky_radiance = glm::vec3(0.0F);
+        scene.environment.reset();
     } else {
         return false;
     }

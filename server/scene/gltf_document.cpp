@@ -6,6 +6,7 @@
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_daylight.h"
 #include "scene/gltf_extensions.h"
 #include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
@@ -17,8 +18,10 @@ namespace {
 
 constexpr std::size_t max_notices = 100;
 
-tinygltf::Model read_checked_model(const std::string& path, Json& json) {
+/// Moves what the model is made from out of the JSON.
+tinygltf::Model read_checked_model(const std::string& path, Json& json, Daylight& daylight) {
     check_schema(path, json);
+    daylight = read_daylight(path, json);
     check_max_phong(path, json);
     // Before any buffer is read: an unreadable extension is the better message than its symptoms.
     check_required_extensions(path, json);
@@ -32,7 +35,7 @@ GltfDocument::GltfDocument(const std::string& path)
 
 GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
-      model_(read_checked_model(path, container.json)),
+      model_(read_checked_model(path, container.json, daylight_)),
       extensions_(value_or(container.json, "extensions", Json(Json::object()))),
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),
                model_.bufferViews) {

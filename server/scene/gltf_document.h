@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/daylight.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_model.h"
 
@@ -34,6 +35,9 @@ class GltfDocument {
         return buffers_.view(view);
     }
 
+    /// Daylight as the file asks for it.
+    [[nodiscard]] const Daylight& daylight() const { return daylight_; }
+
     /// Adds a notice for the user, once.
     void note(const std::string& text);
     [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
@@ -44,6 +48,7 @@ class GltfDocument {
     GltfDocument(const std::string& path, GltfContainer container);
 
     std::string path_;
+    Daylight daylight_;
     tinygltf::Model model_;
     Json extensions_;
     GltfBuffers buffers_;

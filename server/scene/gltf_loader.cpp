@@ -9,6 +9,7 @@
 #include <new>
 
 #include "scene/default_camera.h"
+#include "scene/environment.h"
 #include "scene/geometry_defects.h"
 #include "scene/gltf_bake.h"
 #include "scene/gltf_camera.h"
@@ -72,8 +73,11 @@ void apply_ies(const std::string& choice, Scene& scene) {
 }
 
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
+    const Daylight daylight = overlaid(document.daylight(), settings.daylight);
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
+    } else if (daylight.given()) {
+        apply_daylight(daylight, scene);
     } else if (!has_emitter(scene)) {
         scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
         document.note(

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/daylight.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -25,7 +26,8 @@ class SceneError : public std::runtime_error {
 
 struct SceneSettings {
     float metres_per_unit = 1.0F;           ///< --unit
-    std::optional<float> sky_luminance;     ///< --sky, cd/m²
+    std::optional<float> sky_luminance;     ///< --sky, cd/m², of a uniform sky
+    Daylight daylight;                      ///< --sky, --environment and what belongs to them
     float default_sky_luminance = 1000.0F;  ///< where a scene has no emitter at all, cd/m²
     std::vector<std::string> ies;           ///< --ies, LIGHT=FILE
 };

@@ -29,10 +29,37 @@ PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_
     placed.position = glm::dvec3(world * glm::dvec4(glm::dvec3(light.position), 1.0));
     placed.axes = orthonormal(glm::dmat3(world) * glm::dmat3(light.axes));
     placed.intensity = glm::dvec3(light.intensity);
+    placed.angular_radius = static_cast<double>(light.angular_radius);
     placed.inner_cosine = light.inner_cosine;
     placed.outer_cosine = light.outer_cosine;
     placed.profile = light.profile;
     return placed;
+}
+
+std::vector<PunctualLight> without_discs(std::span<const PunctualLight> lights) {
+    constexpr int parts = 8;
+    std::vector<PunctualLight> result;
+    for (const PunctualLight& light : lights) {
+        if (light.kind != PunctualKind::directional || !(light.angular_radius > 0.0F)) {
+            result.push_back(light);
+            continue;
+        }
+        for (int i = 0; i < parts; ++i) {  // Vogel's spiral: equal areas
+            constexpr float golden_angle = 2.39996323F;
+            const float from_axis =
+                std::sin(light.angular_radius) * std::sqrt((static_cast<float>(i) + 0.5F) / parts);
+            const float angle = golden_angle * static_cast<float>(i);
+            PunctualLight part = light;
+            part.angular_radius = 0.0F;
+            part.intensity /= static_cast<float>(parts);
+            part.axes = glm::mat3(orthonormal(glm::dmat3(light.axes)));
+            part.axes[2] =
+                part.axes * glm::vec3(from_axis * std::cos(angle), from_axis * std::sin(angle),
+                                      std::sqrt(1.0F - from_axis * from_axis));
+            result.push_back(part);
+        }
+    }
+    return result;
 }
 
 /// KHR_lights_punctual, "Inner and Outer Cone Angles".

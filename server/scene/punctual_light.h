@@ -3,7 +3,9 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "scene/ies_profile.h"
 
@@ -25,8 +27,10 @@ struct PunctualLight {
     /// Directional: illuminance of a surface that faces it, lx; else luminous intensity, cd, of a
     /// spot along its axis.
     glm::vec3 intensity{0.0F};
-    float inner_cosine = 1.0F;  ///< spot: full intensity within this cone
-    float outer_cosine = 0.0F;  ///< spot: dark outside this one; below inner_cosine
+    float angular_radius = 0.0F;  ///< directional: half of the diameter of its disc, radians
+    bool of_sky = false;          ///< part of Scene::environment
+    float inner_cosine = 1.0F;    ///< spot: full intensity within this cone
+    float outer_cosine = 0.0F;    ///< spot: dark outside this one; below inner_cosine
     /// Of a point light: its intensity over direction, whose factor `intensity` is then.
     std::shared_ptr<const IesProfile> profile;
 };
@@ -37,6 +41,7 @@ struct PlacedLight {
     glm::dvec3 position{0.0};  ///< m
     glm::dmat3 axes{1.0};      ///< orthonormal; it shines along -axes[2]
     glm::dvec3 intensity{0.0};
+    double angular_radius = 0.0;
     double inner_cosine = 1.0, outer_cosine = 0.0;
     std::shared_ptr<const IesProfile> profile;
 
@@ -51,5 +56,8 @@ struct PlacedLight {
 
 /// world_from_object: of the light's object; identity for a light without one.
 PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object);
+
+/// The same light by lights without a disc: one that has a disc becomes eight, spread over it.
+std::vector<PunctualLight> without_discs(std::span<const PunctualLight> lights);
 
 }  // namespace raybundle

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "scene/punctual_light.h"
 
 namespace raybundle {
+
+class Environment;
 
 /// Axis-aligned box; empty while min > max.
 struct Bounds {
@@ -152,7 +155,9 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<PunctualLight> punctual_lights;  ///< none of them black
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
-    Bounds bounds;                 ///< world space
+    /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
+    std::shared_ptr<const Environment> environment;
+    Bounds bounds;  ///< world space
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

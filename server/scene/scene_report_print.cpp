@@ -6,6 +6,8 @@
 
 #include "scene/scene_report.h"
 
+#include "scene/environment.h"
+
 namespace raybundle {
 namespace {
 
@@ -50,6 +52,9 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
                        report.edges.boundary, report.edges.non_manifold);
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
+    if (scene.environment) {
+        out << fmt::format("environment {}\n", scene.environment->description());
+    }
 }
 
 const char* name_of(PunctualKind kind) {
@@ -188,29 +193,31 @@ void print_scene_report(std::ostream& out, const Scene& scene, const SceneReport
 }
 
 Json scene_report_json(const Scene& scene, const SceneReport& report) {
-    Json json = {{"name", scene.name},
-                 {"path", scene.path},
-                 {"bounds", json_of(scene.bounds)},
-                 {"triangles", scene.triangles.size()},
-                 {"vertices", report.referenced_vertices},
-                 {"area", report.area},
-                 {"patches", report.patches},
-                 {"patchTriangles", report.patch_triangles},
-                 {"patchVertices", report.patch_vertices},
-                 {"degenerateTriangles", scene.removed.degenerate_triangles},
-                 {"duplicateFaces", scene.removed.duplicate_faces},
-                 {"boundaryEdges", report.edges.boundary},
-                 {"nonManifoldEdges", report.edges.non_manifold},
-                 {"texturedMaterials", report.textured_materials},
-                 {"doubleSidedMaterials", report.double_sided_materials},
-                 {"textureBytes", report.texture_bytes},
-                 {"skyRadiance", json_of(scene.sky_radiance)},
-                 {"objects", objects_json(scene)},
-                 {"materials", materials_json(scene)},
-                 {"lights", lights_json(scene)},
-                 {"cameras", cameras_json(scene)},
-                 {"textures", textures_json(scene)},
-                 {"notices", scene.notices}};
+    Json json = {
+        {"name", scene.name},
+        {"path", scene.path},
+        {"bounds", json_of(scene.bounds)},
+        {"triangles", scene.triangles.size()},
+        {"vertices", report.referenced_vertices},
+        {"area", report.area},
+        {"patches", report.patches},
+        {"patchTriangles", report.patch_triangles},
+        {"patchVertices", report.patch_vertices},
+        {"degenerateTriangles", scene.removed.degenerate_triangles},
+        {"duplicateFaces", scene.removed.duplicate_faces},
+        {"boundaryEdges", report.edges.boundary},
+        {"nonManifoldEdges", report.edges.non_manifold},
+        {"texturedMaterials", report.textured_materials},
+        {"doubleSidedMaterials", report.double_sided_materials},
+        {"textureBytes", report.texture_bytes},
+        {"skyRadiance", json_of(scene.sky_radiance)},
+        {"environment", scene.environment ? scene.environment->description() : std::string()},
+        {"objects", objects_json(scene)},
+        {"materials", materials_json(scene)},
+        {"lights", lights_json(scene)},
+        {"cameras", cameras_json(scene)},
+        {"textures", textures_json(scene)},
+        {"notices", scene.notices}};
     if (report.unit_hint) {
         json["unitHint"] = *report.unit_hint;
     }

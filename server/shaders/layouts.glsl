@@ -96,6 +96,7 @@
 
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
+#define UNIT_ENVIRONMENT 30       // rgba32f, equirectangular: cd/m^2, see environment.glsl
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
@@ -251,7 +252,8 @@ struct BundleParameters {
     vec4 axis_y;         // the same along y; w of parallel bundles: R, the depth of the window's slab, m
     vec4 axis_z;         // unit: normal of the shooter, or direction of the parallel bundle; w: p_j of the shooter
     vec4 densities;      // P1/(2 pi), P2/(2 pi R), P3, shooter's p_j/A_j
-    vec4 sky;            // radiance of lines that meet nothing, radiance units; w = tie distance, m
+    vec4 sky;            // radiance from far along z where nothing is met, radiance units; w = tie distance, m
+    vec4 sky_behind;     // the same from far against z
     vec4 constant;       // rgb: constant radiance term, what is transferred is radiance less this; w: weight of a
                          // glossy shooter's hemicube top
     vec4 side_weights;   // and of its sides; 0: not drawn
@@ -271,7 +273,9 @@ struct ViewParameters {
     vec4 forward;       // unit
     uvec4 size;         // width, height, probe columns, probe rows
     vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, isolines
-    vec4 sky;           // background radiance, radiance units
+    vec4 sky;           // background radiance, radiance units; w = factor of the environment's texels
+    vec4 sun;           // to it, unit; w = cosine of its radius, above 1: none is drawn
+    vec4 sun_radiance;  // cd/m^2
     vec4 weights;       // x: weight of all samples since the last resolve, y: of a batch in it
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
 };

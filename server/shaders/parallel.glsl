@@ -22,6 +22,9 @@ float plane_depth(vec4 plane, vec3 point) {
 /// Surface on the side of a triangle that looks towards +z (far = true) or -z, as seen of `surface`.
 uint side_of_surface(uint surface, bool far) { return far == faces_far(surface) ? 0u : 1u; }
 
+/// Radiance of a line that meets nothing, from far along +z or -z.
+vec3 sky_radiance(bool far) { return far ? bundle.sky.rgb : bundle.sky_behind.rgb; }
+
 /// d(omega) of a line that meets nothing beyond a depth: as if the sky were where the window's slab ends,
 /// since that is the farthest that a plane can lie.
 float sky_density(float depth, bool far) {

@@ -186,8 +186,8 @@ void exchange_row(ivec2 texel, int end) {
     while (texel.x < end) {
         Exchange e = follow(behind, ahead, texel, point, pixel_step, end, surfaces);
 #ifdef SKY
-        vec3 from_ahead = ahead.surface == NO_HIT ? bundle.sky.rgb : ahead.radiance.rgb;
-        vec3 from_behind = behind.surface == NO_HIT ? bundle.sky.rgb : behind.radiance.rgb;
+        vec3 from_ahead = ahead.surface == NO_HIT ? sky_radiance(true) : ahead.radiance.rgb;
+        vec3 from_behind = behind.surface == NO_HIT ? sky_radiance(false) : behind.radiance.rgb;
 #else
         vec3 from_ahead = ahead.radiance.rgb;
         vec3 from_behind = behind.radiance.rgb;

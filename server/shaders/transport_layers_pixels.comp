@@ -15,17 +15,21 @@ layout(std430, binding = BINDING_COUNTERS) readonly buffer CounterBuffer { Count
 struct Seen {
     uint surface;  // NO_HIT: the sky
     float ahead;   // m
+    bool own;      // the line meets the receiver's own surface
 };
 
 /// Nearest surface that x sees, looking far (+z) or near (-z), among those on the window pixel's line.
 /// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
 Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
-    Seen seen = Seen(NO_HIT, beyond_all);
+    Seen seen = Seen(NO_HIT, beyond_all, false);
     float tiny = bundle.sky.w;
     vec3 looking = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
     uint count = min(layer_counts[pixel], layer_capacity());
     for (uint k = 0u; k < count; ++k) {
         uint surface = layer_surfaces[layer_slot(k, pixel)];
+#ifdef SKY
+        seen.own = seen.own || surface >> 1 == x.surface >> 1;
+#endif
         float along = plane_depth(facet_plane(facet_base + (surface >> 1)), line) - x_depth;
         float ahead = far ? along : -along;
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
@@ -40,7 +44,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         // Of coinciding surfaces the one that faces x is seen.
         ahead -= faces_far(surface) != far ? tiny : 0.0;
         if (ahead < seen.ahead || (ahead == seen.ahead && surface < seen.surface)) {
-            seen = Seen(surface, ahead);
+            seen = Seen(surface, ahead, seen.own);
         }
     }
     return seen;
@@ -72,9 +76,29 @@ void main() {
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
         w_in = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
         Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
+#ifdef SKY
+        // A line beside the receiver's surface may pass outside of a room. One next to it that meets the surface
+        // sees what the receiver sees.
+        for (bool beside = seen.surface == NO_HIT && !seen.own; beside; beside = false) {
+            for (int k = 0; k < 9 && !seen.own; ++k) {
+                ivec2 other = texel + ivec2(k % 3 - 1, k / 3 - 1);
+                if (any(lessThan(other, rectangle.xy)) || any(greaterThanEqual(other, rectangle.zw))) {
+                    continue;
+                }
+                vec3 other_line = window_point(uvec2(other));
+                vec2 aside = (vec2(other) + 0.5) * bundle.weights.z - d.xy;
+                uint at = uint(other.y) * bundle.resolution.x + uint(other.x);
+                Seen found = look(at, x, far, d.z, other_line, aside, footprint);
+                if (found.own) {
+                    seen = found;
+                    line = other_line;
+                }
+            }
+        }
+#endif
         if (seen.surface == NO_HIT) {
             float density = sky_density(d.z, far);
-            value = density > 0.0 ? bundle.sky.rgb * (cos_x / density) : vec3(0.0);
+            value = density > 0.0 ? sky_radiance(far) * (cos_x / density) : vec3(0.0);
         } else {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));
             float depth = plane_depth(facet.plane, line);

@@ -47,7 +47,7 @@ bool plane_visible(Receiver x, Line line, uint surface) {
 vec3 incoming(Receiver x, Line line, uint surface) {
     if (surface == NO_HIT) {
         float density = sky_density(line.depth, line.far);
-        return density > 0.0 ? bundle.sky.rgb / density : vec3(0.0);
+        return density > 0.0 ? sky_radiance(line.far) / density : vec3(0.0);
     }
     float ahead = distance_ahead(line, surface);
     if (ahead <= bundle.sky.w || no_obstacle(x, line, surface, ahead)) {

@@ -12,6 +12,9 @@ layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance
 #ifdef GLOSSY
 layout(binding = UNIT_PIXEL_GLOSS) uniform samplerBuffer pixel_gloss_texels;
 #endif
+#ifdef ENVIRONMENT
+#include "environment.glsl"
+#endif
 #ifdef FIRST_SHOT
 layout(binding = UNIT_PIXEL_FIRST_SHOT) uniform samplerBuffer pixel_first_shot_texels;
 #endif
@@ -64,10 +67,22 @@ vec3 pixel_albedo(PixelSurface p) {
     return root * root;
 }
 
+/// Radiance of what a pixel sees beyond the scene.
+vec3 background(uint index) {
+    vec3 sum = view.sky.rgb;
+#ifdef ENVIRONMENT
+    uint row = index / view.size.x;
+    vec2 ndc = (vec2(index - row * view.size.x, row) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
+    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+    sum += environment_radiance(normalize(direction)) * view.sky.w;
+#endif
+    return sum;
+}
+
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
     if (p.patch_id == NO_PATCH) {
-        return (p.facet & PIXEL_SKY) != 0u ? view.sky.rgb : vec3(0.0);
+        return (p.facet & PIXEL_SKY) != 0u ? background(index) : vec3(0.0);
     }
     vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
     vec3 reflected = pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;

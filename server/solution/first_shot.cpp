@@ -10,10 +10,12 @@ namespace raybundle {
 namespace {
 
 constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
-/// Parts along an edge of a patch: many patches are small ones.
-unsigned divisions_of(std::uint32_t patches) {
+/// Parts along an edge of a patch: many patches are small ones, and many lights average over what
+/// each of them misses.
+unsigned divisions_of(std::uint32_t patches, std::size_t lights) {
     constexpr std::uint32_t many_patches = 100'000;
-    return patches < many_patches ? 4 : 2;
+    constexpr std::size_t many_pairs = 160'000;
+    return patches < many_patches && patches * lights < many_pairs ? 4 : 2;
 }
 
 /// A profile at the directions of shaders/first_shot.glsl, cd.
@@ -53,7 +55,7 @@ void FirstShot::update() {
     bind();
     set_uniforms(shoot_);
     shoot_.set("patch_count", scene_.patch_count());
-    shoot_.set("divisions", divisions_of(scene_.patch_count()));
+    shoot_.set("divisions", divisions_of(scene_.patch_count(), scene_.punctual_lights().size()));
     shoot_.dispatch(scene_.patch_count());
 }
 

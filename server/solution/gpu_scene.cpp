@@ -71,8 +71,10 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       origin_(scene.bounds.centre()),
       radiance_unit_(unit_for(largest_emission(scene, mesh))),
       constant_radiance_(constant_radiance),
-      sky_(scene.sky_radiance / radiance_unit_),
-      punctual_lights_(scene.punctual_lights),
+      has_sky_(raybundle::has_sky(scene)),
+      uniform_sky_(scene.sky_radiance),
+      environment_(scene.environment),
+      punctual_lights_(without_discs(scene.punctual_lights)),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
@@ -92,6 +94,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
     upload_reflectors(mesh);
     upload_vertex_data(mesh);
     create_textures();
+    upload_environment();
     choose_defines(scene, mesh);
     upload_matrices();
     place_geometry(Place::now);
@@ -122,7 +125,10 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
 }
 
 float GpuScene::largest_emission(const Scene& scene, const PatchMesh& mesh) {
-    const glm::vec3& sky = scene.sky_radiance;
+    // No surface that an environment lights is brighter than four times its mean.
+    const glm::vec3 sky =
+        scene.sky_radiance +
+        (scene.environment ? 2.0F * glm::vec3(scene.environment->mean()) : glm::vec3(0.0F));
     float largest = std::max({sky.r, sky.g, sky.b});
     // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
     // away from a lamp.
@@ -270,11 +276,12 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                           [](const PunctualLight& light) { return light.profile != nullptr; }),
               "IES");
+    define_if(environment_ != nullptr, "ENVIRONMENT");
     thin_walls_ = has_thin_walls(scene, mesh);
     constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy();
     define_if(constant_radiance_, "CONSTANT_RADIANCE");
     // A line that meets nothing lacks the constant.
-    define_if(scene.sky_radiance != glm::vec3(0.0F) || constant_radiance_, "SKY");
+    define_if(has_sky_ || constant_radiance_, "SKY");
     define_if(thin_walls_, "THIN_WALLS");
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");
@@ -349,6 +356,9 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
     facets_.bind();
     reflectance_.bind();
+    if (environment_) {
+        glBindTextureUnit(UNIT_ENVIRONMENT, environment_texture_.get());
+    }
     if (reflectance_.any_glossy()) {
         glBindTextureUnit(UNIT_REFLECTORS, reflector_texture_.get());
     }
@@ -411,7 +421,8 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum = facets_.bytes() + reflectance_.bytes() + reflectors_.bytes();
+    std::size_t sum =
+        facets_.bytes() + reflectance_.bytes() + reflectors_.bytes() + environment_bytes_;
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {

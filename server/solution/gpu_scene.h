@@ -9,6 +9,7 @@
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
+#include "scene/environment.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "solution/facet_raster.h"
@@ -54,7 +55,8 @@ class GpuScene {
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
     /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
-    /// profiles), CONSTANT_RADIANCE. What is absent is not even compiled.
+    /// profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE. What is absent
+    /// is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -67,7 +69,12 @@ class GpuScene {
     [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
     [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
     [[nodiscard]] const glm::vec3& origin() const { return origin_; }
-    [[nodiscard]] glm::vec3 sky() const { return sky_; }  ///< radiance units
+    [[nodiscard]] bool has_sky() const { return has_sky_; }
+    /// Radiance of lines that leave the scene in a direction, radiance units.
+    [[nodiscard]] glm::vec3 sky_towards(const glm::vec3& direction) const;
+    /// What a view shows beyond the scene; its environment is bound with bind().
+    void set_background(layout::ViewParameters& view) const;
+    /// A light with a disc is several without.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return punctual_lights_;
     }
@@ -91,6 +98,7 @@ class GpuScene {
     [[nodiscard]] layout::MaterialData material_data(const Material& material) const;
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
+    void upload_environment();
     void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
     void upload_matrices();
@@ -102,7 +110,11 @@ class GpuScene {
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool constant_radiance_;
-    glm::vec3 sky_{0.0F};
+    bool has_sky_ = false;
+    glm::vec3 uniform_sky_{0.0F};  // cd/m²
+    std::shared_ptr<const Environment> environment_;
+    Texture2D environment_texture_;  // only where there is one
+    std::size_t environment_bytes_ = 0;
     std::vector<PunctualLight> punctual_lights_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]

@@ -18,7 +18,6 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
 
 void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {
     radiance_unit_ = unit;
-    sky_ = scene.sky_radiance / radiance_unit_;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const layout::MaterialData data = material_data(scene.materials[i]);
         materials_.write<layout::MaterialData>(std::span(&data, 1),

@@ -173,7 +173,7 @@ void RadianceStore::refresh_power() const {
     flux_sum_.set("patch_count", patch_count_);
     flux_sum_.dispatch(patch_count_);
     balance_flux_.set("block_count", block_count_);
-    balance_flux_.set("balanced", scene_.sky() == glm::vec3(0.0F) ? 1 : 0);
+    balance_flux_.set("balanced", scene_.has_sky() ? 0 : 1);
     balance_flux_.set("constant_radiance", scene_.constant_radiance() ? 1 : 0);
     balance_flux_.set("shoots_only", shoots_only_ ? 1 : 0);
     balance_flux_.dispatch(1);

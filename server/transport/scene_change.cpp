@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/environment.h"
+
 namespace raybundle {
 namespace {
 
@@ -71,8 +73,7 @@ glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, std::span<cons
     std::vector<Share> shares;
     for (int c = 0; c < 3; ++c) {
         shares.clear();
-        shares.push_back(
-            {1.0, static_cast<double>(scene.sky_radiance[c]) * box_area(scene.bounds)});
+        shares.push_back({1.0, mean_sky(scene)[c] * box_area(scene.bounds)});
         for (const auto& [patch, area] : emitters) {
             const auto old = static_cast<double>(before[patch][c]);
             if (old > 0.0) {

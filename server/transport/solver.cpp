@@ -156,7 +156,7 @@ float Solver::iterate_step() const {
     }
     // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
     // unless the energy balance sets it. Only perspective bundles tell it what flux escapes.
-    const bool balanced = scene_.sky() == glm::vec3(0.0F) && probabilities_.perspective > 0.0F;
+    const bool balanced = !scene_.has_sky() && probabilities_.perspective > 0.0F;
     const float exponent = balanced ? 0.8F : 0.66F;
     constexpr float smallest = 1.0F / 2048.0F;
     const auto age = static_cast<float>(

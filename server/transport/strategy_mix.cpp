@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/environment.h"
+
 namespace raybundle {
 
 StrategyProbabilities StrategyMix::at(std::uint64_t iterations) const {
@@ -20,14 +22,14 @@ StrategyMix ageing_mix() {
 }
 
 StrategyMix with_sky(const StrategyMix& mix, const Scene& scene) {
-    if (luminance(scene.sky_radiance) <= 0.0F) {
+    if (!has_sky(scene)) {
         return mix;
     }
     const float least = has_emitter(scene) ? 0.4F : 0.75F;
     const auto raised = [least](StrategyProbabilities p) {
         if (p.layered > 0.0F && p.perspective > 0.0F) {
             p.layered = std::max(p.layered, least);
-            p.plane = std::min(p.plane, 0.5F * (1.0F - p.layered));
+            p.plane = 0.0F;  // their pixels cannot tell whether a line passes beside a room
             p.perspective = 1.0F - p.layered - p.plane;
         }
         return p;

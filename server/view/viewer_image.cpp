@@ -246,7 +246,7 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     parameters_ =
         make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
     parameters_.display = display;
-    parameters_.sky = glm::vec4(scene_.sky(), 0.0F);
+    scene_.set_background(parameters_);
     upload_view();
     raster(parameters_.clip_from_world, whole_picture());
     std::swap(pixels_, old_pixels_);

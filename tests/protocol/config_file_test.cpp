@@ -43,7 +43,7 @@ TEST(ConfigFile, EveryOptionCanBeSet) {
         "minFramesPerSecond":2,"maxConnections":9,"maxConnectionsPerAddress":4,"maxMessagesPerSecond":50.5,
         "journal":"j.db","watch":true,
         "logFormat":"json","patchSize":0.25,"seed":18446744073709551615,"gpu":2,"unit":"cm",
-        "sky":5000,"logLevel":"warn",
+        "sky":5000,"sunElevation":30,"groundAlbedo":0.5,"environment":"e.hdr","logLevel":"warn",
         "tokens":[{"name":"lead","role":"EDITOR","sha256":")" +
                           kDigest + R"("}]})",
                       options);
@@ -55,7 +55,7 @@ TEST(ConfigFile, EveryOptionCanBeSet) {
     EXPECT_DOUBLE_EQ(options.max_messages_per_second, 50.5);
     EXPECT_FLOAT_EQ(options.patch_size, 0.25F);
     EXPECT_EQ(options.seed, 18446744073709551615U);
-    EXPECT_EQ(options.sky, 5000.0F);
+    EXPECT_EQ(options.sky.luminance(), 5000.0F);
     ASSERT_EQ(options.tokens.size(), 1U);
     EXPECT_EQ(options.tokens[0].role, v1::EDITOR);
 }
@@ -88,6 +88,9 @@ TEST(ConfigFile, ErrorsNameFileKeyAndReason) {
         {R"({"allowRemote":1})", "site.json: allowRemote: must be true or false"},
         {R"({"listen":"here"})", "site.json: listen: 'here' is not HOST:PORT"},
         {R"({"sky":-1})", "site.json: sky: must be a number of at least 0"},
+        {R"({"sky":"blue"})", "site.json: sky: 'blue' is neither a luminance"},
+        {R"({"sky":[1]})", "site.json: sky: must be a text"},
+        {R"({"sunElevation":100})", "site.json: sunElevation: must be a number from 0 to 90"},
         {R"({"unit":"mile"})", "site.json: unit: 'mile' is none of m, cm, mm, in, ft"},
         {R"({"allowedOrigins":["a.example"]})", "site.json: allowedOrigins: 'a.example' is not an"},
         {R"({"allowedOrigins":"x"})", "site.json: allowedOrigins: must be an array of texts"},

@@ -9,11 +9,13 @@
 
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "lit_room.h"
 #include "reference/reference_method.h"
 #include "rooms.h"
+#include "scene/sky_dome.h"
 
 namespace raybundle {
 namespace {
@@ -127,9 +129,18 @@ View screened_view(std::size_t material) {
     return view;
 }
 
-/// Punctual lights of all kinds.
+/// Punctual lights of all kinds, a sky that varies over direction, and a sun with a wide disc.
 View lit_view() {
-    return {lit_room(odd_rotation(), 1), lit_room_camera(odd_rotation())};
+    View view{lit_room(odd_rotation(), 1), lit_room_camera(odd_rotation())};
+    SkyDomeSettings sky;
+    sky.sky.type = CieSky::standard_clear;
+    sky.zenith_luminance = 6.0;
+    sky.sun_illuminance = 80.0;
+    sky.sun_elevation = 0.6;
+    sky.sun_azimuth = 0.4;
+    sky.sun_radius = 0.08;
+    set_environment(std::make_shared<const SkyDome>(sky), view.builder.scene);
+    return view;
 }
 
 /// The same number of views as glossy_materials(), and the rooms.

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "gltf_builder.h"
+#include "scene/environment.h"
 #include "scene/patch_mesh.h"
 
 namespace raybundle::test {
@@ -45,7 +46,7 @@ void check_scene(const Scene& scene) {
     EXPECT_FALSE(scene.objects.empty());
     EXPECT_FALSE(scene.materials.empty());
     EXPECT_FALSE(scene.cameras.empty());
-    EXPECT_TRUE(has_emitter(scene) || scene.sky_radiance.x > 0.0F);
+    EXPECT_TRUE(has_emitter(scene) || has_sky(scene));
     for (const Triangle& triangle : scene.triangles) {
         ASSERT_LT(triangle.material, scene.materials.size());
         ASSERT_LT(triangle.object, scene.objects.size());

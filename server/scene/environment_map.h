@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/environment.h"
+
+namespace raybundle {
+
+/// An equirectangular image of radiance, linear. Row 0 shows the zenith; its middle column looks
+/// north (-Z) and columns go clockwise as seen from above, so that a quarter to the right is east
+/// (+X).
+struct EquirectangularImage {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> pixels;  ///< width * height
+};
+
+struct EnvironmentMapSettings {
+    std::string name;       ///< for people: the file's
+    double rotation = 0.0;  ///< radians, clockwise as seen from above
+    double scale = 1.0;     ///< cd/m² of one unit of the image
+};
+
+/// An image as environment. What is many times brighter than its mean and small is taken out of
+/// radiance() and becomes a source: no number of random directions finds a sun.
+class EnvironmentMap final : public Environment {
+  public:
+    /// The image must have pixels, finite and not negative.
+    EnvironmentMap(EquirectangularImage image, const EnvironmentMapSettings& settings);
+
+    [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& direction) const override;
+    [[nodiscard]] glm::dvec3 shown(const glm::dvec3& direction) const override;
+    [[nodiscard]] glm::dvec3 mean() const override { return mean_; }
+    [[nodiscard]] const std::vector<SkySource>& sources() const override { return sources_; }
+    [[nodiscard]] std::string description() const override;
+    [[nodiscard]] bool is_image() const override { return true; }
+    [[nodiscard]] bool draws_sources() const override { return false; }
+
+  private:
+    [[nodiscard]] glm::dvec3 look_up(const std::vector<glm::vec3>& pixels,
+                                     const glm::dvec3& direction) const;
+    [[nodiscard]] glm::dvec3 pixel_direction(int x, int y) const;
+    [[nodiscard]] double solid_angle(int y) const;
+    [[nodiscard]] double mean_luminance(double limit) const;
+    void take_sources();
+    void take_source(std::span<const int> spot, const glm::vec3& limit);
+
+    EquirectangularImage image_;
+    EnvironmentMapSettings settings_;
+    std::vector<glm::vec3> dimmed_;  // the image without its sources; empty where there are none
+    glm::dvec3 mean_{0.0};
+    std::vector<SkySource> sources_;
+};
+
+/// Decodes a Radiance HDR or OpenEXR file. Throws SceneError naming `file`.
+EquirectangularImage read_equirectangular(const std::string& file,
+                                          std::span<const std::uint8_t> bytes);
+
+}  // namespace raybundle
