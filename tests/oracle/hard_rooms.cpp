@@ -235,28 +235,6 @@ KnownScene corner() {
     return scene;
 }
 
-Corridor corridor() {
-    constexpr int slices = 10;
-    Corridor result;
-    SceneBuilder& b = result.builder;
-    b.set_transform(odd_rotation());
-    const auto wall = b.add_material(glm::vec3(0.5F));
-    const auto lamp = b.add_material(glm::vec3(0.5F), glm::vec3(1000.0F));
-    for (int i = 0; i < slices; ++i) {
-        const float z = 10.0F * static_cast<float>(i);
-        result.first.push_back(b.mesh.patch_count());
-        const glm::vec3 along(0, 0, 10);
-        b.add_quad({0, 0, z}, along, {1, 0, 0}, 40, 1, wall);  // floor
-        b.add_quad({0, 1, z}, {1, 0, 0}, along, 1, 40, wall);  // ceiling
-        b.add_quad({0, 0, z}, {0, 1, 0}, along, 1, 40, wall);  // left
-        b.add_quad({1, 0, z}, along, {0, 1, 0}, 40, 1, wall);  // right
-    }
-    result.first.push_back(b.mesh.patch_count());
-    b.add_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, lamp);
-    b.add_quad({0, 0, 100}, {0, 1, 0}, {1, 0, 0}, 1, 1, wall);
-    return result;
-}
-
 KnownScene hall_with_small_patches() {
     constexpr float side = 1e-3F;
     KnownScene scene;

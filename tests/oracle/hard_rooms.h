@@ -42,14 +42,6 @@ KnownScene bright_and_dim_room();
 /// patch along the common edge, by the factor of Lambert's polygon formula.
 KnownScene corner();
 
-/// A corridor of 1 x 1 x 100 m, closed, albedo 0.5, whose end at z = 0 emits. In `slices` of 10 m,
-/// each of 40 x 4 x 2 patches; the two ends are the last four patches.
-struct Corridor {
-    SceneBuilder builder;
-    std::vector<std::size_t> first;  ///< patch of each slice, and past the last
-};
-Corridor corridor();
-
 /// A hall of 100 x 4 x 4 m that emits everywhere and is black; scattered over its floor, 10 cm
 /// above it, 100 000 black squares of 1 mm. Known: the mean over the squares, pi Le.
 KnownScene hall_with_small_patches();
