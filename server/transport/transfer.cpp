@@ -37,11 +37,14 @@ glm::ivec4 to_vector(const PixelRectangle& r) {
     return {r.x0, r.y0, r.x1, r.y1};
 }
 
-/// Which of so many pixel rows a transfer samples. Returns how many.
-unsigned set_rows(const ShaderProgram& program, int rows, const TransferSettings& settings) {
+/// Which pixel rows from first_row on a transfer samples: those that it would sample of the whole
+/// picture too. Returns how many of `rows`, at most.
+unsigned set_rows(const ShaderProgram& program, int first_row, int rows,
+                  const TransferSettings& settings) {
     const unsigned stride = settings.context.special ? special_row_stride : row_stride;
+    const auto phase = static_cast<unsigned>(settings.row_phase * stride);
     program.set("row_stride", stride);
-    program.set("row_phase", static_cast<unsigned>(settings.row_phase * stride));
+    program.set("row_phase", (phase + stride - static_cast<unsigned>(first_row) % stride) % stride);
     return (static_cast<unsigned>(rows) + stride - 1) / stride;
 }
 
@@ -85,8 +88,8 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                    settings.probabilities.plane / (two_pi * parallel_depth(scene_.diameter())),
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
-    p.sky = glm::vec4(scene_.sky_towards(frame.z) - settings.constant,
-                      tie_share * scene_.diameter());
+    p.sky =
+        glm::vec4(scene_.sky_towards(frame.z) - settings.constant, tie_share * scene_.diameter());
     p.sky_behind = glm::vec4(scene_.sky_towards(-frame.z) - settings.constant, 0.0F);
     p.constant = glm::vec4(settings.constant, settings.face_weights[0]);
     p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
@@ -138,7 +141,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
         patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
         patches.set("run_columns", columns);
         patches.set("rows", static_cast<unsigned>(r.height()));
-        const unsigned sampled = set_rows(patches, r.height(), settings);
+        const unsigned sampled = set_rows(patches, first_row + r.y0, r.height(), settings);
         patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
     };
     const bool whole = !settings.context.special && settings.face_weights == all_faces;
@@ -192,7 +195,7 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
     layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
     layers_patches_.set("slot", settings.slot);
     set_bases(layers_patches_, place);
-    const unsigned rows = set_rows(layers_patches_, rectangle.height(), settings);
+    const unsigned rows = set_rows(layers_patches_, rectangle.y0, rectangle.height(), settings);
     layers_patches_.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_layers(settings.context);
@@ -214,7 +217,7 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
     const auto columns = static_cast<unsigned>(window.size + parallel_run - 1) / parallel_run;
     planes_->patches.set("run_columns", columns);
     set_bases(planes_->patches, place);
-    const unsigned rows = set_rows(planes_->patches, window.size, settings);
+    const unsigned rows = set_rows(planes_->patches, 0, window.size, settings);
     planes_->patches.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_planes(settings.context);
