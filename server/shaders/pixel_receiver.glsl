@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops that run once are conditions: a software rasteriser skips those that no lane enters.
 // Pixels of a viewer as receivers of a bundle (design: the image estimate M L of ch. 2.6 evaluated per
 // pixel): each looks its surface point up in the bundle, as in a shadow map.
 #include "octahedral.glsl"
+// A condition that few pixels meet as a loop that runs once: a software rasteriser skips loops that no lane
+// enters, but not conditions. Where most pixels enter, the loop costs more than it saves.
+#ifdef SPECIAL
+#define WHERE(condition) for (bool entered = condition; entered; entered = false)
+#else
+#define WHERE(condition) if (condition)
+#endif
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer {
@@ -59,7 +65,7 @@ bool load_receiver(uint index, out Receiver x) {
     // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
     x.object = facet_object(facet_base + facet);
     bool before = vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH;
-    for (bool elsewhere = before; elsewhere; elsewhere = false) {
+    WHERE(before) {
         vec2 v = unpackUnorm2x16(q.z);
         uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz + vertex_base;
         x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
@@ -134,7 +140,7 @@ vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
 /// Adds one sample (irradiance, radiance units; from w_in) of the running bundle.
 void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
     bool something = value.r + value.g + value.b < 1e30 && value != vec3(0.0);
-    for (bool some = something; some; some = false) {
+    WHERE(something) {
         vec3 seen = value;
 #ifdef GLOSSY_PIXELS
         seen = receive_gloss(index, x, w_in, value);

@@ -30,7 +30,7 @@ bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d)
     uint surface = texelFetch(surface_ids, texel, 0).r;
     float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;
     bool seen = surface == NO_HIT || surface == x.surface || depth <= hit_depth * 1.0001;
-    for (bool behind = !seen; behind; behind = false) {
+    WHERE(!seen) {
         int face;
         vec3 hit = hemicube_direction(sample_point(texel), float(bundle.resolution.x), face) * hit_depth;
         float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
@@ -51,7 +51,7 @@ void main() {
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     float r = length(d);
     bool mutual = d.z > 1e-6 * r && dot(x.geometric, offset) < -bundle.sky.w;
-    for (bool facing = mutual; facing; facing = false) {
+    WHERE(mutual) {
         int face;
         float depth;
         vec2 pixel = hemicube_pixel(d, float(bundle.resolution.x), face, depth);

@@ -35,7 +35,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
         bool close = abs(ahead) <= footprint;
         bool passed = surface == x.surface || ahead < (close ? -footprint : 0.0);
-        for (bool near = close && !passed; near; near = false) {
+        WHERE(close && !passed) {
             passed = beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny);
         }
         if (passed) {
@@ -69,7 +69,7 @@ void main() {
     float along = dot(x.normal, bundle.axis_z.xyz);
     bool far = dot(x.geometric, bundle.axis_z.xyz) > 0.0;
     float cos_x = far ? along : -along;
-    for (bool reached = inside && cos_x > 0.0; reached; reached = false) {
+    WHERE(inside && cos_x > 0.0) {
         vec3 line = window_point(uvec2(texel));
         vec2 lateral = (vec2(texel) + 0.5) * bundle.weights.z - d.xy;
         float footprint = 1.5 * bundle.weights.z / max(cos_x, 0.02);
