@@ -101,9 +101,9 @@ class Solver {
     [[nodiscard]] RadianceStore& store() { return store_; }
     [[nodiscard]] const RadianceStore& store() const { return store_; }
     [[nodiscard]] const BundleResolution& resolution() const;
-    /// Estimated standard error of the patches' irradiance, root mean square, relative: from how far
-    /// the iterate, a mean over few samples, is from the mean of all. Too small in the first few
-    /// hundred iterations, whose samples avoid each other.
+    /// Estimated standard error of the patches' irradiance, root mean square, relative: from how
+    /// far the iterate, a mean over few samples, is from the mean of all. Too small in the first
+    /// few hundred iterations, whose samples avoid each other.
     [[nodiscard]] double noise() const;
     /// State of the correction since loading or the last change; refreshed every few iterations.
     [[nodiscard]] const SolutionStatistics& statistics() const { return statistics_; }

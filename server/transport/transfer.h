@@ -33,9 +33,9 @@ struct TransferSettings {
     unsigned slot = 0;  ///< of a layered iteration in its group, for take_overflow()
     /// Iterations M over which perspective bundles trade bias for noise (ch. 5.4); 0: never.
     float noise_horizon = 0.0F;
-    bool coloured = false;     ///< patch sums carry the shooter's radiance (special phase)
+    bool coloured = false;  ///< patch sums carry the shooter's radiance (special phase)
     FaceWeights face_weights = all_faces;  ///< of a glossy shooter
-    glm::vec3 constant{0.0F};  ///< constant radiance term, radiance units
+    glm::vec3 constant{0.0F};              ///< constant radiance term, radiance units
     BundleReceiver::Context context;
 };
 
