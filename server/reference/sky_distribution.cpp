@@ -27,8 +27,10 @@ glm::dvec3 direction_at(double across, double down) {
 double brightest(const Scene& scene, int column, int row) {
     double most = 0.0;
     for (int k = 0; k < samples * samples; ++k) {
-        const double x = column + (k % samples + 0.5) / samples;
-        const double y = row + (k / samples + 0.5) / samples;
+        const int kx = k % samples;
+        const int ky = k / samples;
+        const double x = column + (kx + 0.5) / samples;
+        const double y = row + (ky + 0.5) / samples;
         const glm::dvec3 direction = direction_at(x / columns, y / rows);
         most = std::max(most, double{luminance(glm::vec3(sky_towards(scene, direction)))});
     }
@@ -55,7 +57,9 @@ SkyDistribution::SkyDistribution(const Scene& scene) {
 
 glm::dvec3 SkyDistribution::sample(double choice, const glm::dvec2& at) const {
     const auto cell = static_cast<int>(cells_.sample(choice));
-    return direction_at((cell % columns + at.x) / columns, (cell / columns + at.y) / rows);
+    const int column = cell % columns;
+    const int row = cell / columns;
+    return direction_at((column + at.x) / columns, (row + at.y) / rows);
 }
 
 double SkyDistribution::density(const glm::dvec3& direction) const {

@@ -71,7 +71,7 @@ EnvironmentMap::EnvironmentMap(EquirectangularImage image, const EnvironmentMapS
     for (int y = 0; y < image_.height; ++y) {
         glm::dvec3 row(0.0);
         for (int x = 0; x < image_.width; ++x) {
-            row += glm::dvec3(left[static_cast<std::size_t>(y * image_.width + x)]);
+            row += glm::dvec3(left[image_.index(x, y)]);
         }
         mean_ += row * (solid_angle(y) / (4.0 * pi));
     }
@@ -102,7 +102,7 @@ glm::dvec3 EnvironmentMap::look_up(const std::vector<glm::vec3>& pixels,
     const auto pixel = [&](int column, int row) {
         const int wrapped = (column + image_.width) % image_.width;
         const int clamped = std::clamp(row, 0, image_.height - 1);
-        return glm::dvec3(pixels[static_cast<std::size_t>(clamped * image_.width + wrapped)]);
+        return glm::dvec3(pixels[image_.index(wrapped, clamped)]);
     };
     const glm::dvec3 top = glm::mix(pixel(x, y), pixel(x + 1, y), u - x);
     const glm::dvec3 bottom = glm::mix(pixel(x, y + 1), pixel(x + 1, y + 1), u - x);
@@ -122,7 +122,7 @@ double EnvironmentMap::mean_luminance(double limit) const {
     double mean = 0.0;
     for (int y = 0; y < image_.height; ++y) {
         for (int x = 0; x < image_.width; ++x) {
-            const auto index = static_cast<std::size_t>(y * image_.width + x);
+            const std::size_t index = image_.index(x, y);
             mean +=
                 solid_angle(y) / (4.0 * pi) * std::min(luminance_of(image_.pixels[index]), limit);
         }

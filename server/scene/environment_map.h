@@ -17,6 +17,11 @@ struct EquirectangularImage {
     int width = 0;
     int height = 0;
     std::vector<glm::vec3> pixels;  ///< width * height
+
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
 };
 
 struct EnvironmentMapSettings {
