@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selection probability of shooting patches (ch. 5.3): proportional to luminance power, with a
-// defensive share for area and for emitted power, so that nothing bright is starved and a black scene
-// still samples.
+// defensive share for area and for emitting area, so that no light is starved, however dim beside others,
+// and a black scene still samples.
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
@@ -9,7 +9,7 @@ layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance
 layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
 #endif
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
-/// Per block of POWER_BLOCK patches: xyz = power, area, emitted power; w = probability of all blocks
+/// Per block of POWER_BLOCK patches: xyz = power, area, emitting area; w = probability of all blocks
 /// before it. One more element holds the totals.
 layout(std430, binding = BINDING_POWER) buffer PowerBuffer { vec4 blocks[]; };
 
@@ -24,14 +24,14 @@ const float defensive_share = 0.1;
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
-/// Power, area, emitted power of a patch (luminance, radiance units * m^2).
+/// Power (luminance, radiance units * m^2), area and emitting area (m^2) of a patch.
 vec3 patch_power(uint i) {
-    float emitted = pi * max(luminance(patch_source(i)), 0.0);
+    float emitting = luminance(patch_source(i)) > 0.0 ? 1.0 : 0.0;
     float area = patches[i].area;
 #ifdef CHANGE
-    return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitted * area);
+    return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitting * area);
 #else
-    return vec3(pi * luminance(abs(radiance[i].rgb - balance.constant.rgb)) * area, area, emitted * area);
+    return vec3(pi * luminance(abs(radiance[i].rgb - balance.constant.rgb)) * area, area, emitting * area);
 #endif
 }
 

@@ -54,6 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Quick{"squares", close_squares, layered(), 2048, 0.005},
                     Quick{"squares", close_squares, perspective(), 1024, 0.005},
                     Quick{"squares", close_squares, single_ray(), 2048, 0.005},
+                    Quick{"dim_room", bright_and_dim_room, perspective(), 4096, 0.02},
+                    Quick{"dim_room", bright_and_dim_room, combined(), 2048, 0.02},
                     Quick{"tetrahedron", tetrahedron, combined(), 2048, 0.005},
                     Quick{"tetrahedron", tetrahedron, single_ray(), 2048, 0.005},
                     Quick{"sphere", sphere, three_strategies(), 1024, 0.005},
