@@ -98,6 +98,13 @@ int run_render(const Options& options) {
     require_picture_format(options.output);
     const glm::uvec2 size = parse_size(options.size);
     const RenderMethod method = parse_method(options.method);
+    const bool variant =
+        options.bias_for_noise > 0 || options.constant_radiance || options.random_faces;
+    if (variant && (!options.script.empty() || std::holds_alternative<ReferenceKind>(method))) {
+        throw UsageError(
+            "--bias-for-noise, --constant-radiance and --random-faces: only for single pictures by "
+            "ray bundles");
+    }
     if (!options.script.empty()) {
         if (!std::holds_alternative<StrategyProbabilities>(method)) {
             throw UsageError("--script: --method " + options.method +
@@ -118,6 +125,9 @@ int run_render(const Options& options) {
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
     Solver solver(loaded.scene, loaded.mesh, settings);
+    if (options.constant_radiance && !solver.scene().constant_radiance()) {
+        spdlog::warn("--constant-radiance: left out, since {} has glossy surfaces", options.scene);
+    }
     const ViewPrograms programs(solver.scene());
     ViewerImage image(solver.scene(), solver.store(), programs, size);
     image.set_camera(camera);

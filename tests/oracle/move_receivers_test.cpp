@@ -60,17 +60,6 @@ Camera room_camera() {
     return camera;
 }
 
-double relative_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
-    double difference = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double d = static_cast<double>(a[i].g) - static_cast<double>(b[i].g);
-        difference += d * d;
-        size += static_cast<double>(b[i].g) * static_cast<double>(b[i].g);
-    }
-    return std::sqrt(difference / size);
-}
-
 /// The box moves in a dark room of its own: no line through it meets the lit one.
 TEST(MoveReceivers, PixelsThatNoLineThroughTheBoxReachesKeepValueAndWeight) {
     SceneBuilder b;

@@ -13,18 +13,6 @@ SolverSettings quick(std::uint64_t seed) {
     return quick_settings(seed, {128, 200});
 }
 
-/// Root mean square difference over root mean square, green channel.
-double relative_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
-    double difference = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double d = static_cast<double>(a[i].g) - static_cast<double>(b[i].g);
-        difference += d * d;
-        size += static_cast<double>(b[i].g) * static_cast<double>(b[i].g);
-    }
-    return std::sqrt(difference / size);
-}
-
 const glm::vec3 first_place(1.2F, 0.0F, 1.5F);
 const glm::vec3 second_place(2.6F, 0.0F, 2.4F);
 

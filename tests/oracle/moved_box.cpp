@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moved_box.h"
 
+#include <cmath>
+
 namespace raybundle {
 
 SceneBuilder room_with_box(const glm::vec3& box_place) {
@@ -38,6 +40,17 @@ void move_box(Solver& solver, const glm::vec3& place) {
     while (solver.correcting()) {
         solver.step({});
     }
+}
+
+double relative_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double d = static_cast<double>(a[i].g) - static_cast<double>(b[i].g);
+        difference += d * d;
+        size += static_cast<double>(b[i].g) * static_cast<double>(b[i].g);
+    }
+    return std::sqrt(difference / size);
 }
 
 }  // namespace raybundle

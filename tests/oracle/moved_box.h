@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
@@ -19,5 +20,7 @@ SolverSettings quick_settings(std::uint64_t seed, const BundleResolution& resolu
 void iterate(Solver& solver, std::uint64_t count);
 /// Moves the box and carries the special phase through.
 void move_box(Solver& solver, const glm::vec3& place);
+/// Root mean square difference over root mean square of the second, green channel.
+double relative_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
 
 }  // namespace raybundle

@@ -24,7 +24,7 @@ TEST(RandomFaces, WeighOneInTheMean) {
                     sums[face] += static_cast<double>(w[face]) / steps;
                     drawn += w[face] > 0.0F ? 1.0 / steps : 0.0;
                 }
-                EXPECT_GT(share < 0.5F || w[lobe.x < -1.0F ? 2 : 0] > 0.0F, 0);
+                EXPECT_TRUE(share < 0.5F || w[lobe.x < -1.0F ? 2 : 0] > 0.0F);
             }
             for (const double sum : sums) {
                 EXPECT_NEAR(sum, 1.0, 2e-3);
