@@ -84,7 +84,9 @@ TEST_F(SnapshotTest, MayBeLargerThanThePictureAndIsGivenToOneAddressOnly) {
     EXPECT_EQ(256 * byte(18) + byte(19), 800);
     EXPECT_EQ(256 * byte(22) + byte(23), 450);
     EXPECT_TRUE(get("/snapshots/").empty());
-    EXPECT_TRUE(get(url.substr(0, url.size() - 5) + "0.png").empty());
+    const char last = url[url.size() - 5];
+    const char* const other = last == '0' ? "1.png" : "0.png";
+    EXPECT_TRUE(get(url.substr(0, url.size() - 5) + other).empty());
     EXPECT_EQ(viewer.request(snapshot("PNG", 5000, 450, 0.3)).at("error").at("code"),
               "INVALID_ARGUMENT");
 }
