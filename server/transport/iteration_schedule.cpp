@@ -38,6 +38,8 @@ enum ParallelDimension : unsigned {
     shift_y = 4
 };
 constexpr double turn_range = 2.0 * glm::pi<double>();
+constexpr std::uint64_t strategy_key = 0x5851f42dU;
+constexpr std::uint64_t layered_key = 0x2545f491U;
 constexpr std::uint64_t plane_key = 0x9d2c5680U;  // tells the sequence of plane bundles apart
 
 }  // namespace
@@ -54,21 +56,21 @@ IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabili
     : probabilities_(probabilities),
       planes_per_direction_(std::max(planes_per_direction, 1U)),
       seed_(seed),
-      shuffled_(shuffled),
       numbers_(seed),
-      plane_numbers_(mix_bits(seed ^ plane_key)) {}
+      plane_numbers_(mix_bits(seed ^ plane_key)),
+      strategies_(mix_bits(seed ^ strategy_key), shuffled ? direction_block : 1),
+      layered_(mix_bits(seed ^ layered_key), shuffled ? direction_block : 1),
+      planes_(mix_bits(seed ^ plane_key), shuffled ? direction_block : 1),
+      perspective_(seed, shuffled ? shooter_block : 1) {}
 
-/// Index of the next perspective sample in its sequence.
-std::uint64_t IterationSchedule::next_perspective() {
-    const std::uint64_t k = perspective_++;
-    if (!shuffled_) {
-        return k + 1;
-    }
-    const std::uint64_t at = k % shuffle_length;
+std::uint64_t IterationSchedule::Indices::next() {
+    const auto length = static_cast<unsigned>(order_.size());
+    const std::uint64_t k = count_++;
+    const std::uint64_t at = k % length;
     if (at == 0) {
-        std::iota(order_.begin(), order_.end(), std::uint8_t{0});
-        for (unsigned i = shuffle_length; i-- > 1;) {
-            const std::uint64_t random = mix_bits(mix_bits(seed_ + k) + i);
+        std::iota(order_.begin(), order_.end(), std::uint16_t{0});
+        for (unsigned i = length; i-- > 1;) {
+            const std::uint64_t random = mix_bits(mix_bits(key_ + k) + i);
             std::swap(order_[i], order_[random % (i + 1)]);
         }
     }
@@ -91,15 +93,16 @@ unsigned IterationSchedule::next_batch() {
 IterationSample IterationSchedule::next() {
     IterationSample sample;
     sample.batch = next_batch();
-    const double which = numbers_.golden(iterations_++);
+    const double which = numbers_.golden(strategies_.next() - 1);
+    ++iterations_;
     const auto layered = static_cast<double>(probabilities_.layered);
     if (which < layered) {
         sample.strategy = Strategy::layered;
-        sample_window(sample, numbers_, ++layered_);
+        sample_window(sample, numbers_, layered_.next());
     } else if (which < layered + static_cast<double>(probabilities_.plane)) {
-        sample_plane(sample, planes_++);
+        sample_plane(sample, planes_.next() - 1);
     } else {
-        sample_shooter(sample, next_perspective());
+        sample_shooter(sample, perspective_.next());
     }
     return sample;
 }

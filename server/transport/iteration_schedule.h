@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "bundle/low_discrepancy.h"
 #include "gpu/layouts.h"
@@ -40,23 +41,38 @@ struct IterationSample {
 /// much. No clock and no state beyond counters, so a seed always gives the same sequence.
 class IterationSchedule {
   public:
-    /// shuffled: perspective samples come in an order that is random within blocks of
-    /// shuffle_length. What a glossy patch sends depends on what it has received last; in the
-    /// order of a Halton sequence the same shooter would always come after the same other one.
+    /// shuffled: for glossy scenes, whose patches reflect the light that they accepted last. In its
+    /// own order a low-discrepancy sequence stays away from where it has just been: parallel
+    /// bundles would hardly ever take light back where it came from, and lay several per cent too
+    /// much of it elsewhere. So directions, strategies and shooters come in random order within
+    /// blocks.
     /// planes_per_direction: plane bundles in a row that share a direction, their planes spread
     /// evenly over the scene.
     IterationSchedule(std::uint64_t seed, const StrategyProbabilities& probabilities,
                       bool shuffled = false, unsigned planes_per_direction = 1);
 
+    static constexpr unsigned direction_block = 216;  ///< fills all strata of bases 2 and 3 evenly
+    static constexpr unsigned shooter_block = 32;
+
     IterationSample next();
     void set_probabilities(const StrategyProbabilities& probabilities) {
         probabilities_ = probabilities;
     }
-    static constexpr unsigned shuffle_length = 32;
 
   private:
+    /// Indices 1, 2, ... of a sequence; if they are shuffled, in random order within blocks.
+    class Indices {
+      public:
+        Indices(std::uint64_t key, unsigned block) : key_(key), order_(block) {}
+        std::uint64_t next();
+
+      private:
+        std::uint64_t key_;
+        std::vector<std::uint16_t> order_;
+        std::uint64_t count_ = 0;
+    };
+
     unsigned next_batch();
-    std::uint64_t next_perspective();
     static void sample_window(IterationSample& sample, const RandomisedHalton& numbers,
                               std::uint64_t k);
     void sample_shooter(IterationSample& sample, std::uint64_t k) const;
@@ -65,11 +81,10 @@ class IterationSchedule {
     StrategyProbabilities probabilities_;
     unsigned planes_per_direction_;
     std::uint64_t seed_;
-    bool shuffled_;
-    std::array<std::uint8_t, shuffle_length> order_{};
     RandomisedHalton numbers_, plane_numbers_;
     std::array<unsigned, BATCHES> batch_order_ = {0, 1, 2, 3, 4, 5, 6, 7};
-    std::uint64_t iterations_ = 0, layered_ = 0, planes_ = 0, perspective_ = 0;
+    std::uint64_t iterations_ = 0;
+    Indices strategies_, layered_, planes_, perspective_;
 };
 
 /// Uniform direction on the sphere from two numbers in [0, 1).
