@@ -21,6 +21,8 @@
 #include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
+#include "stream/receiver_rota.h"
+#include "stream/time_budget.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 #include "viewer_session.h"
@@ -91,8 +93,22 @@ class RenderLoop {
     void send_presence(Clock::time_point now);
     void check_pin();
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
+    ViewerImage& own_image(ViewerSession& session);
+    void drop_image(ViewerSession& session);
+    void refuse_picture(ViewerSession& session, const std::string& reason);
     bool collect_frames();
+    struct Wanted {
+        ViewerId viewer = 0;
+        FrameAdvice advice;
+    };
+    struct DueFrames;
+    [[nodiscard]] DueFrames due_frames(Clock::time_point now);
     bool send_frames();
+    void send_frame(const Wanted& wanted);
+    void send_first_frames(std::span<const Wanted> newcomers, Clock::time_point until);
+    void refresh_statistics(Clock::time_point now);
+    [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
+    [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
     void send_solutions();
     bool solve();
@@ -110,6 +126,8 @@ class RenderLoop {
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<ViewPrograms> programs_;
     std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
+    std::unique_ptr<ViewerImage> first_look_;  // shows first frames to all who come
+    ViewerId first_look_of_ = 0;               // whom it shows last, 0: nobody it still fits
     std::vector<BundleReceiver*> receivers_;
     ChangeQueue changes_;
     bool undo_failed_ = false;  // a change of the running undo could not be saved
@@ -119,6 +137,9 @@ class RenderLoop {
     double receiver_pixels_ = 0.0;
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
+    ReceiverRota rota_;
+    TimeBudget greeting_, statistics_, solving_;
+    bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
     LoopMetrics metrics_;
     FrameEncoder encoder_;
