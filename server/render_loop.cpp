@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
 #include "scene_messages.h"
 
@@ -305,6 +306,7 @@ void RenderLoop::update_rate(Clock::time_point now) {
     if (elapsed < rate_interval_s) {
         return;
     }
+    check_context();
     iterations_per_second_ =
         static_cast<double>(solver_->iterations() - rate_iterations_) / elapsed;
     rate_iterations_ = solver_->iterations();
@@ -331,6 +333,10 @@ bool RenderLoop::solve() {
     }
     if (!solver_may_run()) {
         return true;
+    }
+    if (settings_.lost_after_change != 0 && iterations_at_change_ != 0 &&
+        solver_->iterations() >= iterations_at_change_ + settings_.lost_after_change) {
+        throw GpuError("lost as a test wants it");
     }
     choose_receivers();
     const auto start = Clock::now();

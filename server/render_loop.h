@@ -39,6 +39,8 @@ struct RenderLoopSettings {
     bool rehearse = false;
     std::string renderer;             ///< what viewers are told that draws
     bool software_rendering = false;  ///< and that it is no GPU
+    /// Fault injection of tests: the GPU is lost so many iterations after a change; 0: never.
+    std::uint64_t lost_after_change = 0;
     /// Takes listScenes and openScene with the viewer's name, and answers them; empty: there are
     /// no scenes to open.
     std::function<void(const ClientEvent& request, const std::string& name)> scene_requests;
@@ -52,7 +54,8 @@ class RenderLoop {
     RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings, Server& server,
                ChangeLog& log);
 
-    /// Runs until `stop` is set and the inbox is interrupted.
+    /// Runs until `stop` is set and the inbox is interrupted. Throws GpuError where the GPU has
+    /// lost its memory, or has not enough of it for the solution.
     void run(const std::atomic<bool>& stop);
 
     /// Answers what still waits when the loop has ended.

@@ -13,7 +13,7 @@
 namespace raybundle {
 namespace {
 
-constexpr int kTimeoutMs = 5000;
+constexpr int kTimeoutMs = 20000;  // only what hangs takes so long, on a busy machine either
 constexpr int kPing = 9;
 constexpr int kPong = 10;
 
