@@ -108,7 +108,7 @@ class RenderLoop {
     [[nodiscard]] DueFrames due_frames(Clock::time_point now);
     bool send_frames();
     void send_frame(const Wanted& wanted);
-    void send_first_frames(std::span<const Wanted> newcomers, Clock::time_point until);
+    void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
     [[nodiscard]] bool solver_may_run();

@@ -238,12 +238,15 @@ bool RenderLoop::send_frames() {
         send_frame({viewer, due.advices.at(viewer)});
         std::erase_if(due.requests, [&](const FrameRequest& r) { return r.viewer == viewer; });
     }
-    if (moving_ms > 0.0 && !greeting_.may(Server::now_ms())) {
+    const auto start = Clock::now();
+    if (moving_ms <= 0.0) {
+        send_first_frames(due.newcomers, frame_slice_ms);
+    } else if (!due.newcomers.empty() && greeting_.may(Server::now_ms())) {
+        send_first_frames(due.newcomers, 0.0);
+        greeting_.charge(milliseconds_since(start));
+    } else {
         return any;
     }
-    const auto slice = std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double, std::milli>(frame_slice_ms));
-    send_first_frames(due.newcomers, moving_ms > 0.0 ? now : now + slice);
     return any || !due.newcomers.empty();
 }
 
@@ -263,7 +266,8 @@ void RenderLoop::send_frame(const Wanted& wanted) {
 
 /// First frames, all of one picture: a viewer that never acknowledges one costs no more than that.
 /// One at least, more until the time is up.
-void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, Clock::time_point until) {
+void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, double slice_ms) {
+    const auto begin = Clock::now();
     for (const Wanted& wanted : newcomers) {
         ViewerSession& session = *sessions_.at(wanted.viewer);
         const auto start = Clock::now();
@@ -279,8 +283,7 @@ void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, Clock::tim
         } catch (const GpuError& error) {
             refuse_picture(session, error.what());
         }
-        greeting_.charge(milliseconds_since(start));
-        if (Clock::now() >= until) {
+        if (milliseconds_since(begin) >= slice_ms) {
             return;
         }
     }
