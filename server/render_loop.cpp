@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
 #include "scene_messages.h"
 
@@ -14,6 +15,14 @@ namespace {
 
 constexpr int encoder_threads = 1;
 constexpr double solution_interval_s = 0.25;
+/// Of the time: of first frames while others move; of statistics; of the solver where frames of
+/// those who move leave none. In ms: what each may take at once.
+constexpr double greeting_share = 0.1;
+constexpr double greeting_burst_ms = 250.0;
+constexpr double statistics_share = 0.1;
+constexpr double statistics_burst_ms = 20.0;
+constexpr double pressed_solver_share = 0.33;
+constexpr double solver_burst_ms = 50.0;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
 constexpr const char* no_memory = "the server has no memory for a picture of this size";
@@ -46,6 +55,9 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
       log_(log),
       solver_(std::make_unique<Solver>(scene_, mesh_, settings.solver)),
       programs_(std::make_unique<ViewPrograms>(solver_->scene())),
+      greeting_(greeting_share, greeting_burst_ms),
+      statistics_(statistics_share, statistics_burst_ms),
+      solving_(pressed_solver_share, solver_burst_ms),
       encoder_(encoder_threads,
                [this](const EncodedFrame& frame) {
                    metrics_.count_frame(frame.bytes.size());
@@ -129,12 +141,15 @@ void RenderLoop::handle(const ClientEvent& event) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
         snapshots_.forget(event.viewer);
-        std::erase(receivers_, &found->second->image());
+        drop_image(*found->second);
+        first_look_of_ = first_look_of_ == event.viewer ? 0 : first_look_of_;
         sessions_.erase(found);
         forget_leader(event.viewer);
         return;
     }
+    const auto start = Clock::now();
     handle_message(*found->second, event);
+    scheduler_.charge_besides(event.viewer, milliseconds_since(start));
 }
 
 void RenderLoop::join(const ClientEvent& event) {
@@ -146,17 +161,8 @@ void RenderLoop::join(const ClientEvent& event) {
         server_.close(event.viewer, CloseCode::try_again_later, reason);
         return;
     }
-    try {
-        sessions_[event.viewer] =
-            std::make_unique<ViewerSession>(event.viewer, hello, solver_->scene(), solver_->store(),
-                                            *programs_, scene_.cameras.front());
-    } catch (const GpuError& error) {
-        sessions_.erase(event.viewer);
-        spdlog::error("no picture for viewer {}: {}", event.viewer, error.what());
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
-        server_.close(event.viewer, CloseCode::try_again_later, no_memory);
-        return;
-    }
+    sessions_[event.viewer] =
+        std::make_unique<ViewerSession>(event.viewer, hello, scene_.cameras.front());
     v1::ServerMessage message;
     v1::Welcome* welcome = message.mutable_welcome();
     welcome->set_protocol("1.0");
@@ -227,6 +233,7 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
         }
     } catch (const GpuError& error) {
         spdlog::error("viewer {}: {}", event.viewer, error.what());
+        drop_image(session);
         server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
         return;
     }
@@ -240,15 +247,14 @@ void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) 
                             "probe.ray: only pixels can be probed");
         return;
     }
-    session.apply_camera();
-    const glm::uvec2 size = session.image().size();
+    const glm::uvec2 size = session.size();
     const glm::vec2 pixel(probe.pixel().x(), probe.pixel().y());
     if (!(pixel.x >= 0.0F && pixel.y >= 0.0F && pixel.x < static_cast<float>(size.x) &&
           pixel.y < static_cast<float>(size.y))) {
         server_.reply_error(event, v1::Error::INVALID_ARGUMENT, "probe.pixel: outside the picture");
         return;
     }
-    const std::optional<PixelProbe> hit = session.image().probe(glm::uvec2(pixel));
+    const std::optional<PixelProbe> hit = own_image(session).probe(glm::uvec2(pixel));
     v1::ServerMessage message;
     v1::ProbeResult* result = message.mutable_probe_result();
     result->set_hit(hit.has_value());
@@ -300,6 +306,7 @@ void RenderLoop::update_rate(Clock::time_point now) {
     if (elapsed < rate_interval_s) {
         return;
     }
+    check_context();
     iterations_per_second_ =
         static_cast<double>(solver_->iterations() - rate_iterations_) / elapsed;
     rate_iterations_ = solver_->iterations();
@@ -324,21 +331,28 @@ bool RenderLoop::solve() {
     if (!solver_->correcting() && nobody_waits() && !snapshots_.waiting()) {
         return false;
     }
+    if (!solver_may_run()) {
+        return true;
+    }
+    if (settings_.lost_after_change != 0 && iterations_at_change_ != 0 &&
+        solver_->iterations() >= iterations_at_change_ + settings_.lost_after_change) {
+        throw GpuError("lost as a test wants it");
+    }
     choose_receivers();
     const auto start = Clock::now();
     solver_->step(receivers_);
     const double cost = milliseconds_since(start);
     last_step_ms_ = cost;
+    if (frames_pressed_) {
+        solving_.charge(cost);
+    }
     metrics_.note_step(solver_->last_strategy(), cost);
     if (solver_->last_strategy()) {
         cost_.note_iteration(cost, receiver_pixels_);
         snapshots_.note_iteration(cost);
     }
     server_.set_ready(true);
-    const auto now = Clock::now();
-    for (const auto& [id, session] : sessions_) {
-        session->refresh_statistics(now);
-    }
+    refresh_statistics(Clock::now());
     return true;
 }
 

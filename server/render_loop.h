@@ -21,6 +21,8 @@
 #include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
+#include "stream/receiver_rota.h"
+#include "stream/time_budget.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 #include "viewer_session.h"
@@ -37,6 +39,8 @@ struct RenderLoopSettings {
     bool rehearse = false;
     std::string renderer;             ///< what viewers are told that draws
     bool software_rendering = false;  ///< and that it is no GPU
+    /// Fault injection of tests: the GPU is lost so many iterations after a change; 0: never.
+    std::uint64_t lost_after_change = 0;
     /// Takes listScenes and openScene with the viewer's name, and answers them; empty: there are
     /// no scenes to open.
     std::function<void(const ClientEvent& request, const std::string& name)> scene_requests;
@@ -50,7 +54,8 @@ class RenderLoop {
     RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings, Server& server,
                ChangeLog& log);
 
-    /// Runs until `stop` is set and the inbox is interrupted.
+    /// Runs until `stop` is set and the inbox is interrupted. Throws GpuError where the GPU has
+    /// lost its memory, or has not enough of it for the solution.
     void run(const std::atomic<bool>& stop);
 
     /// Answers what still waits when the loop has ended.
@@ -91,8 +96,22 @@ class RenderLoop {
     void send_presence(Clock::time_point now);
     void check_pin();
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
+    ViewerImage& own_image(ViewerSession& session);
+    void drop_image(ViewerSession& session);
+    void refuse_picture(ViewerSession& session, const std::string& reason);
     bool collect_frames();
+    struct Wanted {
+        ViewerId viewer = 0;
+        FrameAdvice advice;
+    };
+    struct DueFrames;
+    [[nodiscard]] DueFrames due_frames(Clock::time_point now);
     bool send_frames();
+    void send_frame(const Wanted& wanted);
+    void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
+    void refresh_statistics(Clock::time_point now);
+    [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
+    [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
     void send_solutions();
     bool solve();
@@ -110,6 +129,8 @@ class RenderLoop {
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<ViewPrograms> programs_;
     std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
+    std::unique_ptr<ViewerImage> first_look_;  // shows first frames to all who come
+    ViewerId first_look_of_ = 0;               // whom it shows last, 0: nobody it still fits
     std::vector<BundleReceiver*> receivers_;
     ChangeQueue changes_;
     bool undo_failed_ = false;  // a change of the running undo could not be saved
@@ -119,6 +140,9 @@ class RenderLoop {
     double receiver_pixels_ = 0.0;
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
+    ReceiverRota rota_;
+    TimeBudget greeting_, statistics_, solving_;
+    bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
     LoopMetrics metrics_;
     FrameEncoder encoder_;

@@ -88,9 +88,12 @@ bool RenderLoop::record(PendingChange& pending) {
 /// A change concerns also those who look away.
 void RenderLoop::gather_all() {
     snapshots_.restart();
+    first_look_of_ = 0;
     receivers_.clear();
     for (const auto& [id, session] : sessions_) {
-        receivers_.push_back(&session->image());
+        if (session->has_image()) {
+            receivers_.push_back(&session->image());
+        }
     }
 }
 
@@ -146,8 +149,14 @@ void RenderLoop::replan(std::span<const std::uint32_t> reflecting) {
     settings.seed = mix_bits(settings.seed + ++replans_);
     auto next = std::make_unique<Solver>(scene_, mesh_, settings);
     auto programs = std::make_unique<ViewPrograms>(next->scene());
+    first_look_.reset();
     for (const auto& [id, session] : sessions_) {
-        session->set_solution(next->scene(), next->store(), *programs);
+        if (session->has_image()) {
+            session->give_image(std::make_unique<ViewerImage>(next->scene(), next->store(),
+                                                              *programs, session->size()),
+                                false);
+            session->apply_view();
+        }
     }
     gather_all();
     next->take_over(*solver_, reflecting, receivers_);

@@ -178,7 +178,6 @@ void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
                             "addPin.patch: no patch " + std::to_string(wanted.patch()));
         return;
     }
-    session.apply_camera();
     Pin pin;
     pin.patch = wanted.patch();
     pin.patch_illuminance = luminance(solver_->store().read_irradiance(pin.patch));
@@ -191,8 +190,8 @@ void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     message.set_epoch(epoch_);
     message.set_set_at_ms(unix_ms());
     *message.mutable_local_position() = wanted.position();
-    const auto pixel = pixel_of(session.camera(), session.image().size(), position);
-    const auto hit = pixel ? session.image().probe(*pixel) : std::nullopt;
+    const auto pixel = pixel_of(session.camera(), session.size(), position);
+    const auto hit = pixel ? own_image(session).probe(*pixel) : std::nullopt;
     // The pixel tells more than the patch, where it shows the pin's place and nothing before it.
     if (hit && hit->patch == pin.patch) {
         const Object& object = scene_.objects[hit->object];
@@ -275,14 +274,13 @@ void RenderLoop::point_at(const ClientEvent& event) {
 }
 
 void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
-    session.apply_camera();
     const Grid grid(event.message.probe_grid());
     const std::vector<glm::vec3> points = grid.points();
     const Camera& camera = session.camera();
     std::vector<glm::uvec2> pixels;
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (const auto pixel = pixel_of(camera, session.image().size(), points[i])) {
+        if (const auto pixel = pixel_of(camera, session.size(), points[i])) {
             pixels.push_back(*pixel);
             indices.push_back(i);
         }
@@ -292,7 +290,7 @@ void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
     result.set_epoch(epoch_);
     result.mutable_illuminance()->Resize(static_cast<int>(points.size()), -1.0F);
     result.mutable_relative_error()->Resize(static_cast<int>(points.size()), -1.0F);
-    const auto found = session.image().probe(pixels);
+    const auto found = own_image(session).probe(pixels);
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i] && grid.shows(found[i]->position, points[indices[i]], camera.eye)) {
             const int at = static_cast<int>(indices[i]);
@@ -320,7 +318,7 @@ void RenderLoop::send_presence(Clock::time_point now) {
     for (const auto& [id, session] : sessions_) {
         v1::Viewer& viewer = *message.mutable_presence()->add_viewers();
         const Camera& camera = session->camera();
-        const glm::vec2 size(session->image().size());
+        const glm::vec2 size(session->size());
         viewer.set_viewer(id);
         viewer.set_name(session->name());
         viewer.set_role(session->role());

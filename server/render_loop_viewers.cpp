@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the render loop does for its viewers: who gets in, whose pixels gather, whose frame is next.
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <map>
 
+#include "gpu/egl_context.h"
+#include "net/wire_codec.h"
 #include "render_loop.h"
 
 namespace raybundle {
@@ -12,6 +16,12 @@ namespace {
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
 constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
+constexpr double forget_limit_ms = 60e3;     // and after this its picture is forgotten
+/// What gathering light adds to an iteration at most: while somebody moves, at least, or half of
+/// the time that frames take; and while nobody does, so that who begins to does not wait long.
+constexpr double least_receive_ms = 40.0;
+constexpr double resting_receive_ms = 100.0;
+constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -40,21 +50,31 @@ std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instea
                 : ", nothing would fit now");
 }
 
-/// Who takes part in the next group of iterations: those who look, or all where nobody does. They
-/// must stay the same within a group and within a special phase.
+/// Who takes part in the next group of iterations: of those who look, or of all where nobody does,
+/// as many as an iteration has time for. They must stay the same within a group and within a
+/// special phase.
 void RenderLoop::choose_receivers() {
     if (solver_->correcting() || !solver_->between_groups()) {
         return;
     }
+    const auto now = Clock::now();
     const bool watched = std::any_of(sessions_.begin(), sessions_.end(),
                                      [](const auto& entry) { return !entry.second->paused(); });
+    std::vector<RotaMember> members;
+    for (const auto& [id, session] : sessions_) {
+        if (session->has_image() && (!watched || !session->paused())) {
+            members.push_back({id, session->moving(now), cost_.receive_ms(session->pixels())});
+        }
+    }
+    const double moving_ms = moving_frames_ms(now);
+    const double budget_ms =
+        moving_ms > 0.0 ? std::max(least_receive_ms, 0.5 * moving_ms) : resting_receive_ms;
     receivers_.clear();
     receiver_pixels_ = 0.0;
-    for (const auto& [id, session] : sessions_) {
-        if (!watched || !session->paused()) {
-            receivers_.push_back(&session->image());
-            receiver_pixels_ += session->pixels();
-        }
+    for (const ViewerId viewer : rota_.next(members, budget_ms)) {
+        ViewerSession& session = *sessions_.at(viewer);
+        receivers_.push_back(&session.image());
+        receiver_pixels_ += session.pixels();
     }
     const bool alone = !watched || nobody_waits();
     ViewerImage* const snapshot =
@@ -62,6 +82,39 @@ void RenderLoop::choose_receivers() {
     if (snapshot != nullptr) {
         receivers_.push_back(snapshot);
         receiver_pixels_ += static_cast<double>(snapshot->size().x) * snapshot->size().y;
+    }
+}
+
+/// What a frame for everybody who moves takes.
+double RenderLoop::moving_frames_ms(Clock::time_point now) const {
+    double sum = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        sum += session->has_image() && session->moving(now) ? scheduler_.cost_ms(id) : 0.0;
+    }
+    return sum;
+}
+
+/// Those who move come first, but the solution never stands still for them.
+bool RenderLoop::solver_may_run() {
+    return !frames_pressed_ || solver_->correcting() || solving_.may(Server::now_ms());
+}
+
+/// Shows to viewers in turn how good their pictures are, oldest news first.
+void RenderLoop::refresh_statistics(Clock::time_point now) {
+    while (statistics_.may(Server::now_ms())) {
+        ViewerSession* oldest = nullptr;
+        for (const auto& [id, session] : sessions_) {
+            if (session->wants_statistics(now) &&
+                (oldest == nullptr || session->last_statistics() < oldest->last_statistics())) {
+                oldest = session.get();
+            }
+        }
+        if (oldest == nullptr) {
+            return;
+        }
+        const auto start = Clock::now();
+        oldest->refresh_statistics(now);
+        statistics_.charge(milliseconds_since(start));
     }
 }
 
@@ -100,40 +153,140 @@ bool RenderLoop::collect_frames() {
     return any;
 }
 
-/// Renders due frames, shared out by measured time, for one slice at most. True if there were any.
-bool RenderLoop::send_frames() {
-    const auto now = Clock::now();
+/// The viewer's own picture, showing what it wants to see; where it has none, the one that showed
+/// its first frame, or a new one.
+ViewerImage& RenderLoop::own_image(ViewerSession& session) {
+    if (!session.has_image()) {
+        const bool shown = first_look_ != nullptr && first_look_of_ == session.id();
+        session.give_image(shown ? std::move(first_look_)
+                                 : std::make_unique<ViewerImage>(solver_->scene(), solver_->store(),
+                                                                 *programs_, session.size()),
+                           shown);
+        first_look_of_ = shown ? 0 : first_look_of_;
+    }
+    session.apply_view();
+    return session.image();
+}
+
+void RenderLoop::drop_image(ViewerSession& session) {
+    if (session.has_image()) {
+        std::erase(receivers_, &session.image());
+        session.drop_image();
+    }
+}
+
+/// There is no memory for a picture: the viewer is told and sent away.
+void RenderLoop::refuse_picture(ViewerSession& session, const std::string& reason) {
+    spdlog::error("no picture for viewer {}: {}", session.id(), reason);
+    drop_image(session);
+    first_look_.reset();
+    server_.send(session.id(),
+                 to_message({v1::Error::RESOURCE_EXHAUSTED, no_memory, std::nullopt}));
+    server_.close(session.id(), CloseCode::try_again_later, no_memory);
+}
+
+/// Who can take a frame now.
+struct RenderLoop::DueFrames {
     std::vector<FrameRequest> requests;
     std::map<ViewerId, FrameAdvice> advices;
+    std::vector<Wanted> newcomers;  ///< have never acknowledged a frame
+    bool moving = false;            ///< one of the requests is of somebody who moves
+};
+
+RenderLoop::DueFrames RenderLoop::due_frames(Clock::time_point now) {
+    DueFrames due;
     for (const auto& [id, session] : sessions_) {
-        session->set_paused(server_.silence_ms(id) > silence_limit_ms);
+        const double silence_ms = server_.silence_ms(id);
+        session->set_paused(silence_ms > silence_limit_ms);
+        if (silence_ms > forget_limit_ms) {
+            drop_image(*session);
+        }
+        if (!session->acknowledged() && server_.acknowledged(id)) {
+            session->note_acknowledged();
+        }
         // While a change is being worked in, the picture is between two states: finish first.
         if (solver_->correcting() || !session->due(now) || encoder_.busy(id)) {
             continue;
         }
         const FrameAdvice advice = server_.advise(id, session->demand(now));
-        if (advice.send) {
-            requests.push_back({id, session->moving(now)});
-            advices[id] = advice;
+        if (!advice.send) {
+            continue;
+        }
+        if (session->has_image() || session->acknowledged()) {
+            due.requests.push_back({id, session->moving(now)});
+            due.advices[id] = advice;
+            due.moving = due.moving || session->moving(now);
+        } else {
+            due.newcomers.push_back({id, advice});
         }
     }
-    const bool any = !requests.empty();
-    const bool moving = std::any_of(requests.begin(), requests.end(),
-                                    [](const FrameRequest& request) { return request.moving; });
+    return due;
+}
+
+/// Renders due frames, shared out by measured time, for one slice at most. True if there were any.
+bool RenderLoop::send_frames() {
+    const auto now = Clock::now();
+    DueFrames due = due_frames(now);
+    const double moving_ms = moving_frames_ms(now);
+    frames_pressed_ = due.moving && moving_ms > frame_slice_ms;
     // A step takes long where many pictures gather light: those who move shall not wait for it.
     const double slice_ms =
-        moving ? std::max(frame_slice_ms, moving_share * last_step_ms_) : frame_slice_ms;
-    while (!requests.empty() && milliseconds_since(now) < slice_ms) {
-        const ViewerId viewer = *scheduler_.next(requests);
-        ViewerSession& session = *sessions_.at(viewer);
-        const auto start = Clock::now();
-        session.render(advices.at(viewer), figures(), start);
-        const double cost = milliseconds_since(start);
-        scheduler_.charge(viewer, cost);
-        cost_.note_frame(cost, session.pixels());
-        std::erase_if(requests, [&](const FrameRequest& r) { return r.viewer == viewer; });
+        due.moving ? std::max(frame_slice_ms, moving_share * last_step_ms_) : frame_slice_ms;
+    const bool any = !due.requests.empty();
+    while (!due.requests.empty() && milliseconds_since(now) < slice_ms) {
+        const ViewerId viewer = *scheduler_.next(due.requests);
+        send_frame({viewer, due.advices.at(viewer)});
+        std::erase_if(due.requests, [&](const FrameRequest& r) { return r.viewer == viewer; });
     }
-    return any;
+    const auto start = Clock::now();
+    if (moving_ms <= 0.0) {
+        send_first_frames(due.newcomers, frame_slice_ms);
+    } else if (!due.newcomers.empty() && greeting_.may(Server::now_ms())) {
+        send_first_frames(due.newcomers, 0.0);
+        greeting_.charge(milliseconds_since(start));
+    } else {
+        return any;
+    }
+    return any || !due.newcomers.empty();
+}
+
+void RenderLoop::send_frame(const Wanted& wanted) {
+    ViewerSession& session = *sessions_.at(wanted.viewer);
+    const auto start = Clock::now();
+    try {
+        own_image(session);
+        session.render(wanted.advice, figures(), start);
+    } catch (const GpuError& error) {
+        refuse_picture(session, error.what());
+    }
+    const double cost = milliseconds_since(start);
+    scheduler_.charge(wanted.viewer, cost);
+    cost_.note_frame(cost, session.pixels());
+}
+
+/// First frames, all of one picture: a viewer that never acknowledges one costs no more than that.
+/// One at least, more until the time is up.
+void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, double slice_ms) {
+    const auto begin = Clock::now();
+    for (const Wanted& wanted : newcomers) {
+        ViewerSession& session = *sessions_.at(wanted.viewer);
+        const auto start = Clock::now();
+        try {
+            if (!first_look_) {
+                first_look_ = std::make_unique<ViewerImage>(solver_->scene(), solver_->store(),
+                                                            *programs_, session.size());
+            }
+            first_look_of_ = wanted.viewer;
+            auto [header, pixels] =
+                session.render_first(*first_look_, wanted.advice, figures(), start);
+            encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false});
+        } catch (const GpuError& error) {
+            refuse_picture(session, error.what());
+        }
+        if (milliseconds_since(begin) >= slice_ms) {
+            return;
+        }
+    }
 }
 
 /// One slice of antialiasing for one viewer, so that a camera message waits for no more. True if
@@ -155,11 +308,14 @@ void RenderLoop::publish_figures(Clock::time_point now) {
     f.settled = solver_->statistics().settled;
     f.epoch = epoch_;
     f.non_finite = solver_->non_finite();
-    f.gl_bytes = solver_->bytes();
+    f.gl_bytes = solver_->bytes() + (first_look_ ? first_look_->bytes() : 0);
     for (const auto& [id, session] : sessions_) {
         ++f.viewers;
         f.moving += session->moving(now) ? 1 : 0;
         f.paused += session->paused() ? 1 : 0;
+        if (!session->has_image()) {
+            continue;
+        }
         f.gl_bytes += session->image().bytes();
         const ImageStatistics& statistics = session->image().statistics();
         if (statistics.known) {

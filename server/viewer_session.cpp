@@ -40,16 +40,14 @@ glm::uvec2 ViewerSession::size_of(const v1::Hello& hello) {
                                 : default_size;
 }
 
-ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
-                             const RadianceStore& store, const ViewPrograms& programs,
-                             const Camera& camera)
+ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const Camera& camera)
     : viewer_(viewer),
       name_(hello.name()),
-      image_(std::make_unique<ViewerImage>(scene, store, programs, size_of(hello))),
+      size_(size_of(hello)),
+      camera_(camera),
       last_change_(Clock::now()) {
     lossless_ =
         std::find(hello.codecs().begin(), hello.codecs().end(), v1::PNG) != hello.codecs().end();
-    image_->set_camera(camera);
 }
 
 double ViewerSession::since_change_s(Clock::time_point now) const {
@@ -62,52 +60,51 @@ void ViewerSession::note_change() {
 }
 
 void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t request_id) {
-    Camera camera = wanted_camera_.value_or(image_->camera());
-    camera.eye = from_message(message.eye());
-    camera.target = from_message(message.target());
-    camera.up = message.has_up() ? from_message(message.up()) : glm::vec3(0.0F, 1.0F, 0.0F);
+    camera_.eye = from_message(message.eye());
+    camera_.target = from_message(message.target());
+    camera_.up = message.has_up() ? from_message(message.up()) : glm::vec3(0.0F, 1.0F, 0.0F);
     if (message.has_vertical_fov()) {
-        camera.vertical_fov = message.vertical_fov();
+        camera_.vertical_fov = message.vertical_fov();
     }
-    wanted_camera_ = camera;
+    view_waits_ = true;
     camera_id_ = request_id;
     note_change();
 }
 
 void ViewerSession::adopt_camera(const Camera& camera) {
-    wanted_camera_ = camera;
+    camera_ = camera;
+    view_waits_ = true;
     note_change();
 }
 
-const Camera& ViewerSession::camera() const {
-    return wanted_camera_ ? *wanted_camera_ : image_->camera();
-}
-
-void ViewerSession::apply_camera() {
-    if (wanted_camera_) {
-        image_->set_camera(*wanted_camera_);
-        wanted_camera_.reset();
+void ViewerSession::apply_view() {
+    if (view_waits_) {
+        rendering_ = rendering_ && image_->size() == size_;
+        image_->set_view(camera_, size_);
+        view_waits_ = false;
     }
 }
 
 double ViewerSession::pixels() const {
-    const glm::uvec2 size = image_->size();
-    return static_cast<double>(size.x) * static_cast<double>(size.y);
+    return static_cast<double>(size_.x) * static_cast<double>(size_.y);
 }
 
 void ViewerSession::set_viewport(glm::uvec2 size) {
-    image_->resize(size);
-    rendering_ = false;
+    view_waits_ = view_waits_ || size != size_;
+    size_ = size;
     note_change();
 }
 
-void ViewerSession::set_solution(const GpuScene& scene, const RadianceStore& store,
-                                 const ViewPrograms& programs) {
-    const Camera camera = image_->camera();
-    image_ = std::make_unique<ViewerImage>(scene, store, programs, image_->size());
-    image_->set_camera(camera);
+void ViewerSession::give_image(std::unique_ptr<ViewerImage> image, bool shown) {
+    image_ = std::move(image);
+    view_waits_ = view_waits_ || !shown;
     rendering_ = false;
-    note_change();
+    changed_ = true;
+}
+
+void ViewerSession::drop_image() {
+    image_.reset();
+    rendering_ = false;
 }
 
 void ViewerSession::set_display(const v1::SetDisplay& message) {
@@ -140,11 +137,11 @@ void ViewerSession::set_target(const v1::SetTarget& message) {
 }
 
 bool ViewerSession::moving(Clock::time_point now) const {
-    return wanted_camera_ || since_change_s(now) < moving_s;
+    return view_waits_ || since_change_s(now) < moving_s;
 }
 
 bool ViewerSession::smooth(Clock::time_point now) {
-    if (wanted_camera_ || moving(now) || image_->smoothed()) {
+    if (!image_ || moving(now) || image_->smoothed()) {
         return false;
     }
     image_->smooth_step();
@@ -160,11 +157,17 @@ bool ViewerSession::due(Clock::time_point now) const {
     if (changed_) {
         return since_frame >= moving_interval_s;
     }
+    if (!image_) {
+        return acknowledged_;
+    }
     return image_->samples() > samples_at_frame_ &&
            since_frame >= refining_interval(since_change_s(now));
 }
 
 bool ViewerSession::target_met() {
+    if (!image_) {
+        return false;
+    }
     if (target_error_ > 0.0) {
         const ImageStatistics& statistics = image_->statistics();
         return statistics.known && statistics.error_high <= target_error_;
@@ -177,11 +180,12 @@ FrameDemand ViewerSession::demand(Clock::time_point now) const {
 }
 
 float ViewerSession::picture_exposure() const {
-    return shown_exposure_.value_or(image_->automatic_exposure() + exposure_offset_);
+    return shown_exposure_.value_or((image_ ? image_->automatic_exposure() : 0.0F) +
+                                    exposure_offset_);
 }
 
-float ViewerSession::exposure() {
-    const float wanted = (auto_exposure_ ? image_->automatic_exposure() : 0.0F) + exposure_offset_;
+float ViewerSession::exposure(const ViewerImage& image) {
+    const float wanted = (auto_exposure_ ? image.automatic_exposure() : 0.0F) + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
     const float follow = shown_exposure_ ? 0.15F : 1.0F;
     const float before = shown_exposure_.value_or(wanted);
@@ -201,13 +205,30 @@ ColourScale ViewerSession::colour_scale(float exposure) const {
 
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
                            Clock::time_point now) {
-    apply_camera();
-    const glm::uvec2 size = image_->size();
+    apply_view();
+    compose(*image_, advice, figures, now);
+    rendering_ = true;
+}
+
+std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::render_first(
+    ViewerImage& shared, const FrameAdvice& advice, const v1::FrameHeader& figures,
+    Clock::time_point now) {
+    shared.restart(camera_, size_);
+    shared.request_statistics();
+    shared.finish_statistics();
+    view_waits_ = false;
+    compose(shared, advice, figures, now);
+    return {header_, shared.take()};
+}
+
+void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
+                            const v1::FrameHeader& figures, Clock::time_point now) {
+    const glm::uvec2 size = image.size();
     const auto scaled = [&](unsigned pixels) {
         return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));
     };
     const glm::uvec2 frame_size(scaled(size.x), scaled(size.y));
-    const ImageStatistics& statistics = image_->statistics();
+    const ImageStatistics& statistics = image.statistics();
     header_ = figures;
     header_.set_frame(++frame_);
     header_.set_camera_id(camera_id_);
@@ -220,17 +241,16 @@ void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& fig
         header_.set_error_low(static_cast<float>(statistics.error_low));
         header_.set_error_high(static_cast<float>(statistics.error_high));
     }
-    header_.set_exposure(exposure());
+    header_.set_exposure(exposure(image));
     header_.set_server_time_ms(Server::now_ms());
     const ColourScale scale = colour_scale(header_.exposure());
     if (mode_ != DisplayMode::photo) {
         header_.set_scale_maximum(scale.maximum);
     }
-    image_->compose(mode_, header_.exposure(), frame_size, scale);
-    rendering_ = true;
+    image.compose(mode_, header_.exposure(), frame_size, scale);
     changed_ = false;
     last_frame_ = now;
-    samples_at_frame_ = image_->samples();
+    samples_at_frame_ = image.samples();
 }
 
 std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::take_frame() {
@@ -238,18 +258,20 @@ std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::take_fr
     return {header_, image_->take()};
 }
 
+bool ViewerSession::wants_statistics(Clock::time_point now) const {
+    return image_ && !paused_ && seconds(now - last_statistics_) >= statistics_interval_s;
+}
+
 void ViewerSession::refresh_statistics(Clock::time_point now) {
-    if (seconds(now - last_statistics_) >= statistics_interval_s) {
-        last_statistics_ = now;
-        image_->request_statistics();
-    }
+    last_statistics_ = now;
+    image_->request_statistics();
 }
 
 void ViewerSession::fill_solution(v1::Solution* solution) {
-    const ImageStatistics& statistics = image_->statistics();
-    if (!statistics.known) {
+    if (!image_ || !image_->statistics().known) {
         return;
     }
+    const ImageStatistics& statistics = image_->statistics();
     solution->set_relative_error(static_cast<float>(statistics.relative_error));
     solution->set_error_low(static_cast<float>(statistics.error_low));
     solution->set_error_high(static_cast<float>(statistics.error_high));

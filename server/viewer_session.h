@@ -15,6 +15,8 @@
 namespace raybundle {
 
 /// What one viewer wants to see and how far its picture is; everything the render loop keeps of it.
+/// The picture itself exists while somebody looks at it: from the first acknowledged frame on,
+/// until frames have stayed unacknowledged for long.
 class ViewerSession {
   public:
     using Clock = std::chrono::steady_clock;
@@ -22,21 +24,26 @@ class ViewerSession {
     /// Size of the pictures that a hello asks for.
     static glm::uvec2 size_of(const v1::Hello& hello);
 
-    ViewerSession(ViewerId viewer, const v1::Hello& hello, const GpuScene& scene,
-                  const RadianceStore& store, const ViewPrograms& programs, const Camera& camera);
+    ViewerSession(ViewerId viewer, const v1::Hello& hello, const Camera& camera);
 
-    /// The camera takes effect with the next frame or apply_camera(): placing it costs time, of
-    /// which every viewer gets his share.
+    /// Camera and size take effect with the next frame or apply_view(): that costs time, of which
+    /// every viewer gets his share.
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
-    void apply_camera();
+    void set_viewport(glm::uvec2 size);
+    void apply_view();
     /// Shows what another viewer sees.
     void adopt_camera(const Camera& camera);
     /// What it looks at, or will with its next frame.
-    [[nodiscard]] const Camera& camera() const;
-    void set_viewport(glm::uvec2 size);
-    /// Another solver takes over: its picture begins anew.
-    void set_solution(const GpuScene& scene, const RadianceStore& store,
-                      const ViewPrograms& programs);
+    [[nodiscard]] const Camera& camera() const { return camera_; }
+    /// Of its picture, likewise.
+    [[nodiscard]] glm::uvec2 size() const { return size_; }
+
+    [[nodiscard]] bool has_image() const { return image_ != nullptr; }
+    /// Requires has_image().
+    [[nodiscard]] ViewerImage& image() { return *image_; }
+    /// Takes a picture. shown: it is the one of render_first().
+    void give_image(std::unique_ptr<ViewerImage> image, bool shown);
+    void drop_image();
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
 
@@ -54,12 +61,20 @@ class ViewerSession {
     [[nodiscard]] FrameDemand demand(Clock::time_point now) const;
 
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
+    /// Requires has_image().
     void render(const FrameAdvice& advice, const v1::FrameHeader& figures, Clock::time_point now);
+    /// The same of a picture that others use, too, from what the solution knows: waits for it.
+    std::pair<v1::FrameHeader, std::span<const std::uint8_t>> render_first(
+        ViewerImage& shared, const FrameAdvice& advice, const v1::FrameHeader& figures,
+        Clock::time_point now);
     [[nodiscard]] bool frame_finished() const { return rendering_ && image_->finished(); }
     /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
-    /// Queues new statistics every few samples.
+    /// Its statistics are old.
+    [[nodiscard]] bool wants_statistics(Clock::time_point now) const;
+    [[nodiscard]] Clock::time_point last_statistics() const { return last_statistics_; }
+    /// Queues new ones. Requires has_image().
     void refresh_statistics(Clock::time_point now);
     /// Error, interval and prediction for a `solution` message.
     void fill_solution(v1::Solution* solution);
@@ -68,7 +83,10 @@ class ViewerSession {
     [[nodiscard]] bool paused() const { return paused_; }
     void set_paused(bool paused) { paused_ = paused; }
 
-    [[nodiscard]] ViewerImage& image() { return *image_; }
+    /// It has acknowledged a frame, so that its own picture is worth having.
+    [[nodiscard]] bool acknowledged() const { return acknowledged_; }
+    void note_acknowledged() { acknowledged_ = true; }
+
     [[nodiscard]] double pixels() const;
     /// EV of the pictures it shows now.
     [[nodiscard]] float picture_exposure() const;
@@ -83,7 +101,9 @@ class ViewerSession {
 
   private:
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
-    [[nodiscard]] float exposure();
+    [[nodiscard]] float exposure(const ViewerImage& image);
+    void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
+                 Clock::time_point now);
     [[nodiscard]] ColourScale colour_scale(float exposure) const;
 
     ViewerId viewer_;
@@ -92,7 +112,9 @@ class ViewerSession {
     ViewerId following_ = 0;
     bool lossless_ = false;  // the client decodes PNG
     std::unique_ptr<ViewerImage> image_;
-    std::optional<Camera> wanted_camera_;
+    glm::uvec2 size_;
+    Camera camera_;
+    bool view_waits_ = true;  // the picture does not show them yet
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;
     bool auto_exposure_ = true;
@@ -106,6 +128,7 @@ class ViewerSession {
     bool changed_ = true;
     bool rendering_ = false;
     bool paused_ = false;
+    bool acknowledged_ = false;
     v1::FrameHeader header_;
     Clock::time_point last_change_, last_frame_, last_statistics_;
     std::uint64_t samples_at_frame_ = 0;

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 
 #include "change_log.h"
 #include "commands/command.h"
@@ -99,17 +101,30 @@ struct ServedScene {
     MetricsSource metrics;
 };
 
+constexpr int most_recoveries = 2;
+
+/// Iterations after a change at which a test wants the GPU to fail; 0: none does.
+std::uint64_t injected_fault() {
+    const char* const text =
+        std::getenv("RAYBUNDLE_TEST_GPU_LOST_AFTER");  // NOLINT(concurrency-mt-unsafe)
+    return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+}
+
 /// Serves one scene after the other.
 class SceneServer {
   public:
-    SceneServer(const Options& options, const EglContext& context, Server& server, Control& control)
-        : options_(options), server_(server), control_(control) {
+    SceneServer(const Options& options, Server& server, Control& control)
+        : options_(options),
+          server_(server),
+          control_(control),
+          context_(create_egl_context({options.gpu, false})) {
         settings_.solver.seed = options.seed;
         settings_.solver.special = interactive_special();
         settings_.rehearse = true;
         settings_.min_frames_per_second = options.min_frames_per_second;
-        settings_.renderer = context.renderer();
-        settings_.software_rendering = context.is_software();
+        settings_.renderer = context_->renderer();
+        settings_.software_rendering = context_->is_software();
+        settings_.lost_after_change = injected_fault();
         if (control.opener) {
             settings_.scene_requests = [this](const ClientEvent& request, const std::string& name) {
                 control_.opener->handle(request, name);
@@ -119,13 +134,19 @@ class SceneServer {
 
     void run() {
         auto [file, loaded] = first_scene();
+        shown_file_ = file;
         served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
         server_.start();
         fmt::print("raybundle serves {} at {}\n", file, server_.address());
         std::fflush(stdout);
         watch(file);
         while (!control_.stop) {
-            served_->loop.run(control_.leave);
+            try {
+                served_->loop.run(control_.leave);
+            } catch (const GpuError& error) {
+                recover(error);
+                continue;
+            }
             control_.leave = false;
             if (!control_.stop) {
                 change_scene();
@@ -190,10 +211,37 @@ class SceneServer {
             replace(std::move(scene.loaded), [&] { control_.opener->accept(scene); });
         if (problem.empty()) {
             served_->log.remember_scene(options_.scene, scene.progress.name());
+            shown_file_ = scene.file;
             watch(scene.file);
         } else {
             control_.opener->reject(scene, problem);
         }
+    }
+
+    /// The GPU has lost what it held, or has no memory for it: all begins anew from the file and
+    /// the journal, with bundles of half the resolution. Throws what it is given where that has not
+    /// helped before.
+    void recover(const GpuError& error) {
+        if (++recoveries_ > most_recoveries) {
+            throw GpuError(std::string(error.what()) +
+                           "; smaller bundles have not helped, so the server ends");
+        }
+        spdlog::error("the GPU has failed, the scene is built anew with smaller bundles{}: {}",
+                      options_.journal.empty() ? " and without the changes made to it" : "",
+                      error.what());
+        server_.set_ready(false);
+        served_->loop.refuse_waiting();
+        server_.close_all(CloseCode::service_restart, "the graphics processor has failed");
+        served_.reset();
+        context_.reset();
+        context_.emplace(create_egl_context({options_.gpu, false}));
+        for (BundleResolution* bundles : {&settings_.solver.coarse, &settings_.solver.fine}) {
+            bundles->hemicube /= 2;
+            bundles->window /= 2;
+        }
+        Options options = options_;
+        options.scene = shown_file_;
+        served_ = std::make_unique<ServedScene>(options_, load_scene(options), settings_, server_);
     }
 
     /// Builds the next scene beside the present one, which stays where that fails. The reason in
@@ -222,7 +270,10 @@ class SceneServer {
     const Options& options_;
     Server& server_;
     Control& control_;
+    std::optional<EglContext> context_;
     RenderLoopSettings settings_;
+    std::string shown_file_;
+    int recoveries_ = 0;
     std::unique_ptr<ServedScene> served_;
 };
 
@@ -249,8 +300,7 @@ int run_serve(const Options& options) {
         control.opener.emplace(options, server, leave);
     }
     const NetworkEnd network_end(server);  // before the opener, which uploads use
-    const EglContext context = create_egl_context({options.gpu, false});
-    SceneServer(options, context, server, control).run();
+    SceneServer(options, server, control).run();
     spdlog::info("stopping");
     server.stop();
     return exit_done;

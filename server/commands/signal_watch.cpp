@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/signal_watch.h"
 
+#include <csignal>
 #include <ctime>
 #include <utility>
 
@@ -13,6 +14,8 @@ SignalWatch::SignalWatch(std::function<void()> stop, std::function<void()> reloa
         sigaddset(&signals_, number);
     }
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+    // A limit on the size of files (ulimit -f) is a full disk, not the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
     thread_ = std::jthread([this](const std::stop_token& token) { watch(token); });
 }
 

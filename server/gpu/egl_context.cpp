@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -83,6 +84,26 @@ void enable_debug_output(bool synchronous) {
 }
 
 /// Opens a display and makes a context current on it; nullptr and a reason where that fails.
+/// One that says when it has been reset, where the driver can tell.
+EGLContext create_context(EGLDisplay display) {
+    constexpr std::size_t notification = 6;  // where it begins
+    std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                        4,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        5,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                        EGL_LOSE_CONTEXT_ON_RESET,
+                                        EGL_NONE};
+    const auto create = [&] {
+        return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    };
+    const EGLContext telling = create();
+    attributes[notification] = EGL_NONE;
+    return telling != EGL_NO_CONTEXT ? telling : create();
+}
+
 std::unique_ptr<EglContext::Impl> open(EGLenum platform, void* native, std::string& reason) {
     // Without any vendor's library epoxy would abort at the first call.
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
@@ -104,14 +125,7 @@ std::unique_ptr<EglContext::Impl> open(EGLenum platform, void* native, std::stri
         reason = "the driver offers no desktop OpenGL";
         return nullptr;
     }
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_NONE};
-    impl->context = eglCreateContext(impl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    impl->context = create_context(impl->display);
     if (impl->context == EGL_NO_CONTEXT) {
         reason = "no OpenGL 4.5 core context";
         return nullptr;

@@ -48,8 +48,8 @@ lws_context_creation_info context_info(const ServerSettings& settings, const Lis
     info.retry_and_idle_policy = &kKeepAlive;
     info.timeout_secs = 10;
     info.keepalive_timeout = 30;
-    info.gid = static_cast<gid_t>(-1);
-    info.uid = static_cast<uid_t>(-1);
+    info.gid = static_cast<decltype(info.gid)>(-1);
+    info.uid = static_cast<decltype(info.uid)>(-1);
     info.options = LWS_SERVER_OPTION_VALIDATE_UTF8 | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
                    LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
     if (!address.is_ipv6) {

@@ -114,6 +114,11 @@ double Server::silence_ms(ViewerId viewer) const {
     return link ? link->silence_ms(server_time_ms()) : 0.0;
 }
 
+bool Server::acknowledged(ViewerId viewer) const {
+    const auto link = impl_->state.viewers.find(viewer);
+    return link && link->acknowledged();
+}
+
 void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,
                         const std::vector<std::uint8_t>& image) {
     const auto link = impl_->state.viewers.find(viewer);

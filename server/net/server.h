@@ -66,6 +66,9 @@ class Server {
     /// that has hung and a link that has stalled look like this.
     [[nodiscard]] double silence_ms(ViewerId viewer) const;
 
+    /// Whether this viewer has ever acknowledged a frame.
+    [[nodiscard]] bool acknowledged(ViewerId viewer) const;
+
     /// Sends a frame. One frame waits at most: a newer one replaces it.
     void send_frame(ViewerId viewer, const v1::FrameHeader& header,
                     const std::vector<std::uint8_t>& image);

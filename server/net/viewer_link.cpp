@@ -80,6 +80,11 @@ double ViewerLink::silence_ms(double now_ms) const {
     return congestion_.silence_ms(now_ms);
 }
 
+bool ViewerLink::acknowledged() const {
+    const std::lock_guard lock(mutex_);
+    return congestion_.acknowledged();
+}
+
 void ViewerLink::on_pong(std::string_view payload, double now_ms) {
     const std::lock_guard lock(mutex_);
     if (payload == std::to_string(pings_)) {

@@ -67,6 +67,8 @@ class ViewerLink {
 
     /// How long a frame has been waiting for its acknowledgement; 0 where none does.
     [[nodiscard]] double silence_ms(double now_ms) const;
+    /// Whether any frame has ever been acknowledged.
+    [[nodiscard]] bool acknowledged() const;
 
     /// A WebSocket pong has come; `payload` tells whether it answers take()'s last ping.
     void on_pong(std::string_view payload, double now_ms);

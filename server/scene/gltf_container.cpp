@@ -136,7 +136,10 @@ std::vector<std::uint8_t> read_file_bounded(const std::string& path, std::uint64
 }
 
 GltfContainer read_gltf_container(const std::string& path) {
-    const std::vector<std::uint8_t> file = read_file_bounded(path, max_scene_file_bytes, path, "");
+    return parse_gltf_container(path, read_file_bounded(path, max_scene_file_bytes, path, ""));
+}
+
+GltfContainer parse_gltf_container(const std::string& path, std::span<const std::uint8_t> file) {
     if (file.size() >= 4 && little_endian_u32(file, 0) == glb_magic) {
         return read_glb(path, file);
     }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct GltfContainer {
 
 /// Reads the file and parses its JSON; told apart by content, not by file name. Throws SceneError.
 GltfContainer read_gltf_container(const std::string& path);
+
+/// The same of bytes in memory; `path` is what errors name.
+GltfContainer parse_gltf_container(const std::string& path, std::span<const std::uint8_t> file);
 
 /// The whole file, if it is a regular one of at most `max_bytes`; otherwise throws SceneError
 /// naming `scene_file`, `json_path` and the file that could not be read.

@@ -23,6 +23,8 @@ class GltfDocument {
   public:
     /// Throws SceneError.
     explicit GltfDocument(const std::string& path);
+    /// The same of a container that has been read from there.
+    GltfDocument(const std::string& path, GltfContainer container);
 
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Its buffers and images hold no bytes: see view_bytes() and decode_image().
@@ -45,8 +47,6 @@ class GltfDocument {
     [[noreturn]] void fail(const std::string& json_path, const std::string& reason) const;
 
   private:
-    GltfDocument(const std::string& path, GltfContainer container);
-
     std::string path_;
     Daylight daylight_;
     tinygltf::Model model_;

@@ -13,6 +13,7 @@
 #include "scene/geometry_defects.h"
 #include "scene/gltf_bake.h"
 #include "scene/gltf_camera.h"
+#include "scene/gltf_container.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_geometry.h"
 #include "scene/gltf_lights.h"
@@ -107,11 +108,10 @@ void note_materials(GltfDocument& document, const Scene& scene) {
     }
 }
 
-Scene load_checked(const std::string& path, const SceneSettings& settings) {
-    GltfDocument document(path);
+Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     Scene scene;
-    scene.path = path;
-    scene.name = std::filesystem::path(path).stem().string();
+    scene.path = document.path();
+    scene.name = std::filesystem::path(scene.path).stem().string();
     const GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
     const std::uint32_t default_material = read_materials(document, scene);
     check_meshes(document);
@@ -142,16 +142,28 @@ Scene load_checked(const std::string& path, const SceneSettings& settings) {
     return scene;
 }
 
-}  // namespace
-
-Scene load_gltf(const std::string& path, const SceneSettings& settings) {
+/// read: gives the container.
+template <typename Read>
+Scene load(const std::string& path, const SceneSettings& settings, const Read& read) {
     try {
-        return load_checked(path, settings);
+        GltfDocument document(path, read());
+        return load_checked(document, settings);
     } catch (const std::bad_alloc&) {
         throw SceneError(path, "", "not enough memory to load the scene");
     } catch (const std::length_error& error) {
         throw SceneError(path, "", fmt::format("too large: {}", error.what()));
     }
+}
+
+}  // namespace
+
+Scene load_gltf(const std::string& path, const SceneSettings& settings) {
+    return load(path, settings, [&] { return read_gltf_container(path); });
+}
+
+Scene load_gltf(const std::string& path, std::span<const std::uint8_t> bytes,
+                const SceneSettings& settings) {
+    return load(path, settings, [&] { return parse_gltf_container(path, bytes); });
 }
 
 }  // namespace raybundle

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,5 +36,9 @@ struct SceneSettings {
 
 /// Reads a .gltf or .glb file. Throws SceneError; never returns a half-read scene.
 Scene load_gltf(const std::string& path, const SceneSettings& settings = {});
+
+/// The same of the bytes of such a file; what it refers to is looked for beside `path`.
+Scene load_gltf(const std::string& path, std::span<const std::uint8_t> bytes,
+                const SceneSettings& settings = {});
 
 }  // namespace raybundle

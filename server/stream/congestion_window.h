@@ -63,6 +63,8 @@ class CongestionWindow {
         return flights_.empty() ? 0.0 : std::max(now_ms - flights_.front().sent_ms, 0.0);
     }
 
+    /// Whether any frame has ever been acknowledged.
+    [[nodiscard]] bool acknowledged() const { return least_frame_rtt_ms_.has_value(); }
     [[nodiscard]] int in_flight() const { return static_cast<int>(flights_.size()); }
     [[nodiscard]] double window() const { return window_; }               ///< frames
     [[nodiscard]] double base_rtt_ms() const;                             ///< 0: not known yet

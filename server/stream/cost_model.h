@@ -18,6 +18,9 @@ class CostModel {
     /// pictures together have so many pixels.
     [[nodiscard]] double round_ms(double pixels) const;
 
+    /// What so many pixels that gather light add to an iteration, ms.
+    [[nodiscard]] double receive_ms(double pixels) const { return iteration_line().slope * pixels; }
+
     /// Whether a picture of this size fits beside `present` pixels, all served in `limit_ms`.
     /// Otherwise the largest of the same shape that would, or nothing where none of at least
     /// kSmallest pixels does.

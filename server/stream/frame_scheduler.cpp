@@ -78,6 +78,10 @@ void FrameScheduler::charge(ViewerId viewer, double milliseconds) {
     account.cost_ms += kSmoothing * (cost - account.cost_ms);
 }
 
+void FrameScheduler::charge_besides(ViewerId viewer, double milliseconds) {
+    accounts_[viewer].deficit_ms -= std::clamp(milliseconds, 0.0, kMaxCostMs);
+}
+
 double FrameScheduler::cost_ms(ViewerId viewer) const {
     const auto found = accounts_.find(viewer);
     return found == accounts_.end() ? kUnknownCostMs : found->second.cost_ms;

@@ -32,6 +32,9 @@ class FrameScheduler {
     /// A frame of this viewer has taken so long.
     void charge(ViewerId viewer, double milliseconds);
 
+    /// Something else for this viewer has taken so long.
+    void charge_besides(ViewerId viewer, double milliseconds);
+
     /// Smoothed cost of this viewer's frames.
     [[nodiscard]] double cost_ms(ViewerId viewer) const;
 

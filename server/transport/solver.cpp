@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/solver.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+
+#include "gpu/egl_context.h"
 
 namespace raybundle {
 
@@ -83,9 +87,19 @@ bool Solver::noise_is_low() const {
            iterations_ >= patience * settings_.coarse_iterations;
 }
 
-void Solver::plan_group() {
-    if (!fine_ && iterations_ >= settings_.coarse_iterations && noise_is_low()) {
+/// Bundles are fine from now on; where there is no memory for that, they stay as they are.
+void Solver::refine() {
+    try {
         fine_ = std::make_unique<Transfer>(scene_, store_, settings_.fine);
+    } catch (const GpuError& error) {
+        fine_fits_ = false;
+        spdlog::error("bundles stay coarse, so small shadows stay blurred: {}", error.what());
+    }
+}
+
+void Solver::plan_group() {
+    if (!fine_ && fine_fits_ && iterations_ >= settings_.coarse_iterations && noise_is_low()) {
+        refine();
     }
     group_.clear();
     group_next_ = 0;

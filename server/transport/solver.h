@@ -117,6 +117,7 @@ class Solver {
     };
 
     void plan_group();
+    void refine();
     [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
     void finish_group(std::span<BundleReceiver* const> receivers);
@@ -151,6 +152,7 @@ class Solver {
     RadianceStore store_;
     IterationSchedule schedule_;
     std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on
+    bool fine_fits_ = true;                    // there is memory for it, as far as is known
     float transient_;                          // iterations over which sample weights rise
     std::optional<ChangeStore> change_store_;  // exists from the first change on
     std::optional<SpecialPhase> phase_;

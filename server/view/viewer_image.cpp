@@ -181,13 +181,22 @@ void ViewerImage::create_pixel_textures() {
         create_buffer_texture("old pixel irradiance", GL_RGBA32F, old_irradiance_);
 }
 
-void ViewerImage::resize(glm::uvec2 size) {
-    size = glm::max(size, glm::uvec2(1));
-    if (size == size_) {
-        return;
+void ViewerImage::set_view(const Camera& camera, glm::uvec2 size) {
+    if (glm::max(size, glm::uvec2(1)) == size_) {
+        set_camera(camera);
+    } else {
+        restart(camera, size);
     }
-    size_ = size;
-    allocate();
+}
+
+void ViewerImage::restart(const Camera& camera, glm::uvec2 size) {
+    size = glm::max(size, glm::uvec2(1));
+    if (size != size_) {
+        size_ = size;
+        allocate();
+    }
+    camera_ = camera;
+    statistics_ = {};
     refresh_geometry(0.0F);
 }
 
@@ -505,9 +514,13 @@ void ViewerImage::request_statistics() {
 
 const ImageStatistics& ViewerImage::statistics() {
     if (statistics_readback_->ready()) {
-        evaluate(statistics_readback_->take_as<glm::vec4>());
+        finish_statistics();
     }
     return statistics_;
+}
+
+void ViewerImage::finish_statistics() {
+    evaluate(statistics_readback_->take_as<glm::vec4>());
 }
 
 void ViewerImage::evaluate(std::span<const glm::vec4> partial) {

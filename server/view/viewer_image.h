@@ -87,7 +87,10 @@ class ViewerImage : public BundleReceiver {
 
     /// Changes what is seen; accumulated irradiance follows its surface points.
     void set_camera(const Camera& camera);
-    void resize(glm::uvec2 size);
+    /// The same with another size, where nothing is kept.
+    void set_view(const Camera& camera, glm::uvec2 size);
+    /// Begins anew, with nothing accumulated.
+    void restart(const Camera& camera, glm::uvec2 size);
     [[nodiscard]] glm::uvec2 size() const { return size_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
     /// Samples taken since the camera last moved.
@@ -143,6 +146,8 @@ class ViewerImage : public BundleReceiver {
     /// Queues the statistics; statistics() returns the newest that has arrived.
     void request_statistics();
     const ImageStatistics& statistics();
+    /// Waits for those that were requested last.
+    void finish_statistics();
     [[nodiscard]] std::size_t bytes() const;
 
     /// Factor from radiance (cd/m²) to the tone curve's input for an exposure in stops.

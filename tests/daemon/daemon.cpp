@@ -18,8 +18,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kStartTime = std::chrono::seconds(60);
-constexpr auto kEndTime = std::chrono::seconds(20);
-constexpr auto kTalkTime = std::chrono::seconds(10);
+constexpr auto kEndTime = std::chrono::seconds(40);
+constexpr auto kTalkTime = std::chrono::seconds(40);
 constexpr std::string_view kAddress = "://127.0.0.1:";
 
 }  // namespace

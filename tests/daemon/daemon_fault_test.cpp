@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What operators and accidents do to a running server.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <filesystem>
@@ -112,6 +113,37 @@ TEST_F(DaemonTest, KilledWhileItIsWrittenToItLosesNothingAcknowledged) {
     Daemon daemon(cornell_box(), options);
     JsonViewer viewer(daemon.port());
     EXPECT_GE(viewer.join().at("welcome").at("epoch").get<unsigned>(), acknowledged);
+}
+
+/// No file of the process grows beyond this.
+void limit_files(pid_t process, rlim_t bytes) {
+    const rlimit limit{bytes, RLIM_INFINITY};
+    ASSERT_EQ(prlimit(process, RLIMIT_FSIZE, &limit, nullptr), 0);
+}
+
+TEST_F(DaemonTest, AFullDiskIsToldAndViewingGoesOn) {
+    const std::vector<std::string> options{"--journal", path("session.db")};
+    {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        viewer.join();
+        EXPECT_EQ(move(viewer, 2.0).at("sceneChanged").at("epoch"), 1);
+        limit_files(daemon.process(), 1);
+        const Json refused = move(viewer, 2.3);
+        ASSERT_TRUE(refused.contains("error")) << refused.dump();
+        EXPECT_EQ(refused.at("error").at("code"), "INTERNAL");
+        EXPECT_TRUE(daemon.says("could not be saved"));
+        EXPECT_TRUE(solves(viewer));
+        EXPECT_FALSE(viewer.next_frame([](const Json&) { return true; }).empty());
+        limit_files(daemon.process(), RLIM_INFINITY);
+        EXPECT_EQ(move(viewer, 2.6).at("sceneChanged").at("epoch"), 2) << "there is room again";
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    Daemon daemon(cornell_box(), options);
+    JsonViewer viewer(daemon.port());
+    const Json welcome = viewer.join();
+    EXPECT_EQ(welcome.at("welcome").at("epoch"), 2);
+    EXPECT_NEAR(x_of_box(welcome), 2.6, 1e-6);
 }
 
 TEST_F(DaemonTest, WithoutAJournalASessionBeginsAnew) {

@@ -19,9 +19,9 @@ double metric(std::uint16_t port, const std::string& name) {
     return found == std::string::npos ? -1.0 : std::stod(text.substr(found + name.size() + 2));
 }
 
-/// Waits up to twenty seconds for a metric to reach a value.
+/// Waits up to a minute for a metric to reach a value.
 bool reaches(std::uint16_t port, const std::string& name, double value) {
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 300; ++i) {
         if (metric(port, name) == value) {
             return true;
         }
@@ -75,7 +75,7 @@ TEST_F(ViewersTest, AViewerThatAcknowledgesNothingIsPausedAndComesBack) {
         R"({"id":1,"hello":{"protocol":"1.0","viewport":{"width":160,"height":120}}})");
     // The active one must keep acknowledging meanwhile.
     bool paused = false;
-    for (int i = 0; i < 100 && !paused; ++i) {
+    for (int i = 0; i < 500 && !paused; ++i) {
         active.request({{"ping", Json::object()}});
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         paused = metric(daemon_->port(), "raybundle_paused_viewers") == 1.0;
@@ -127,6 +127,33 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
                 viewer->next_frame([&](const Json& f) { return f["cameraId"] == turn; }).empty());
         }
     }
+}
+
+TEST(SilentViewersTest, WhoNeverAcknowledgesGetsOneFrameAndHoldsNoPicture) {
+    constexpr double kPictures = 6.0;
+    constexpr double kLeastBytes = 1280.0 * 720.0 * 60.0;  // of one picture
+    const Daemon daemon(scene_file("cornell_box.gltf"), {"--min-frames-per-second", "0.1"});
+    JsonViewer active(daemon.port());
+    active.join();
+    ASSERT_FALSE(active.next_frame([](const Json&) { return true; }).empty());
+    ASSERT_TRUE(reaches(daemon.port(), "raybundle_rendered_viewers", 1.0));
+    const double before = metric(daemon.port(), "raybundle_gl_memory_bytes");
+    std::vector<std::unique_ptr<RawClient>> silent;
+    for (int i = 0; i < static_cast<int>(kPictures); ++i) {
+        silent.push_back(std::make_unique<RawClient>(daemon.port()));
+        silent.back()->upgrade();
+        silent.back()->send_text(
+            R"({"id":1,"hello":{"protocol":"1.0","viewport":{"width":1280,"height":720}}})");
+    }
+    for (auto& client : silent) {
+        std::optional<RawFrame> message;
+        while ((message = client->read_message()) && message->opcode != 2) {
+        }
+        EXPECT_TRUE(message.has_value()) << "no first frame";
+    }
+    ASSERT_TRUE(reaches(daemon.port(), "raybundle_rendered_viewers", kPictures + 1.0));
+    const double after = metric(daemon.port(), "raybundle_gl_memory_bytes");
+    EXPECT_LT(after - before, 0.5 * kPictures * kLeastBytes);
 }
 
 }  // namespace

@@ -123,7 +123,9 @@ TEST_F(ReviewTest, APinGoesToEverybodyAndSurvivesAKilledServer) {
         ann.join();
         JsonViewer ben(daemon_->port());
         ben.join();
-        ann.next_frame([](const Json& header) { return header.value("iterations", 0) > 512; });
+        ASSERT_FALSE(
+            ann.next_frame([](const Json& header) { return header.value("iterations", 0) > 512; })
+                .empty());
         const Json probe = measured(ann);
         ASSERT_TRUE(probe.at("hit").get<bool>());
         const Json added = ann.request({{"addPin",
@@ -158,7 +160,7 @@ TEST_F(ReviewTest, APinSaysWhenTheLightThereHasChanged) {
     const auto settled = [](const Json& header) {
         return header.at("settled").get<double>() >= 0.97 && header.value("iterations", 0) > 256;
     };
-    viewer.next_frame(settled);
+    ASSERT_FALSE(viewer.next_frame(settled).empty());
     // Floor between the camera and the short box, which then comes to stand beside it.
     const Json probe = measured(viewer);
     ASSERT_TRUE(probe.at("hit").get<bool>()) << probe.dump();
@@ -169,11 +171,16 @@ TEST_F(ReviewTest, APinSaysWhenTheLightThereHasChanged) {
     const Json place = point(at.at("x").get<double>(), 2.2, at.at("z").get<double>());
     viewer.request(
         {{"moveObject", {{"object", kShortBox}, {"transform", {{"translation", place}}}}}});
-    const Json changed = viewer.next([](const Json& message) {
-        return message.contains("pinChanged") && message["pinChanged"].contains("change");
+    // The first word on it may come while the change is still being worked in.
+    std::string heard;
+    const Json changed = viewer.next([&](const Json& message) {
+        if (!message.contains("pinChanged") || !message["pinChanged"].contains("change")) {
+            return false;
+        }
+        heard += message.dump() + "\n";
+        return message["pinChanged"]["change"].get<double>() < -0.1;
     });
-    ASSERT_FALSE(changed.empty());
-    EXPECT_LT(changed.at("pinChanged").at("change").get<double>(), -0.1) << changed.dump();
+    EXPECT_FALSE(changed.empty()) << heard;
 }
 
 TEST_F(ReviewTest, AViewpointIsKeptForEverybody) {
@@ -205,7 +212,9 @@ TEST_F(ReviewTest, WhoShowsAPlaceShowsItToTheOthers) {
 TEST_F(ReviewTest, AGridMeasuresWhatThePictureShowsAndNothingElse) {
     JsonViewer viewer(daemon_->port());
     viewer.join("", 320, 240);
-    viewer.next_frame([](const Json& header) { return header.value("iterations", 0) > 64; });
+    ASSERT_FALSE(
+        viewer.next_frame([](const Json& header) { return header.value("iterations", 0) > 64; })
+            .empty());
     constexpr int kSide = 11;
     const double step = kRoom / kSide;
     const Json answer = viewer.request({{"probeGrid",

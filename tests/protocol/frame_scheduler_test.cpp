@@ -93,6 +93,21 @@ TEST(FrameScheduler, WhoWantsNothingSavesNothing) {
     EXPECT_NEAR(frames[1], 20, 2) << "the one that was away must not take over";
 }
 
+TEST(FrameScheduler, OtherWorkIsPaidWithFrames) {
+    FrameScheduler scheduler;
+    const std::vector<FrameRequest> both{{1, true}, {2, true}};
+    std::map<ViewerId, int> frames;
+    for (int i = 0; i < 300; ++i) {
+        const ViewerId viewer = *scheduler.next(both);
+        scheduler.charge(viewer, 10.0);
+        ++frames[viewer];
+        if (viewer == 1) {
+            scheduler.charge_besides(1, 20.0);  // resizes, probes
+        }
+    }
+    EXPECT_NEAR(frames[2], 3 * frames[1], 6);
+}
+
 TEST(FrameScheduler, AVeryExpensiveViewerIsServedInOneStep) {
     FrameScheduler scheduler;
     const std::vector<FrameRequest> requests{{1, false}};

@@ -13,7 +13,9 @@
 namespace raybundle {
 namespace {
 
-constexpr int kTimeoutMs = 5000;
+constexpr int kTimeoutMs = 20000;  // only what hangs takes so long, on a busy machine either
+constexpr int kPing = 9;
+constexpr int kPong = 10;
 
 }  // namespace
 
@@ -155,7 +157,11 @@ std::optional<RawFrame> RawClient::read_frame() {
 std::optional<RawFrame> RawClient::read_message() {
     std::optional<RawFrame> message;
     while (auto frame = read_frame()) {
-        if (frame->opcode >= 9) {
+        if (frame->opcode == kPing) {
+            send_frame(kPong, frame->payload);
+            continue;
+        }
+        if (frame->opcode == kPong) {
             continue;
         }
         if (frame->opcode != 0 || !message) {

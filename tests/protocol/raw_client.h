@@ -45,7 +45,7 @@ class RawClient {
     /// Next frame; nothing where the connection is over or the time is up.
     std::optional<RawFrame> read_frame();
 
-    /// Next text or binary message, fragments put together; pings are skipped.
+    /// Next text or binary message, fragments put together; pings are answered.
     std::optional<RawFrame> read_message();
 
     /// Whether the server has closed the connection, waiting for it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/time_share.h"
 
+#include "stream/time_budget.h"
+
 #include <gtest/gtest.h>
 
 namespace raybundle {
@@ -47,6 +49,31 @@ TEST(TimeShareTest, DoesNotSaveUpWithoutBounds) {
     }
     time.charge(500.0);
     EXPECT_FALSE(time.may());
+}
+
+TEST(TimeBudgetTest, WorkStaysBelowItsShareWhateverAPieceCosts) {
+    for (const double piece_ms : {1.0, 30.0, 500.0}) {
+        TimeBudget budget(0.1, 100.0);
+        constexpr double kTotalMs = 1e6;
+        double spent = 0.0;
+        for (double now = 0.0; now < kTotalMs; now += 5.0) {
+            if (budget.may(now)) {
+                budget.charge(piece_ms);
+                spent += piece_ms;
+            }
+        }
+        EXPECT_LE(spent, 0.1 * kTotalMs + 100.0 + piece_ms) << piece_ms;
+        EXPECT_GE(spent, 0.099 * kTotalMs) << piece_ms;
+    }
+}
+
+TEST(TimeBudgetTest, SavesUpNoMoreThanItsBurstAndSurvivesAClockThatJumps) {
+    TimeBudget budget(0.5, 100.0);
+    EXPECT_TRUE(budget.may(1e9));
+    budget.charge(100.0);
+    EXPECT_FALSE(budget.may(1e9));
+    EXPECT_FALSE(budget.may(0.0));
+    EXPECT_TRUE(budget.may(10.0)) << "earns again from where the clock is now";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // crowd of stalled and flapping connections. Prints figures; status 1 where memory grows, a viewer
 // is lost or a contribution was not finite. Times are reported, not judged: they are the machine's.
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +13,9 @@
 #include <exception>
 #include <fstream>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 #include "daemon.h"
 #include "raw_client.h"
@@ -48,6 +52,23 @@ double resident_mib(pid_t process) {
     return 0.0;
 }
 
+/// Processor time that a process has taken, s.
+double processor_seconds(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(file, text);
+    constexpr int user_time = 12;  // fields after the name in brackets, proc(5)
+    std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+    std::string skipped;
+    for (int i = 1; i < user_time; ++i) {
+        fields >> skipped;
+    }
+    double user = 0.0;
+    double system = 0.0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
 double metric(std::uint16_t port, const std::string& name) {
     const std::string text =
         http_exchange(port, "GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
@@ -56,20 +77,23 @@ double metric(std::uint16_t port, const std::string& name) {
                                       : std::stod(text.substr(found + name.size() + 2));
 }
 
-/// Memory over a phase: what it was once settled, and the mean of the last quarter.
-struct Memory {
+/// The server's memory over a phase, MiB: once settled, and the mean of the last quarter.
+struct Footprint {
     double settled = 0.0;
     double last = 0.0;
+    double cores = 0.0;  ///< that the server had, mean
 
     [[nodiscard]] double growth() const { return last / settled - 1.0; }
 };
 
-Memory watch_memory(const Daemon& daemon, double seconds) {
+Footprint watch(Daemon& daemon, double seconds) {
     const double settling = std::min(settling_s, 0.25 * seconds);
     std::vector<double> before, after;
+    const double processor = processor_seconds(daemon.process());
     const auto start = Clock::now();
     while (seconds_since(start) < seconds) {
         std::this_thread::sleep_for(std::chrono::duration<double>(sample_s));
+        daemon.output();  // a pipe that nobody reads would stop the server
         const double now = seconds_since(start);
         if (now >= settling && now < 2.0 * settling) {
             before.push_back(resident_mib(daemon.process()));
@@ -84,7 +108,8 @@ Memory watch_memory(const Daemon& daemon, double seconds) {
         }
         return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
     };
-    return {mean(before), mean(after)};
+    const double cores = (processor_seconds(daemon.process()) - processor) / seconds_since(start);
+    return {mean(before), mean(after), cores};
 }
 
 double percentile(std::vector<double> values, double share) {
@@ -107,7 +132,7 @@ bool stop(Viewers& all) {
     return fine;
 }
 
-bool report(const Daemon& daemon, const Memory& memory) {
+bool report(Daemon& daemon, const Footprint& memory) {
     const double non_finite = metric(daemon.port(), "raybundle_non_finite_total");
     fmt::print("  memory {:.1f} MiB settled, {:.1f} MiB at the end ({:+.1f} %)\n", memory.settled,
                memory.last, 100.0 * memory.growth());
@@ -115,6 +140,9 @@ bool report(const Daemon& daemon, const Memory& memory) {
                metric(daemon.port(), "raybundle_iterations_total"),
                metric(daemon.port(), "raybundle_iterations_per_second"),
                metric(daemon.port(), "raybundle_relative_error"), non_finite);
+    fmt::print("  the server had {:.2f} cores\n", memory.cores);
+    const std::string said = daemon.output();
+    fmt::print("{}", said.substr(std::min(said.size(), said.find('\n') + 1)));
     return memory.growth() <= most_growth && non_finite == 0.0;
 }
 
@@ -126,7 +154,7 @@ bool many_viewers(double seconds) {
     for (int i = 0; i < viewers; ++i) {
         all.push_back(std::make_unique<SoakViewer>(daemon.port(), i < moving, i));
     }
-    const Memory memory = watch_memory(daemon, seconds);
+    const Footprint memory = watch(daemon, seconds);
     std::vector<double> rates, latencies;
     for (int i = 0; i < moving; ++i) {
         SoakViewer& viewer = *all[static_cast<std::size_t>(i)];
@@ -165,7 +193,7 @@ bool hostile_crowd(double seconds) {
     std::this_thread::sleep_for(std::chrono::duration<double>(alone_s));
     const double alone = frames();
     const HostileClients crowd(daemon.port(), stalled, flapping);
-    const Memory memory = watch_memory(daemon, seconds - alone_s);
+    const Footprint memory = watch(daemon, seconds - alone_s);
     const double rate = (frames() - alone) / (seconds - alone_s) / good_viewers;
     fmt::print("  each good viewer: {:.1f} frames/s alone, {:.1f} in the crowd; {} flaps\n",
                alone / alone_s / good_viewers, rate, crowd.flaps());
@@ -177,15 +205,18 @@ bool hostile_crowd(double seconds) {
 }  // namespace raybundle
 
 int main(int count, char** arguments) {
-    const double minutes = count == 2 ? std::atof(arguments[1]) : 0.0;
-    if (!(minutes >= 0.2 && minutes <= 100000.0)) {
-        fmt::print(stderr, "usage: raybundle_soak MINUTES (0.2 or more)\n");
+    const double minutes = count >= 2 ? std::atof(arguments[1]) : 0.0;
+    const std::string_view only = count == 3 ? arguments[2] : "";
+    if (!(minutes >= 0.2 && minutes <= 100000.0) || count > 3 ||
+        !(only.empty() || only == "many" || only == "crowd")) {
+        fmt::print(stderr, "usage: raybundle_soak MINUTES [many|crowd] (0.2 or more)\n");
         return 2;
     }
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     try {
-        const bool first = raybundle::many_viewers(60.0 * minutes * 0.6);
-        const bool second = raybundle::hostile_crowd(60.0 * minutes * 0.4);
+        const double s = 60.0 * minutes;
+        const bool first = only == "crowd" || raybundle::many_viewers(only.empty() ? 0.6 * s : s);
+        const bool second = only == "many" || raybundle::hostile_crowd(only.empty() ? 0.4 * s : s);
         fmt::print("{}\n", first && second ? "fine" : "FAILED");
         return first && second ? 0 : 1;
     } catch (const std::exception& error) {
