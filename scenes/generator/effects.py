@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 
+from .rounded import sphere
 from .shapes import box
 from .solid import Camera, Light, Material, SceneModel, SceneObject, Solid
 
@@ -124,4 +125,49 @@ def environment() -> SceneModel:
                      files={"effects/surroundings.hdr": _surroundings()})
 
 
-SCENES = (punctual_lights, ies_profile, overcast_sky, clear_sky, environment)
+LAMP = Material("lamp", (0.7, 0.7, 0.7), luminance=900.0, light_colour=(1.0, 0.9, 0.75))
+
+
+def _lamp() -> SceneObject:
+    """A square lamp under the ceiling, facing down."""
+    corners = [(1.4, 2.98, 1.6), (2.6, 2.98, 1.6), (2.6, 2.98, 2.8), (1.4, 2.98, 2.8)]
+    return SceneObject("lamp", [Solid(corners, [(0, 1, 2, 3)], "lamp")], movable=False)
+
+
+def _lit_room(name: str, materials: list[Material], objects: list[SceneObject]) -> SceneModel:
+    return SceneModel(name=f"effects/{name}", materials=[*MATERIALS, LAMP, *materials],
+                      objects=[_room(), _lamp(), *objects], cameras=CAMERAS, embed_buffer=True)
+
+
+def mirror() -> SceneModel:
+    """A mirror on the back wall, and a golden ball before it."""
+    glass = Solid([(0.5, 0.4, 3.98), (0.5, 2.6, 3.98), (3.5, 2.6, 3.98), (3.5, 0.4, 3.98)],
+                  [(0, 1, 2, 3)], "mirror")
+    return _lit_room("mirror", [
+        Material("mirror", (0.92, 0.94, 0.93), mirror=True),
+        Material("gold", (1.0, 0.78, 0.34), mirror=True),
+    ], [
+        SceneObject("mirror", [glass], movable=False),
+        SceneObject("box", [box((-0.4, 0.0, -0.4), (0.4, 0.9, 0.4), "white")], (1.1, 0.0, 2.2), 25.0),
+        SceneObject("ball", [sphere(0.45, 48, 24, "gold")], (2.7, 0.46, 2.4)),
+    ])
+
+
+def glass() -> SceneModel:
+    """A pane, a glass ball and a block of amber glass before coloured walls."""
+    pane = Solid([(-0.55, 0.0, 0.0), (-0.55, 1.9, 0.0), (0.55, 1.9, 0.0), (0.55, 0.0, 0.0)],
+                 [(0, 1, 2, 3)], "pane")
+    return _lit_room("glass", [
+        Material("pane", (0.9, 0.97, 0.93), glass=1.5),
+        Material("crystal", (1.0, 1.0, 1.0), glass=1.5, attenuation=(0.9, 0.95, 0.92)),
+        Material("amber", (1.0, 1.0, 1.0), glass=1.55, attenuation=(0.6, 0.2, 0.02)),
+    ], [
+        SceneObject("pane", [pane], (0.9, 0.001, 1.6), 20.0),
+        SceneObject("ball", [sphere(0.45, 64, 32, "crystal")], (2.2, 0.46, 1.5)),
+        SceneObject("block", [box((-0.35, 0.0, -0.35), (0.35, 1.1, 0.35), "amber")], (3.2, 0.001, 2.3),
+                    30.0),
+        SceneObject("box", [box((-0.4, 0.0, -0.4), (0.4, 0.9, 0.4), "white")], (1.2, 0.0, 3.0)),
+    ])
+
+
+SCENES = (punctual_lights, ies_profile, overcast_sky, clear_sky, environment, mirror, glass)

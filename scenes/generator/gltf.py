@@ -62,7 +62,17 @@ def _material_json(document: _Document, material: Material, area: float) -> dict
         pbr["baseColorFactor"] = [*material.base_colour, 1.0]
     result: dict[str, object] = {"name": material.name, "pbrMetallicRoughness": pbr}
     extensions: dict[str, object] = {}
-    if material.roughness is None:
+    if material.mirror:
+        pbr["metallicFactor"], pbr["roughnessFactor"] = 1.0, 0.0
+    elif material.glass is not None:
+        pbr["roughnessFactor"] = 0.0
+        extensions["KHR_materials_ior"] = {"ior": material.glass}
+        extensions["KHR_materials_transmission"] = {"transmissionFactor": 1.0}
+        if material.attenuation is not None:
+            extensions["KHR_materials_volume"] = {
+                "thicknessFactor": 1.0, "attenuationDistance": 1.0,
+                "attenuationColor": list(material.attenuation)}
+    elif material.roughness is None:
         extensions["KHR_materials_specular"] = {"specularFactor": 0.0}
     emitted = radiance(material, area)
     if max(emitted) > 0.0:

@@ -128,16 +128,20 @@ class Camera:
 
 @dataclass
 class Material:
-    """glTF metallic-roughness material without metal.
+    """glTF metallic-roughness material.
 
     `base_colour` is linear Rec. 709. `roughness` None: pure Lambert (specularFactor 0).
     `luminance` (cd/m²) or `flux` (lm, over all surfaces of the material) make it a luminaire of the
-    given colour.
+    given colour. `mirror`: a metal without roughness. `glass`: index of refraction; of a body whose
+    light `attenuation` is left of after 1 m, or of a thin pane where that is None.
     """
 
     name: str
     base_colour: Vec
     roughness: float | None = None
+    mirror: bool = False
+    glass: float | None = None
+    attenuation: Vec | None = None
     texture: str | None = None
     luminance: float = 0.0
     flux: float = 0.0

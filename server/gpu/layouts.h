@@ -29,6 +29,7 @@ static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(PunctualData) == 112);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
+static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);
 static_assert(sizeof(BundleParameters) == 16 * 22);
 static_assert(sizeof(ViewParameters) == 64 + 16 * 11);

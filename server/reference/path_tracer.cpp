@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reference/glass_walk.h"
 #include "reference/roulette.h"
 #include "scene/environment.h"
 
@@ -32,16 +33,17 @@ double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& 
 }
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
-    const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
-    if (!hit) {
-        return background_towards(scene_.scene(), direction);
+    const GlassWalk seen =
+        walk_through_glass(scene_, scene_.trace(origin, direction), direction, sampler);
+    if (!seen.hit) {
+        return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
-    const glm::dvec3 sum = scene_.emission(*hit);
-    if (hit->absorbs()) {
-        return sum;
+    const glm::dvec3 sum = scene_.emission(*seen.hit);
+    if (seen.hit->absorbs()) {
+        return seen.weight * sum;
     }
-    return sum +
-           reflected(*hit, Scattering(scene_, *hit, NormalKind::shading, -direction), sampler);
+    const Scattering scattering(scene_, *seen.hit, NormalKind::shading, -seen.direction);
+    return seen.weight * (sum + reflected(*seen.hit, scattering, sampler));
 }
 
 glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) const {
@@ -72,19 +74,23 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
             }
             throughput /= chance;
         }
-        const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
-        const glm::dvec3 emission = emitted(hit, next->direction);
+        const GlassWalk met = walk_through_glass(scene_, scene_.trace_from(point, next->direction),
+                                                 next->direction, sampler);
+        throughput *= met.weight;
+        const glm::dvec3 emission = emitted(met.hit, met.direction);
         if (emission != glm::dvec3(0.0)) {
-            const double other = settings_.next_event ? lights_.density(point, scattering.frame(),
-                                                                        next->direction, hit)
-                                                      : 0.0;
+            // No light is sampled through glass.
+            const bool sampled = settings_.next_event && !met.passed;
+            const double other =
+                sampled ? lights_.density(point, scattering.frame(), next->direction, met.hit)
+                        : 0.0;
             sum += throughput * emission * (next->density / (next->density + other));
         }
-        if (!hit || hit->absorbs()) {
+        if (!met.hit || met.hit->absorbs()) {
             break;
         }
-        point = *hit;
-        scattering = Scattering(scene_, point, NormalKind::geometric, -next->direction);
+        point = *met.hit;
+        scattering = Scattering(scene_, point, NormalKind::geometric, -met.direction);
     }
     return sum;
 }

@@ -21,9 +21,10 @@ struct PathSettings {
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };
 
-/// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation. Light that a path meets by
-/// itself and light that is sampled are weighted by the balance heuristic (Veach, Guibas 1995,
-/// "Optimally Combining Sampling Techniques").
+/// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation, which glass blocks: light that
+/// comes through glass is met by the paths themselves, that of punctual lights not at all. Light
+/// that a path meets by itself and light that is sampled are weighted by the balance heuristic
+/// (Veach, Guibas 1995, "Optimally Combining Sampling Techniques").
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,

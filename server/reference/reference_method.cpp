@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/reference_method.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "reference/bidirectional.h"
@@ -11,6 +12,7 @@
 #include "reference/ray_caster.h"
 #include "reference/single_ray_picture.h"
 #include "reference/solution_picture.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -171,6 +173,10 @@ class SingleRayMethod : public ReferenceMethod {
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed) {
+    if (kind != ReferenceKind::path && has_glass(scene.scene())) {
+        throw std::runtime_error("of the comparison methods only 'path' knows glass, which " +
+                                 scene.scene().name + " has");
+    }
     switch (kind) {
         case ReferenceKind::single_ray:
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);

@@ -7,6 +7,7 @@
 
 #include "scene/base_colour.h"
 #include "scene/ggx_albedo.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -105,6 +106,11 @@ ReflectanceModel metallic_roughness_model(const Material& material) {
 }  // namespace
 
 ReflectanceModel reflectance_model(const Material& material) {
+    if (is_glass(material)) {  // scene/specular_surface.h knows what it does
+        ReflectanceModel model;
+        model.lambert_share = 0.0F;
+        return model;
+    }
     ReflectanceModel model = material.max_phong ? max_phong_model(*material.max_phong)
                                                 : metallic_roughness_model(material);
     model.f0 *= material.reflectance;

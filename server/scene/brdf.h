@@ -54,8 +54,8 @@ struct ReflectanceModel {
 };
 
 /// glTF 2.0 appendix B (metallic-roughness) with KHR_materials_specular, or max-Phong over a
-/// Lambert base. Roughness is at least min_roughness. Some 10 us; the first call for a glossy
-/// material also integrates the GGX table.
+/// Lambert base; nothing for glass. Roughness is at least min_roughness. Some 10 us; the first call
+/// for a glossy material also integrates the GGX table.
 ReflectanceModel reflectance_model(const Material& material);
 
 /// Cheap. base_colour: factor times texture, linear; clamped to 0..max_albedo. A max-Phong lobe and

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 
 #include "scene/brdf.h"
 #include "scene/environment.h"
+#include "scene/patch_colour.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -16,7 +19,6 @@ namespace {
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
 constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
-constexpr float nearly_mirror = 0.1F;         // roughness
 
 /// Numbers that several effects ask for.
 struct Survey {
@@ -27,7 +29,10 @@ struct Survey {
     double environment_flux = 0.0;
     double sun_flux = 0.0;
     std::size_t punctual = 0, suns = 0;
-    std::size_t glossy = 0, mirrors = 0, textured = 0, masked = 0, profiles = 0;
+    std::size_t mirrors = 0, panes = 0, bodies = 0;
+    double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
+    double transmitted_share = 0.0;  // largest share that glass lets pass
+    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0;
     double specular_share = 0.0;  // largest of a material, of what it reflects
 
     [[nodiscard]] double share(double flux) const {
@@ -87,6 +92,20 @@ double lobe_share(const Material& material) {
     return brdf.lobe.kind == LobeKind::none ? 0.0 : 1.0;
 }
 
+void survey_specular(const SpecularSurface& surface, Survey& survey) {
+    survey.mirrors += surface.kind == SpecularKind::mirror ? 1 : 0;
+    survey.panes += surface.kind == SpecularKind::pane ? 1 : 0;
+    survey.bodies += surface.kind == SpecularKind::glass ? 1 : 0;
+    survey.mirrored_share =
+        std::max(survey.mirrored_share, static_cast<double>(luminance(surface.f0)));
+    if (surface.is_glass()) {
+        const PaneShares shares = pane_shares(surface, 1.0F);
+        survey.transmitted_share =
+            std::max(survey.transmitted_share, static_cast<double>(luminance(shares.transmitted)));
+        survey.mirrored_share = std::max(survey.mirrored_share, 1.0);  // at grazing angles
+    }
+}
+
 void survey_materials(const Scene& scene, Survey& survey) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
@@ -97,8 +116,8 @@ void survey_materials(const Scene& scene, Survey& survey) {
         if (share > 0.0) {
             ++survey.glossy;
             survey.specular_share = std::max(survey.specular_share, share);
-            survey.mirrors += !material.max_phong && material.roughness < nearly_mirror ? 1 : 0;
         }
+        survey_specular(specular_surface(material, mean_base_colour(scene, material)), survey);
         const bool textured =
             material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0;
         survey.textured += textured ? 1 : 0;
@@ -148,17 +167,40 @@ class Planner {
             glossy ? count_of(survey_.glossy, "material") + " with a specular lobe"
                    : "no material in use has a specular lobe",
             "L(D|G)*G(D|G)*E", survey_.specular_share, glossy_bytes);
-        absent("specular-reflection",
-               survey_.mirrors > 0
-                   ? count_of(survey_.mirrors, "nearly ideal mirror") + ", carried as glossy"
-                   : "no material in use is nearly a mirror",
-               "L(D|G)*S+E");
-        absent("refraction", "transmission is not read from files", "L(D|G)*S+E");
-        absent("caustics",
-               survey_.mirrors > 0 ? "mirrors are carried as glossy, and so is what they throw"
-                                   : "nothing reflects or refracts like a mirror",
-               "LS+D(D|G)*E");
+        plan_specular();
         absent("diffuse-transmission", "no material transmits", "L(D|G)*D(D|G)*E");
+    }
+
+    void plan_specular() {
+        const std::size_t glass = survey_.panes + survey_.bodies;
+        const bool mirrors = survey_.mirrors > 0;
+        add("specular-reflection", mirrors || glass > 0,
+            mirrors || glass > 0
+                ? count_of(survey_.mirrors, "mirror") + " and " + std::to_string(glass) +
+                      " of glass: view rays go on from them, pixels gather light at their ends"
+                : "no material in use is a mirror or glass",
+            "L(D|G)*S+E", survey_.mirrored_share, 0);
+        add("refraction", glass > 0,
+            glass > 0
+                ? count_of(survey_.panes, "thin pane") + " and " + std::to_string(survey_.bodies) +
+                      " of solid glass: view rays are refracted"
+                : "no material in use transmits",
+            "L(D|G)*S+E", survey_.transmitted_share, 0);
+        absent("caustics", caustics_reason(), "LS+D(D|G)*E");
+    }
+
+    /// What light that mirrors and glass throw on other surfaces is missing.
+    [[nodiscard]] std::string caustics_reason() const {
+        if (survey_.panes + survey_.bodies > 0) {
+            return fmt::format(
+                "light goes straight through glass: its tint, up to {:.0f} % of it that is "
+                "reflected, and what bodies bend and focus is missing on other surfaces",
+                100.0 * static_cast<double>(pane_shares({SpecularKind::pane}, 1.0F).reflected.g));
+        }
+        return survey_.mirrors > 0
+                   ? "mirrors throw light on other surfaces as a lobe of roughness 0.4 does: "
+                     "in the right amount, but blurred"
+                   : "nothing reflects or refracts like a mirror";
     }
 
     void plan_lights() {
@@ -212,6 +254,15 @@ void remove_gloss(Scene& scene) {
     }
 }
 
+/// Mirrors become the glossy surfaces next to them.
+void remove_mirrors(Scene& scene) {
+    for (Material& material : scene.materials) {
+        if (specular_kind(material) == SpecularKind::mirror) {
+            material.roughness = std::nextafter(mirror_roughness, 1.0F);
+        }
+    }
+}
+
 void remove_textures(Scene& scene, PatchMesh& mesh) {
     scene.textures.clear();
     for (Material& material : scene.materials) {
@@ -237,6 +288,12 @@ EffectsPlan plan_effects(const Scene& scene, std::size_t patches) {
 bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
     if (name == "glossy") {
         remove_gloss(scene);
+    } else if (name == "specular-reflection" && !has_glass(scene)) {
+        remove_mirrors(scene);
+    } else if (name == "refraction") {
+        for (Material& material : scene.materials) {
+            material.transmission = 0.0F;
+        }
     } else if (name == "textures") {
         remove_textures(scene, mesh);
     } else if (name == "punctual-lights") {

@@ -12,12 +12,12 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 13> fully_read = {
+constexpr std::array<std::string_view, 15> fully_read = {
     "KHR_mesh_quantization",   "KHR_texture_transform",      "KHR_materials_emissive_strength",
     "KHR_materials_specular",  "KHR_draco_mesh_compression", "KHR_node_visibility",
     "EXT_meshopt_compression", "EXT_mesh_gpu_instancing",    "EXT_texture_webp",
     "KHR_xmp_json_ld",         "KHR_lights_punctual",        "EXT_lights_ies",
-    "KHR_materials_ior",
+    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_volume",
 };
 
 struct Approximation {

@@ -22,6 +22,7 @@
 #include "scene/gltf_objects.h"
 #include "scene/gltf_primitive.h"
 #include "scene/lights.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -99,7 +100,8 @@ void note_materials(GltfDocument& document, const Scene& scene) {
     for (std::size_t i = 0; i < used.size(); ++i) {
         const Material& m = scene.materials[i];
         const bool specular = !m.max_phong && (m.metallic > 0.0F || m.specular > 0.0F);
-        if (used[i] && specular && m.roughness < nearly_mirror) {
+        if (used[i] && specular && m.roughness < nearly_mirror &&
+            specular_kind(m) == SpecularKind::none) {
             names += (names.empty() ? "'" : ", '") + m.name + "'";
         }
     }

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "scene/gltf_image.h"
 #include "scene/gltf_max_phong.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -98,6 +100,7 @@ class MaterialReader {
             material.specular_colour = vector_or(*specular, "specularColorFactor", glm::vec3(1.0F));
         }
         read_index_of_refraction(source, material);
+        read_transmission(source, material);
         material.max_phong = read_max_phong(source.extras);
         material.double_sided = source.doubleSided;
         note_unused(source);
@@ -132,7 +135,30 @@ class MaterialReader {
     static void read_index_of_refraction(const tinygltf::Material& source, Material& material) {
         if (const auto* extension = find_extension(source.extensions, "KHR_materials_ior")) {
             const float ior = number_or(*extension, "ior", 1.5F);
+            material.ior = ior;
             material.specular_colour *= ior_reflectance(ior) / ior_reflectance(1.5F);
+        }
+    }
+
+    /// KHR_materials_transmission and KHR_materials_volume.
+    void read_transmission(const tinygltf::Material& source, Material& material) {
+        if (const auto* transmission =
+                find_extension(source.extensions, "KHR_materials_transmission")) {
+            material.transmission =
+                std::clamp(number_or(*transmission, "transmissionFactor", 0.0F), 0.0F, 1.0F);
+        }
+        if (const auto* volume = find_extension(source.extensions, "KHR_materials_volume")) {
+            material.thickness = std::max(number_or(*volume, "thicknessFactor", 0.0F), 0.0F);
+            material.attenuation_colour = vector_or(*volume, "attenuationColor", glm::vec3(1.0F));
+            material.attenuation_distance = number_or(*volume, "attenuationDistance", 0.0F);
+        }
+        if (material.transmission <= 0.0F) {
+            return;
+        }
+        if (specular_kind(material) == SpecularKind::none) {
+            document_.note("materials that transmit less than half of the light are opaque");
+        } else if (material.transmission < 1.0F || material.roughness > mirror_roughness) {
+            document_.note("glass is read as smooth and as transmitting all that it lets in");
         }
     }
 

@@ -71,6 +71,11 @@ struct Material {
     float roughness = 1.0F;
     float specular = 1.0F;            ///< KHR_materials_specular specularFactor; 0: pure Lambert
     glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
+    float ior = 1.5F;                 ///< KHR_materials_ior, of what is transmitted
+    float transmission = 0.0F;  ///< KHR_materials_transmission: share of what is not reflected
+    float thickness = 0.0F;     ///< KHR_materials_volume; 0: a thin pane
+    glm::vec3 attenuation_colour{1.0F};  ///< of the same: left after attenuation_distance, m
+    float attenuation_distance = 0.0F;   ///< m; 0: nothing is absorbed
     /// Over a Lambert base_colour, instead of metallic-roughness.
     std::optional<MaxPhong> max_phong;
     float reflectance = 1.0F;  ///< factor of the whole BRDF; 1 in files

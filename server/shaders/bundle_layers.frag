@@ -9,6 +9,9 @@
 #ifdef ALPHA_MASK
 #include "alpha_mask.glsl"
 #endif
+#ifdef GLASS
+#include "glass.glsl"
+#endif
 
 layout(std430, binding = BINDING_COUNTERS) buffer CounterBuffer { Counters counters; };
 uniform uint first_facet;
@@ -17,6 +20,11 @@ void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
     if (!covered(facet)) {
+        return;
+    }
+#endif
+#ifdef GLASS
+    if (is_glass(facet)) {
         return;
     }
 #endif

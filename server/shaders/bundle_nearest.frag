@@ -3,7 +3,12 @@
 #include "layouts.glsl"
 #ifdef ALPHA_MASK
 #include "alpha_mask.glsl"
-#else
+#endif
+#if defined(GLASS) && !defined(SHOW_GLASS)
+#define GLASS_PASSES
+#include "glass.glsl"
+#endif
+#if !defined(ALPHA_MASK) && !defined(GLASS_PASSES)
 layout(early_fragment_tests) in;
 #endif
 layout(location = 0) out uint surface;
@@ -14,6 +19,11 @@ void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
     if (!covered(facet)) {
+        discard;
+    }
+#endif
+#ifdef GLASS_PASSES
+    if (is_glass(facet)) {
         discard;
     }
 #endif

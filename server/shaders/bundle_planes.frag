@@ -9,8 +9,11 @@
 #include "parallel.glsl"
 #ifdef ALPHA_MASK
 #include "alpha_mask.glsl"
-#else
+#elif !defined(GLASS)
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;
+#endif
+#ifdef GLASS
+#include "glass.glsl"
 #endif
 layout(location = 0) out uint surface;
 uniform uint first_facet;
@@ -29,6 +32,11 @@ void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
     if (!covered(facet)) {
+        discard;
+    }
+#endif
+#ifdef GLASS
+    if (is_glass(facet)) {
         discard;
     }
 #endif

@@ -61,6 +61,9 @@
 #define BINDING_PIXEL_FIRST_SHOT 56   // vec4[]: see view_first_shot.comp
 #define BINDING_IES 57                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
 #define BINDING_TILES 59              // see tiles.glsl
+#define BINDING_CONTINUED 60          // ContinuedPixel[]
+#define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
+#define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
@@ -184,7 +187,7 @@ struct VertexData {
 
 struct MaterialData {
     vec4 base_colour;   // rgb factor of the Lambert albedo; w: alpha of the texture below which nothing is there, 0: none
-    vec4 emission;      // rgb, radiance units
+    vec4 emission;      // rgb, radiance units; w: 1: glass
     vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
     vec4 uv_row1;       // xyz: second row
     uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
@@ -236,7 +239,21 @@ struct PixelSurface {
 #define PIXEL_SKY 0x40000000u
 #define PIXEL_BACK 0x20000000u  // the facet's back is seen
 #define PIXEL_GLOSSY 0x10000000u
-#define PIXEL_FACET_MASK 0x0fffffffu
+#define PIXEL_CONTINUED 0x04000000u  // specular: shows what lies at the ends of its view rays
+#define PIXEL_FACET_MASK 0x03ffffffu
+
+#define CONTINUED_NONE 0xfffffffeu  // surface of a continued pixel that is not used
+
+// An end of a view ray that specular surfaces have deflected: a pixel behind the picture.
+struct ContinuedPixel {
+    vec3 position;    // world space
+    uint surface;     // 2 * facet + side, NO_HIT (sky) or CONTINUED_NONE
+    vec3 throughput;  // share of its radiance that the pixel shows
+    uint towards;     // direction back along the ray, octahedral snorm 2x16
+    uint old_index;   // of the same end in the picture before, or NO_HIT
+    uint branch;      // 0: the strongest of the pixel's ends
+    uint pad0, pad1;
+};
 
 struct PickResult {
     vec4 position;     // w = 1: hit; before the dispatch x = index of the pixel (bits)

@@ -24,6 +24,9 @@ layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float 
 uniform bool listed_tiles;  // else all of them
 uniform uint tile_list;
 #endif
+#ifdef CONTINUED
+#include "continued.glsl"
+#endif
 // In a GLOSSY scene there are two programs: one for the other pixels, one for the glossy ones (GLOSSY_PIXELS).
 #ifdef GLOSSY_PIXELS
 #include "pixel_gloss.glsl"
@@ -72,12 +75,16 @@ bool load_receiver(uint index, out Receiver x) {
         x.normal = x.geometric;
     }
 #endif
+    bool receives = p.w != NO_PATCH;
+#ifdef MIRRORS
+    receives = receives && (q.w & PIXEL_CONTINUED) == 0u;
+#endif
 #ifdef GLOSSY_PIXELS
-    return p.w != NO_PATCH && (q.w & PIXEL_GLOSSY) != 0u;
+    return receives && (q.w & PIXEL_GLOSSY) != 0u;
 #elif defined(GLOSSY)
-    return p.w != NO_PATCH && (q.w & PIXEL_GLOSSY) == 0u;
+    return receives && (q.w & PIXEL_GLOSSY) == 0u;
 #else
-    return p.w != NO_PATCH;
+    return receives;
 #endif
 }
 
@@ -121,7 +128,11 @@ bool beside_receiver(Receiver x, uint surface, vec3 hit_offset, vec3 ahead, floa
 vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
     vec3 root = unpackUnorm4x8(x.albedo).rgb;
     vec3 albedo = root * root;
+#ifdef CONTINUED
+    vec3 w_out = continued_towards(index);
+#else
     vec3 w_out = normalize(view.eye.xyz - x.position);
+#endif
     float cos_out = dot(x.normal, w_out);
     vec4 at_out;
     Brdf brdf = pixel_brdf(facet_material(facet_base + (x.surface >> 1)), albedo, cos_out, at_out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finished picture: radiance, exposure, tone curve, sRGB; row 0 at the top. Variants: LINEAR writes
-// radiance as floats; FALSE_LUMINANCE and FALSE_ILLUMINANCE show quantities by colour; SCALED averages
+// radiance as floats, of CONTINUED pixels in their own order; FALSE_LUMINANCE and FALSE_ILLUMINANCE show quantities by colour; SCALED averages
 // down to a smaller frame.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
@@ -76,7 +76,9 @@ void main() {
     }
     uint row = index / frame_width;
     uvec2 at = uvec2(index - row * frame_width, frame_height - 1u - row);
-#if defined(LINEAR)
+#if defined(CONTINUED)
+    frame[index] = vec4(pixel_radiance(index, load_pixel(index)) * view.display.x, 1.0);
+#elif defined(LINEAR)
     uint source = at.y * view.size.x + at.x;
     frame[index] = vec4(pixel_radiance(source, load_pixel(source)) * view.display.x, 1.0);
 #elif defined(SCALED)

@@ -12,6 +12,9 @@ layout(local_size_x = 64) in;
 #include "first_shot.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+#ifdef CONTINUED
+#include "continued.glsl"
+#endif
 /// Irradiance per pixel (radiance units); in GLOSSY scenes the glossy radiance of all pixels follows.
 layout(std430, binding = BINDING_PIXEL_FIRST_SHOT) writeonly buffer PixelFirstShotBuffer { vec4 pixel_first_shot[]; };
 
@@ -38,7 +41,11 @@ void main() {
         bool glossy = (q.w & PIXEL_GLOSSY) != 0u;
         vec3 root = unpackUnorm4x8(q.y).rgb;
         vec3 albedo = root * root;
+#ifdef CONTINUED
+        vec3 w_out = continued_towards(index);
+#else
         vec3 w_out = normalize(view.eye.xyz - position);
+#endif
         vec4 at_out;
         Brdf brdf = pixel_brdf(facet_material(facet), albedo, dot(normal, w_out), at_out);
 #endif

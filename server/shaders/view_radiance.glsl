@@ -15,6 +15,15 @@ layout(binding = UNIT_PIXEL_GLOSS) uniform samplerBuffer pixel_gloss_texels;
 #ifdef ENVIRONMENT
 #include "environment.glsl"
 #endif
+#ifdef MIRRORS
+#include "octahedral.glsl"
+#include "continued.glsl"
+#ifndef CONTINUED
+layout(std430, binding = BINDING_CONTINUED_RADIANCE) readonly buffer ContinuedRadianceBuffer {
+    vec4 continued_radiance[];
+};
+#endif
+#endif
 #ifdef FIRST_SHOT
 layout(binding = UNIT_PIXEL_FIRST_SHOT) uniform samplerBuffer pixel_first_shot_texels;
 #endif
@@ -71,16 +80,40 @@ vec3 pixel_albedo(PixelSurface p) {
 vec3 background(uint index) {
     vec3 sum = view.sky.rgb;
 #ifdef ENVIRONMENT
+#ifdef CONTINUED
+    vec3 direction = -continued_towards(index);
+#else
     uint row = index / view.size.x;
     vec2 ndc = (vec2(index - row * view.size.x, row) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
     vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+#endif
     sum += environment_radiance(normalize(direction)) * view.sky.w;
 #endif
     return sum;
 }
 
+#if defined(MIRRORS) && !defined(CONTINUED)
+/// What a mirror or glass shows: the light at the ends of the pixel's view ray.
+vec3 radiance_of_ends(uint index) {
+    uint row = index / view.size.x;
+    uvec2 at = uvec2(index - row * view.size.x, row);
+    uint entry = continued_entry(at);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < (entry & 7u); ++k) {
+        uint end = continued_index(at, entry, k);
+        sum += continued[end].surface != CONTINUED_NONE ? continued[end].throughput * continued_radiance[end].rgb : vec3(0.0);
+    }
+    return sum;
+}
+#endif
+
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
+#if defined(MIRRORS) && !defined(CONTINUED)
+    if ((p.facet & PIXEL_CONTINUED) != 0u) {
+        return radiance_of_ends(index);
+    }
+#endif
     if (p.patch_id == NO_PATCH) {
         return (p.facet & PIXEL_SKY) != 0u ? background(index) : vec3(0.0);
     }

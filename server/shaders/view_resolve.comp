@@ -3,7 +3,8 @@
 // rasterised surface ids; specular surfaces get their base colour here and the rest in
 // view_resolve_specular.comp. Accumulated irradiance follows its surface point from the picture before
 // (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED, SMOOTH (some
-// vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved).
+// vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved), CONTINUED (pixels
+// behind mirrors and glass, see continued.glsl).
 #include "layouts.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
@@ -29,6 +30,9 @@ layout(binding = UNIT_REFLECTANCE) uniform samplerBuffer reflectance_texels;
 layout(std430, binding = BINDING_SPECULAR_FLAGS) buffer SpecularFlagBuffer { uint listed[]; };
 #define SPECULAR_GROUPS_ACCESS
 #include "specular_groups.glsl"
+#endif
+#ifdef MIRRORS
+#include "continued.glsl"
 #endif
 #ifdef SMOOTH
 layout(std430, binding = BINDING_OBJECTS) readonly buffer ObjectBuffer { mat4 world_from_object[]; };
@@ -104,12 +108,12 @@ vec3 receiving_point(uint creases, vec3 weights, vec3 a, vec3 e1, vec3 e2) {
 }
 
 /// Patch under the pixel with a ray from the eye.
-uint patch_seen(uint surface, vec3 direction) {
+uint patch_seen(uint surface, vec3 eye, vec3 direction) {
     Facet facet = load_facet(surface >> 1);
-    float height = facet.plane.w - dot(facet.plane.xyz, view.eye.xyz);
+    float height = facet.plane.w - dot(facet.plane.xyz, eye);
     float along = dot(facet.plane.xyz, direction);
     float t = along != 0.0 ? height / along : 0.0;
-    return patch_of_surface(2u * triangle_at(facet, view.eye.xyz + t * direction) + (surface & 1u));
+    return patch_of_surface(2u * triangle_at(facet, eye + t * direction) + (surface & 1u));
 }
 
 void main() {
@@ -119,10 +123,23 @@ void main() {
     }
     uint index = at.y * view.size.x + at.x;
     vec4 no_samples = vec4(0.0, 0.0, 0.0, -common_weight);
+#ifdef CONTINUED
+    uint surface = continued[index].surface;
+    vec3 direction = -continued_towards(index);
+    vec3 eye = continued[index].position - direction;
+    if (surface == CONTINUED_NONE) {
+        pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
+        pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, PIXEL_BACK);
+        pixel_irradiance[index] = no_samples;
+        return;
+    }
+#else
     uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
     vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
     vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
-    uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, direction);
+    vec3 eye = view.eye.xyz;
+#endif
+    uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, eye, direction);
     if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
         pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
         pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : surface >> 1 | PIXEL_BACK);
@@ -139,7 +156,7 @@ void main() {
     // Moeller, Trumbore 1997: barycentrics of the ray through the pixel's centre, clamped to the triangle.
     vec3 q = cross(direction, e2);
     float determinant = dot(e1, q);
-    vec3 s = view.eye.xyz - a;
+    vec3 s = eye - a;
     float inverse = abs(determinant) > 0.0 ? 1.0 / determinant : 0.0;
     float v1 = clamp(dot(s, q) * inverse, 0.0, 1.0);
     float v2 = clamp(dot(direction, cross(s, e1)) * inverse, 0.0, 1.0 - v1);
@@ -167,6 +184,9 @@ void main() {
     flags |= lobe.w > 0.0 ? PIXEL_GLOSSY : 0u;
     note_specular(index, int(lobe.z) != LOBE_NONE);
 #endif
+#if defined(MIRRORS) && !defined(CONTINUED)
+    flags |= is_continued(at) ? PIXEL_CONTINUED : 0u;
+#endif
     bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
     pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
@@ -177,7 +197,11 @@ void main() {
     no_samples.rgb -= constant_share(packSnorm2x16(octahedral_from_vector(shaded)), surface >> 1) * view.constant.rgb;
 #endif
 #ifdef REPROJECT
+#ifdef CONTINUED
+    uint old_index = continued[index].old_index;
+#else
     uint old_index = old_pixel(position_before(position, object, triangle.xyz, weights), normal, id, object);
+#endif
     vec4 old_sum = vec4(0.0);
     for (bool seen = old_index != hidden; seen; seen = false) {
         old_sum = texelFetch(old_irradiance_texels, int(old_index));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Second part of a viewer's geometry buffer, for surfaces with a specular lobe: the base colour becomes the
 // directional albedo at the angle of view, and the accumulated glossy part follows its surface point.
-// Variants: GLOSSY, REPROJECT, MOVED as in view_resolve.comp.
+// Variants: GLOSSY, REPROJECT, MOVED, CONTINUED as in view_resolve.comp.
 #include "layouts.glsl"
 layout(local_size_x = SPECULAR_GROUP) in;
 #include "scene_geometry.glsl"
@@ -14,6 +14,9 @@ layout(local_size_x = SPECULAR_GROUP) in;
 #include "specular_groups.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(std430, binding = BINDING_PIXELS) buffer PixelBuffer { uvec4 pixels[]; };
+#ifdef CONTINUED
+#include "continued.glsl"
+#endif
 #ifdef GLOSSY
 layout(std430, binding = BINDING_PIXEL_GLOSS) writeonly buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
 #endif
@@ -31,6 +34,14 @@ float kept_gloss(vec3 from_eye, vec3 from_old_eye, Brdf brdf) {
     vec3 turn = normalize(from_eye) - normalize(from_old_eye);
     return 1.0 / (1.0 + 16.0 * dot(turn, turn) / (alpha * alpha));
 }
+
+#if defined(CONTINUED) && defined(REPROJECT)
+/// What the same end of the ray had: nothing that its light depends on has changed.
+vec4 kept_gloss_of(uint index) {
+    uint old_index = continued[index].old_index;
+    return old_index == hidden ? vec4(0.0) : carried(texelFetch(old_gloss_texels, int(old_index)), kept_weight);
+}
+#endif
 
 vec4 reprojected_gloss(vec3 position, uvec4 p, uvec4 q, Brdf brdf) {
     uint object = floatBitsToUint(patch_attributes(p.w).z);
@@ -61,12 +72,18 @@ void main() {
     vec3 position = uintBitsToFloat(p.xyz);
     vec3 root = unpackUnorm4x8(q.y).rgb;
     Brdf brdf = make_brdf(material, root * root);
+#ifdef CONTINUED
+    vec3 w_out = continued_towards(index);
+#else
     vec3 w_out = normalize(view.eye.xyz - position);
+#endif
     vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
     vec3 albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_out)));
     pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0));
 #ifdef GLOSSY
-#ifdef REPROJECT
+#if defined(CONTINUED) && defined(REPROJECT)
+    pixel_gloss[index] = kept_gloss_of(index) - vec4(0.0, 0.0, 0.0, common_weight);
+#elif defined(REPROJECT)
     pixel_gloss[index] = reprojected_gloss(position, p, q, brdf) - vec4(0.0, 0.0, 0.0, common_weight);
 #else
     pixel_gloss[index] = vec4(0.0, 0.0, 0.0, -common_weight);

@@ -30,7 +30,19 @@ vec4 probe_statistics(uint probe) {
     if (p.patch_id == NO_PATCH || (p.facet & PIXEL_EMITTER) != 0u) {
         return vec4(0.0);
     }
-    float l = luminance(pixel_radiance(index, p));
+    float share = 1.0;
+#if defined(CONTINUED)
+    // A pixel of the picture counts once: by the strongest end of its view ray.
+    share = continued[index].branch == 0u ? luminance(continued[index].throughput) : 0.0;
+    if (share <= 0.0) {
+        return vec4(0.0);
+    }
+#elif defined(MIRRORS)
+    if ((p.facet & PIXEL_CONTINUED) != 0u) {
+        return vec4(0.0);
+    }
+#endif
+    float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
     float weight = pixel_weight(texelFetch(pixel_irradiance_texels, int(index)), view.weights.x);
     float batch_weight = view.weights.y;
@@ -49,7 +61,7 @@ vec4 probe_statistics(uint probe) {
     float variance = max(square / float(BATCHES) - mean * mean, 0.0) * variance_of_mean;
     // The batches may be younger than the mean that is shown.
     variance *= min(float(BATCHES) * batch_weight / weight, 1.0);
-    float reflectance = luminance(pixel_albedo(p)) * inverse_pi;
+    float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
     return vec4(min(variance * reflectance * reflectance, l * l), l * l, logarithm, 1.0);
 }
 

@@ -95,6 +95,10 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
     upload_vertex_data(mesh);
     create_textures();
     upload_environment();
+    if (has_specular_surfaces(scene)) {
+        specular_rays_ = std::make_unique<SpecularRays>(
+            scene, mesh, std::span(world_from_object_).first(object_count_));
+    }
     choose_defines(scene, mesh);
     upload_matrices();
     place_geometry(Place::now);
@@ -171,8 +175,8 @@ void GpuScene::upload_surfaces(const PatchMesh& mesh) {
 
 layout::MaterialData GpuScene::material_data(const Material& material) const {
     layout::MaterialData data{};
-    data.base_colour = glm::vec4(material.base_colour, 0.0F);
-    data.emission = glm::vec4(material.emission / radiance_unit_, 0.0F);
+    data.base_colour = glm::vec4(is_glass(material) ? glm::vec3(0.0F) : material.base_colour, 0.0F);
+    data.emission = glm::vec4(material.emission / radiance_unit_, is_glass(material) ? 1.0F : 0.0F);
     const TextureSlot& slot = material.base_colour_texture;
     if (slot.texture >= 0) {
         const glm::mat3& m = slot.uv_from_mesh_uv;
@@ -285,6 +289,9 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(thin_walls_, "THIN_WALLS");
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");
+    define_if(specular_rays_ != nullptr, "MIRRORS");
+    glass_ = has_glass(scene);
+    define_if(glass_, "GLASS");
     const std::vector<std::string>& lobes = reflectance_.defines();
     defines_.insert(defines_.end(), lobes.begin(), lobes.end());
 }
@@ -325,6 +332,9 @@ void GpuScene::move_object(std::uint32_t object, const glm::mat4& world_from_obj
     world_from_object_[object] = glm::translate(glm::mat4(1.0F), -origin_) * world_from_object;
     upload_matrices();
     place_geometry(Place::now);
+    if (specular_rays_) {
+        specular_rays_->place(object, world_from_object_[object]);
+    }
     diameter_ = std::max(diameter_, glm::length(bounds().extent()));
 }
 

@@ -14,6 +14,7 @@
 #include "scene/scene.h"
 #include "solution/facet_raster.h"
 #include "solution/reflectance_tables.h"
+#include "solution/specular_rays.h"
 
 namespace raybundle {
 
@@ -55,8 +56,9 @@ class GpuScene {
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
     /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
-    /// profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE. What is absent
-    /// is not even compiled.
+    /// profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view
+    /// rays go on from some surfaces), GLASS (bundles pass some). What is absent is not even
+    /// compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -81,6 +83,10 @@ class GpuScene {
     /// A punctual light in the shifted world, its object at its present place.
     [[nodiscard]] PlacedLight placed_light(std::size_t light) const;
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
+    /// What deflects view rays, at the present places; null where nothing does.
+    [[nodiscard]] const SpecularRays* specular_rays() const { return specular_rays_.get(); }
+    /// Whether a material as it is in the scene now needs no macro that is not among defines().
+    [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
     /// Of an object, shifted world, at a place.
     [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
     [[nodiscard]] glm::mat4 world_from_object(std::uint32_t object, Place place) const;
@@ -109,6 +115,7 @@ class GpuScene {
     float radiance_unit_ = 1.0F;
     float diameter_ = 1.0F;
     bool thin_walls_ = false;  // fronts and backs may coincide
+    bool glass_ = false;       // some surfaces let bundles pass
     bool constant_radiance_;
     bool has_sky_ = false;
     glm::vec3 uniform_sky_{0.0F};  // cd/m²
@@ -120,6 +127,7 @@ class GpuScene {
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
 
     ReflectanceTables reflectance_;
+    std::unique_ptr<SpecularRays> specular_rays_;
     Buffer world_positions_;
     FacetRaster facets_;
     Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;

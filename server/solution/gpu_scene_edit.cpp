@@ -8,12 +8,22 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
                                std::span<const std::uint32_t> materials) {
     for (const std::uint32_t index : materials) {
         reflectance_.update(scene, index);
+        if (specular_rays_) {
+            specular_rays_->update(scene, index);
+        }
         const layout::MaterialData data = material_data(scene.materials[index]);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                index * sizeof(layout::MaterialData));
     }
     upload_surfaces(mesh);
     upload_reflectors(mesh);
+}
+
+bool GpuScene::covers(const Scene& scene, std::size_t material) const {
+    const bool followed =
+        specular_rays_ || specular_kind(scene.materials[material]) == SpecularKind::none;
+    const bool passed = glass_ || !is_glass(scene.materials[material]);
+    return followed && passed && reflectance_.covers(scene, material);
 }
 
 void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {

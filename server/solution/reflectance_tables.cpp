@@ -8,6 +8,7 @@
 #include "gpu/layouts.h"
 #include "scene/base_colour.h"
 #include "scene/patch_colour.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -21,9 +22,22 @@ static_assert(sizeof(ReflectanceNode) == sizeof(glm::vec4));
 
 constexpr std::size_t texels_per_record = sizeof(layout::Reflectance) / sizeof(glm::vec4);
 
+/// A random bundle seldom meets the one direction in which a mirror throws light, and then far too
+/// much: between surfaces mirrors reflect into a lobe of this roughness.
+constexpr float transported_roughness = 0.4F;
+
+ReflectanceModel transported_model(const Material& material) {
+    if (specular_kind(material) != SpecularKind::mirror) {
+        return reflectance_model(material);
+    }
+    Material rough = material;
+    rough.roughness = transported_roughness;
+    return reflectance_model(rough);
+}
+
 /// What a material's table is made for. All Lambert surfaces share one.
 Brdf representative(const Scene& scene, const Material& material) {
-    const ReflectanceModel model = reflectance_model(material);
+    const ReflectanceModel model = transported_model(material);
     return model.lobe.kind == LobeKind::none ? Brdf{}
                                              : make_brdf(model, mean_base_colour(scene, material));
 }
@@ -61,7 +75,7 @@ ReflectanceTables::ReflectanceTables(const Scene& scene) {
     bool max_phong = false;
     for (const Material& material : scene.materials) {
         table_of_material_.push_back(table_for(scene, material));
-        models_.push_back(reflectance_model(material));
+        models_.push_back(transported_model(material));
         const LobeKind kind = models_.back().lobe.kind;
         specular_ |= kind != LobeKind::none;
         any_glossy_ |= glossy(models_.size() - 1);
@@ -106,7 +120,7 @@ void ReflectanceTables::update(const Scene& scene, std::size_t material) {
     } else {
         table_of_material_[material] = table_for(scene, scene.materials[material]);
     }
-    models_[material] = reflectance_model(scene.materials[material]);
+    models_[material] = transported_model(scene.materials[material]);
     upload();
 }
 

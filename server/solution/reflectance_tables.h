@@ -13,7 +13,8 @@
 namespace raybundle {
 
 /// The reflectance of a scene's materials for brdf.glsl: a record per material, and a table per
-/// distinct BRDF. Importance is tabulated for the mean base colour of a material's texture.
+/// distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them, SpecularRays tell.
+/// Importance is tabulated for the mean base colour of a material's texture.
 class ReflectanceTables {
   public:
     /// Integrates the tables on the CPU, about 6 ms for each distinct glossy BRDF, and uploads

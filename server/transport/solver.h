@@ -75,7 +75,7 @@ class Solver {
     /// Whether the shaders of this solver can show a material as it is in the scene now; else a new
     /// solver takes over, see take_over().
     [[nodiscard]] bool covers(const Scene& scene, std::uint32_t material) const {
-        return scene_.reflectance().covers(scene, material);
+        return scene_.covers(scene, material);
     }
     /// Goes on where another solver is that does not cover some materials as they are now, of the
     /// scene and mesh that this one was made of: keeps its mean irradiance and starts the special

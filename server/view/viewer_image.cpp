@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu/gl_scope.h"
+#include "view/continued_view.h"
 
 namespace raybundle {
 
@@ -25,15 +26,15 @@ std::size_t pixel_count(glm::uvec2 size) {
     return std::size_t{size.x} * size.y;
 }
 
-std::vector<std::string> scene_defines_and(const GpuScene& scene,
-                                           const std::vector<std::string>& more) {
-    std::vector<std::string> defines = scene.defines();
+using Defines = std::vector<std::string>;
+
+Defines with_all(Defines defines, const Defines& more) {
     defines.insert(defines.end(), more.begin(), more.end());
     return defines;
 }
 
-ViewPrograms::Resolve make_resolve(const GpuScene& scene, const std::vector<std::string>& variant) {
-    const auto defines = scene_defines_and(scene, variant);
+ViewPrograms::Resolve make_resolve(const GpuScene& scene, const Defines& variant) {
+    const auto defines = with_all(scene.defines(), variant);
     ViewPrograms::Resolve programs;
     programs.all = ShaderProgram({"view_resolve.comp"}, defines);
     if (scene.reflectance().specular()) {
@@ -43,8 +44,8 @@ ViewPrograms::Resolve make_resolve(const GpuScene& scene, const std::vector<std:
 }
 
 ViewPrograms::Receive make_receive(const std::string& shader, const GpuScene& scene,
-                                   const std::vector<std::string>& variant) {
-    const auto defines = scene_defines_and(scene, variant);
+                                   const Defines& variant) {
+    const auto defines = with_all(scene.defines(), variant);
     ViewPrograms::Receive programs;
     programs.all = ShaderProgram({shader}, defines);
     if (scene.reflectance().any_glossy()) {
@@ -53,8 +54,7 @@ ViewPrograms::Receive make_receive(const std::string& shader, const GpuScene& sc
     return programs;
 }
 
-ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene,
-                                                    std::vector<std::string> variant) {
+ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene, Defines variant) {
     const std::string shader = "transport_hemicube_pixels.comp";
     ViewPrograms::ReceiveHemicube programs;
     programs.from_lambert = make_receive(shader, scene, variant);
@@ -67,34 +67,41 @@ ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene,
 
 }  // namespace
 
-ViewPrograms::ViewPrograms(const GpuScene& scene)
-    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()),
-      resolve_new(make_resolve(scene, {})),
-      resolve_reprojected(make_resolve(scene, {"REPROJECT 1"})),
-      resolve_moved(make_resolve(scene, {"REPROJECT 1", "MOVED 1"})),
-      compose_linear({"view_compose.comp"}, with(scene.defines(), "LINEAR 1")),
+ViewPrograms::ViewPrograms(const GpuScene& scene) : ViewPrograms(scene, {}) {
+    if (scene.specular_rays() != nullptr) {
+        continued = std::make_unique<ViewPrograms>(scene, Defines{"CONTINUED 1"});
+    }
+}
+
+ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant)
+    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
+      resolve_new(make_resolve(scene, variant)),
+      resolve_reprojected(make_resolve(scene, with(variant, "REPROJECT 1"))),
+      resolve_moved(make_resolve(scene, with_all(variant, {"REPROJECT 1", "MOVED 1"}))),
+      compose_linear({"view_compose.comp"}, with_all(scene.defines(), with(variant, "LINEAR 1"))),
       correct({"view_correct.comp"}, scene.defines()),
       scale({"view_scale.comp"}, scene.defines()),
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
       vertex_irradiance({"view_vertex_irradiance.comp"}),
-      statistics({"view_statistics.comp"}, scene.defines()),
-      probe({"view_probe.comp"}, scene.defines()),
-      hemicube_pixels(make_receive_hemicube(scene, {})),
-      hemicube_pixels_special(make_receive_hemicube(scene, {"SPECIAL 1"})),
-      layers_pixels(make_receive("transport_layers_pixels.comp", scene, {})),
-      layers_pixels_special(make_receive("transport_layers_pixels.comp", scene, {"SPECIAL 1"})),
-      planes_pixels(make_receive("transport_planes_pixels.comp", scene, {})),
+      statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
+      probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
+      hemicube_pixels(make_receive_hemicube(scene, variant)),
+      hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
+      layers_pixels(make_receive("transport_layers_pixels.comp", scene, variant)),
+      layers_pixels_special(
+          make_receive("transport_layers_pixels.comp", scene, with(variant, "SPECIAL 1"))),
+      planes_pixels(make_receive("transport_planes_pixels.comp", scene, variant)),
       edges(scene),
       affected_tiles(scene) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
-    for (std::size_t i = 0; i < modes.size(); ++i) {
+    for (std::size_t i = 0; i < modes.size() && variant.empty(); ++i) {
         const auto defines = with(scene.defines(), modes[i]);
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }
     if (!scene.punctual_lights().empty()) {
-        first_shot = ShaderProgram({"view_first_shot.comp"}, scene.defines());
+        first_shot = ShaderProgram({"view_first_shot.comp"}, with_all(scene.defines(), variant));
     }
 }
 
@@ -111,7 +118,16 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
     statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
     vertex_irradiance_texture_ =
         create_buffer_texture("vertex irradiance", GL_RGBA16F, vertex_irradiance_);
+    if (programs.continued) {
+        continued_ = std::make_unique<ContinuedView>(scene, store, *programs.continued);
+    }
     allocate();
+}
+
+ViewerImage::~ViewerImage() = default;
+
+ViewerImage* ViewerImage::continued() const {
+    return continued_ ? continued_->image() : nullptr;
 }
 
 void ViewerImage::allocate() {
@@ -256,8 +272,13 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
         make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
     parameters_.display = display;
     scene_.set_background(parameters_);
+    if (continued_) {
+        continued_->refresh(parameters_, camera_, kept_weight);
+    }
     upload_view();
-    raster(parameters_.clip_from_world, whole_picture());
+    if (ends_ == nullptr) {
+        raster(parameters_.clip_from_world, whole_picture());
+    }
     std::swap(pixels_, old_pixels_);
     std::swap(irradiance_, old_irradiance_);
     std::swap(pixel_texture_, old_pixel_texture_);
@@ -334,6 +355,11 @@ void ViewerImage::bind_pixels() const {
     if (specular_) {
         specular_->bind();
     }
+    if (continued_) {
+        continued_->bind();
+    } else if (ends_ != nullptr) {
+        ends_->bind_storage(BINDING_CONTINUED);
+    }
     if (first_shot_.bytes() > 0) {
         first_shot_.bind_storage(BINDING_PIXEL_FIRST_SHOT);
         glBindTextureUnit(UNIT_PIXEL_FIRST_SHOT, first_shot_texture_.get());
@@ -374,17 +400,29 @@ void ViewerImage::receive_hemicube(const Context& context) {
     const ViewPrograms::ReceiveHemicube& programs =
         context.special ? programs_.hemicube_pixels_special : programs_.hemicube_pixels;
     receive(context.glossy_shooter ? programs.from_glossy : programs.from_lambert, context);
+    if (continued() != nullptr) {
+        continued()->receive_hemicube(context);
+    }
 }
 
 void ViewerImage::receive_layers(const Context& context) {
     receive(context.special ? programs_.layers_pixels_special : programs_.layers_pixels, context);
+    if (continued() != nullptr) {
+        continued()->receive_layers(context);
+    }
 }
 
 void ViewerImage::receive_planes(const Context& context) {
     receive(programs_.planes_pixels, context);
+    if (continued() != nullptr) {
+        continued()->receive_planes(context);
+    }
 }
 
 void ViewerImage::discard_sample(const Context& context) {
+    if (continued() != nullptr) {
+        continued()->discard_sample(context);
+    }
     --samples_;
     parameters_.weights.x -= context.sample_weight;
     parameters_.weights.y -= context.sample_weight / BATCHES;
@@ -392,6 +430,9 @@ void ViewerImage::discard_sample(const Context& context) {
 }
 
 void ViewerImage::interpolate_vertices() {
+    if (continued_) {
+        continued_->shade();
+    }
     store_.bind();
     bind_pixels();
     programs_.vertex_irradiance.set("vertex_count", scene_.vertex_count());
@@ -423,6 +464,24 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     const bool smoothed = frame_size == size_ && edges_->complete();
     frame_readback_->request(smoothed ? edges_->average(programs_.edges, frame_) : frame_,
                              frame_bytes_);
+}
+
+void ViewerImage::refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight) {
+    ends_ = &ends;
+    camera_ = camera;
+    refresh_geometry(kept_weight);
+    clear_increments();
+}
+
+void ViewerImage::shade_continued(const Buffer& radiance) {
+    interpolate_vertices();
+    parameters_.display = {1.0F, 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    radiance.bind_storage(BINDING_FRAME);
+    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
+    programs_.compose_linear.set("frame_width", size_.x);
+    programs_.compose_linear.set("frame_height", size_.y);
+    programs_.compose_linear.dispatch(pixel_count(size_));
 }
 
 std::span<const std::uint8_t> ViewerImage::take() {
@@ -500,6 +559,9 @@ std::vector<glm::vec4> ViewerImage::read_irradiance() const {
 }
 
 void ViewerImage::request_statistics() {
+    if (continued() != nullptr) {
+        continued()->request_statistics();
+    }
     interpolate_vertices();
     parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
     upload_view();
@@ -512,6 +574,14 @@ void ViewerImage::request_statistics() {
     statistics_readback_->request(statistics_buffer_, statistics_buffer_.bytes());
 }
 
+glm::dvec4 ViewerImage::statistics_sums() {
+    glm::dvec4 sum(0.0);
+    for (const glm::vec4& p : statistics_readback_->take_as<glm::vec4>()) {
+        sum += glm::dvec4(p);
+    }
+    return sum;
+}
+
 const ImageStatistics& ViewerImage::statistics() {
     if (statistics_readback_->ready()) {
         finish_statistics();
@@ -520,14 +590,11 @@ const ImageStatistics& ViewerImage::statistics() {
 }
 
 void ViewerImage::finish_statistics() {
-    evaluate(statistics_readback_->take_as<glm::vec4>());
+    const glm::dvec4 own = statistics_sums();
+    evaluate(own + (continued() != nullptr ? continued()->statistics_sums() : glm::dvec4(0.0)));
 }
 
-void ViewerImage::evaluate(std::span<const glm::vec4> partial) {
-    glm::dvec4 sum(0.0);
-    for (const glm::vec4& p : partial) {
-        sum += glm::dvec4(p);
-    }
+void ViewerImage::evaluate(const glm::dvec4& sum) {
     if (sum.w <= 0.0) {
         return;
     }
@@ -549,7 +616,8 @@ float ViewerImage::automatic_exposure() const {
 }
 
 std::size_t ViewerImage::bytes() const {
-    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes();
+    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes() +
+                      (continued_ ? continued_->bytes() : 0);
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
           &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {

@@ -21,6 +21,8 @@
 
 namespace raybundle {
 
+class ContinuedView;
+
 enum class DisplayMode { photo = 0, false_luminance = 1, false_illuminance = 2 };
 
 /// How false colour shows a quantity: three decades below `maximum`, with lines or without.
@@ -53,6 +55,8 @@ struct PixelProbe {
 /// Programs that all viewers share.
 struct ViewPrograms {
     explicit ViewPrograms(const GpuScene& scene);
+    /// The same with more macros.
+    ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
 
     ShaderProgram raster;
     /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
@@ -76,6 +80,7 @@ struct ViewPrograms {
     Receive layers_pixels, layers_pixels_special, planes_pixels;
     EdgePrograms edges;
     AffectedTilePrograms affected_tiles;
+    std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on
 };
 
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
@@ -84,6 +89,7 @@ class ViewerImage : public BundleReceiver {
   public:
     ViewerImage(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs,
                 glm::uvec2 size);
+    ~ViewerImage() override;
 
     /// Changes what is seen; accumulated irradiance follows its surface points.
     void set_camera(const Camera& camera);
@@ -150,6 +156,15 @@ class ViewerImage : public BundleReceiver {
     void finish_statistics();
     [[nodiscard]] std::size_t bytes() const;
 
+    // Of the pixels of a ContinuedView alone, whose programs it was made with.
+
+    /// The pixels become these ends of view rays (ContinuedPixel each; must outlive this).
+    void refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight);
+    /// Writes the radiance (vec4, radiance units) that each pixel shows, in their own order.
+    void shade_continued(const Buffer& radiance);
+    /// The sums of view_statistics.comp as last requested; waits for them.
+    glm::dvec4 statistics_sums();
+
     /// Factor from radiance (cd/m²) to the tone curve's input for an exposure in stops.
     static float display_factor(float exposure);
     /// Exposure that puts the mean logarithm of luminance at mid-grey.
@@ -176,7 +191,8 @@ class ViewerImage : public BundleReceiver {
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void interpolate_vertices();
-    void evaluate(std::span<const glm::vec4> partial);
+    void evaluate(const glm::dvec4& sum);
+    [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 
     const GpuScene& scene_;
@@ -198,11 +214,13 @@ class ViewerImage : public BundleReceiver {
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
-    std::optional<EdgeFilter> edges_;         // always
-    std::optional<AffectedTiles> affected_;   // always
-    std::optional<SpecularGroups> specular_;  // only where the scene is specular
-    Buffer gloss_, old_gloss_, gloss_delta_;  // only where it is glossy
-    Buffer first_shot_;                       // only where it has punctual lights
+    std::optional<EdgeFilter> edges_;           // always
+    std::optional<AffectedTiles> affected_;     // always
+    std::optional<SpecularGroups> specular_;    // only where the scene is specular
+    std::unique_ptr<ContinuedView> continued_;  // only where it has mirrors or glass
+    const Buffer* ends_ = nullptr;              // of a ContinuedView's pixels
+    Buffer gloss_, old_gloss_, gloss_delta_;    // only where it is glossy
+    Buffer first_shot_;                         // only where it has punctual lights
     Texture2D first_shot_texture_;
     Texture2D gloss_texture_, old_gloss_texture_;
     Texture2D surface_ids_, depths_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a viewer's picture follows a special iteration phase.
+#include "view/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -71,6 +72,9 @@ void ViewerImage::refresh_moved(std::uint32_t moved_object) {
     parameters_.weights.y = 0.0F;
     batches_.clear();
     samples_ = 0;
+    if (continued_) {
+        continued_->refresh(parameters_, camera_, 1.0F);
+    }
     const PixelRectangle rectangle = rectangle_of(moved_object);
     if (rectangle.empty()) {
         return;
@@ -93,6 +97,9 @@ void ViewerImage::plan_differences(std::span<const BundleRays> bundles,
     store_.bind();
     bind_pixels();
     affected_->find(programs_.affected_tiles, bundles, boxes);
+    if (continued() != nullptr) {
+        continued()->plan_differences(bundles, boxes);
+    }
 }
 
 void ViewerImage::receive_special(const ViewPrograms::Receive& programs, const Context& context) {
@@ -134,6 +141,9 @@ void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::ui
             run(glm::vec3(1.0F), material);
         }
     }
+    if (continued() != nullptr) {
+        continued()->begin_surfaces(scale, reflecting, false);
+    }
 }
 
 void ViewerImage::scale_special(float factor) {
@@ -143,6 +153,9 @@ void ViewerImage::scale_special(float factor) {
     programs_.scale_delta.set("factor", glm::vec3(factor));
     programs_.scale_delta.set("material", NO_PATCH);
     programs_.scale_delta.dispatch(std::size_t{size_.x} * size_.y);
+    if (continued() != nullptr) {
+        continued()->scale_special(factor);
+    }
 }
 
 void ViewerImage::end_special(float bundles_noise, float most_weight) {
@@ -155,6 +168,9 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
     programs_.correct.set("bundles_noise", bundles_noise);
     programs_.correct.set("most_weight", most_weight);
     programs_.correct.dispatch(std::size_t{size_.x} * size_.y);
+    if (continued() != nullptr) {
+        continued()->end_special(bundles_noise, most_weight);
+    }
 }
 
 }  // namespace raybundle

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/specular_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/base_colour.h"
+
+namespace raybundle {
+namespace {
+
+constexpr float least_metal = 0.999F;         // share: below, the Lambert part shows
+constexpr float least_transmission = 0.5F;    // share: below, the surface is opaque
+constexpr float least_index = 1.0F;           // glass in air
+constexpr float most_index = 5.0F;            // no glass bends more
+constexpr float darkest_attenuation = 1e-6F;  // colour: absorption stays finite
+
+/// Beer and Lambert: colour is what is left after `distance`, m.
+glm::vec3 absorption_of(const Material& material) {
+    if (!(material.attenuation_distance > 0.0F) || !std::isfinite(material.attenuation_distance)) {
+        return glm::vec3(0.0F);
+    }
+    const glm::vec3 left = glm::clamp(material.attenuation_colour, darkest_attenuation, 1.0F);
+    return -glm::log(left) / material.attenuation_distance;
+}
+
+}  // namespace
+
+SpecularKind specular_kind(const Material& material) {
+    if (material.max_phong || material.alpha_mode != AlphaMode::opaque ||
+        material.emission != glm::vec3(0.0F)) {
+        return SpecularKind::none;
+    }
+    if (material.metallic >= least_metal) {
+        return material.roughness <= mirror_roughness ? SpecularKind::mirror : SpecularKind::none;
+    }
+    if (material.transmission < least_transmission) {
+        return SpecularKind::none;
+    }
+    return material.thickness > 0.0F ? SpecularKind::glass : SpecularKind::pane;
+}
+
+SpecularSurface specular_surface(const Material& material, const glm::vec3& base_colour) {
+    SpecularSurface surface;
+    surface.kind = specular_kind(material);
+    if (surface.kind == SpecularKind::mirror) {
+        surface.f0 = clamped_base_colour(base_colour) * material.reflectance;
+    } else if (surface.is_glass()) {
+        surface.ior = std::clamp(material.ior, least_index, most_index);
+        const glm::vec3 colour = glm::clamp(base_colour, 0.0F, 1.0F) * material.reflectance;
+        // Through a body light passes two boundaries: its colour is that of both.
+        surface.tint = surface.kind == SpecularKind::glass ? glm::sqrt(colour) : colour;
+        surface.absorption = absorption_of(material);
+    }
+    return surface;
+}
+
+bool has_specular_surfaces(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& m) { return specular_kind(m) != SpecularKind::none; });
+}
+
+bool has_glass(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), is_glass);
+}
+
+glm::vec3 mirror_reflectance(const SpecularSurface& mirror, float cosine) {
+    const float grazing = std::clamp(1.0F - cosine, 0.0F, 1.0F);
+    const float p = grazing * grazing * grazing * grazing * grazing;
+    return mirror.f0 + (glm::vec3(1.0F) - mirror.f0) * p;
+}
+
+float fresnel_reflectance(float cosine, float relative_index) {
+    cosine = std::clamp(cosine, 0.0F, 1.0F);
+    const float sine2 = (1.0F - cosine * cosine) / (relative_index * relative_index);
+    if (sine2 >= 1.0F) {
+        return 1.0F;
+    }
+    const float behind = std::sqrt(1.0F - sine2);
+    const float parallel = (relative_index * cosine - behind) / (relative_index * cosine + behind);
+    const float across = (cosine - relative_index * behind) / (cosine + relative_index * behind);
+    return 0.5F * (parallel * parallel + across * across);
+}
+
+std::optional<glm::vec3> refracted(const glm::vec3& direction, const glm::vec3& normal,
+                                   float relative_index) {
+    const float cosine = -glm::dot(direction, normal);
+    const float sine2 = (1.0F - cosine * cosine) / (relative_index * relative_index);
+    if (sine2 >= 1.0F) {
+        return std::nullopt;
+    }
+    return glm::normalize(direction / relative_index +
+                          (cosine / relative_index - std::sqrt(1.0F - sine2)) * normal);
+}
+
+PaneShares pane_shares(const SpecularSurface& pane, float cosine) {
+    // The sum of the geometric series of reflections inside; light is tinted at every crossing.
+    const float f = fresnel_reflectance(cosine, pane.ior);
+    PaneShares shares;
+    for (int c = 0; c < 3; ++c) {
+        const float t = pane.tint[c];
+        const float series = 1.0F / std::max(1.0F - f * f * t * t, 1e-6F);
+        shares.transmitted[c] = (1.0F - f) * (1.0F - f) * t * series;
+        shares.reflected[c] = f + f * (1.0F - f) * (1.0F - f) * t * t * series;
+    }
+    return shares;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces that deflect a ray into one direction or two, not into a lobe: ideal and nearly ideal
+// mirrors, and glass. Directions are unit vectors; cosines are those with the surface's normal.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+enum class SpecularKind {
+    none,
+    mirror,  ///< reflects into the mirrored direction
+    pane,    ///< a thin pane of glass: lets light straight through
+    glass    ///< boundary of a glass body: refracts, absorbs on the way inside
+};
+
+/// What such a surface does with light.
+struct SpecularSurface {
+    SpecularKind kind = SpecularKind::none;
+    glm::vec3 f0{0.0F};          ///< mirror: reflectance at normal incidence
+    float ior = 1.5F;            ///< glass: index of refraction, of the inside over the outside
+    glm::vec3 tint{1.0F};        ///< glass: factor of what passes the surface once
+    glm::vec3 absorption{0.0F};  ///< body: 1/m inside
+
+    [[nodiscard]] bool is_glass() const {
+        return kind == SpecularKind::pane || kind == SpecularKind::glass;
+    }
+};
+
+/// Metals up to this roughness are mirrors; where it lies is measured in server/README.md.
+constexpr float mirror_roughness = 0.1F;
+
+/// What a material is for view rays: a mirror where nothing but a narrow metallic lobe reflects,
+/// glass where at least half of the light is transmitted (KHR_materials_transmission; a body where
+/// KHR_materials_volume gives it a thickness). What emits or is cut out is neither. base_colour:
+/// linear, of the whole surface.
+SpecularSurface specular_surface(const Material& material, const glm::vec3& base_colour);
+
+/// Kind of a material; cheap.
+SpecularKind specular_kind(const Material& material);
+/// Whether a material is a thin pane or the boundary of a body of glass.
+inline bool is_glass(const Material& material) {
+    const SpecularKind kind = specular_kind(material);
+    return kind == SpecularKind::pane || kind == SpecularKind::glass;
+}
+/// Whether any material is one.
+bool has_specular_surfaces(const Scene& scene);
+bool has_glass(const Scene& scene);
+
+/// Schlick's approximation, as the lobes of scene/brdf.h have it.
+glm::vec3 mirror_reflectance(const SpecularSurface& mirror, float cosine);
+
+/// Share of unpolarised light that the boundary of two dielectrics reflects (Fresnel 1823).
+/// relative_index: of the far side over the near side. 1 where all is reflected.
+float fresnel_reflectance(float cosine, float relative_index);
+
+/// Direction behind the boundary (Snell 1621); nothing where all is reflected. direction: towards
+/// the boundary; normal: on the near side.
+std::optional<glm::vec3> refracted(const glm::vec3& direction, const glm::vec3& normal,
+                                   float relative_index);
+
+/// What a thin pane does with light: all reflections between its two faces are in it.
+struct PaneShares {
+    glm::vec3 reflected{0.0F};
+    glm::vec3 transmitted{0.0F};
+};
+PaneShares pane_shares(const SpecularSurface& pane, float cosine);
+
+}  // namespace raybundle

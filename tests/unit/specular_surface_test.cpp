@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/specular_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gltf_builder.h"
+#include "scene/brdf.h"
+
+namespace raybundle::test {
+namespace {
+
+constexpr float glass_index = 1.5F;
+
+TEST(SpecularSurface, FresnelHasItsClosedForms) {
+    // Normal incidence: ((n - 1)/(n + 1))^2, from either side.
+    EXPECT_NEAR(fresnel_reflectance(1.0F, glass_index), 0.04F, 1e-6F);
+    EXPECT_NEAR(fresnel_reflectance(1.0F, 1.0F / glass_index), 0.04F, 1e-6F);
+    EXPECT_EQ(fresnel_reflectance(0.0F, glass_index), 1.0F);
+    // Brewster's angle, tan = n: only the wave across the plane of incidence is reflected, by
+    // ((n^2 - 1)/(n^2 + 1))^2.
+    const float brewster = 1.0F / std::sqrt(1.0F + glass_index * glass_index);
+    const float across = 1.25F / 3.25F;
+    EXPECT_NEAR(fresnel_reflectance(brewster, glass_index), 0.5F * across * across, 1e-6F);
+    // No boundary, no reflection.
+    EXPECT_NEAR(fresnel_reflectance(0.3F, 1.0F), 0.0F, 1e-6F);
+}
+
+TEST(SpecularSurface, FresnelIsTheSameBothWays) {
+    for (float sine = 0.05F; sine < 1.0F; sine += 0.05F) {
+        const float inside = sine / glass_index;
+        EXPECT_NEAR(fresnel_reflectance(std::sqrt(1.0F - sine * sine), glass_index),
+                    fresnel_reflectance(std::sqrt(1.0F - inside * inside), 1.0F / glass_index),
+                    2e-5F);
+    }
+}
+
+TEST(SpecularSurface, RefractionObeysSnell) {
+    const glm::vec3 normal(0.0F, 0.0F, 1.0F);
+    for (float sine = 0.0F; sine < 1.0F; sine += 0.09F) {
+        const glm::vec3 direction(sine, 0.0F, -std::sqrt(1.0F - sine * sine));
+        const auto behind = refracted(direction, normal, glass_index);
+        ASSERT_TRUE(behind.has_value());
+        EXPECT_NEAR(behind->x, sine / glass_index, 1e-6F);
+        EXPECT_LT(behind->z, 0.0F);
+        EXPECT_NEAR(glm::length(*behind), 1.0F, 1e-6F);
+    }
+}
+
+TEST(SpecularSurface, BeyondTheCriticalAngleAllIsReflected) {
+    const float critical = 1.0F / glass_index;  // its sine
+    for (const float sine : {critical - 0.01F, critical + 0.01F, 0.9F}) {
+        const float cosine = std::sqrt(1.0F - sine * sine);
+        const auto behind =
+            refracted({sine, 0.0F, -cosine}, {0.0F, 0.0F, 1.0F}, 1.0F / glass_index);
+        EXPECT_EQ(behind.has_value(), sine < critical);
+        EXPECT_EQ(fresnel_reflectance(cosine, 1.0F / glass_index) == 1.0F, sine > critical);
+    }
+}
+
+TEST(SpecularSurface, AClearPaneLosesNothing) {
+    SpecularSurface pane;
+    pane.kind = SpecularKind::pane;
+    pane.ior = glass_index;
+    for (const float cosine : {0.02F, 0.3F, 0.7F, 1.0F}) {
+        const PaneShares shares = pane_shares(pane, cosine);
+        EXPECT_NEAR(shares.reflected.g + shares.transmitted.g, 1.0F, 1e-5F) << cosine;
+        // 2 R/(1 + R).
+        const float f = fresnel_reflectance(cosine, glass_index);
+        EXPECT_NEAR(shares.reflected.g, 2.0F * f / (1.0F + f), 1e-5F) << cosine;
+    }
+    pane.tint = glm::vec3(0.5F);
+    EXPECT_NEAR(pane_shares(pane, 1.0F).transmitted.g, 0.96F * 0.96F * 0.5F / (1.0F - 0.0004F),
+                1e-5F);
+}
+
+Material read_material(const Json& json) {
+    GltfBuilder builder;
+    const int positions = builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const int mesh = builder.add_mesh(
+        {{"attributes", {{"POSITION", positions}}}, {"material", builder.add_material(json)}});
+    builder.add_node({{"mesh", mesh}});
+    return builder.load().materials.front();
+}
+
+TEST(SpecularSurface, FilesAskForMirrorsPanesAndBodies) {
+    const auto metal = [](double roughness) {
+        return Json{{"pbrMetallicRoughness",
+                     {{"baseColorFactor", {0.9, 0.8, 0.7, 1.0}}, {"roughnessFactor", roughness}}}};
+    };
+    EXPECT_EQ(specular_kind(read_material(metal(0.0))), SpecularKind::mirror);
+    EXPECT_EQ(specular_kind(read_material(metal(0.3))), SpecularKind::none);
+
+    Json glass = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                  {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    EXPECT_EQ(specular_kind(read_material(glass)), SpecularKind::pane);
+    EXPECT_EQ(specular_surface(read_material(glass), glm::vec3(1.0F)).ior, glass_index);
+
+    glass["extensions"]["KHR_materials_ior"] = {{"ior", 1.7}};
+    glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0.1},
+                                                   {"attenuationDistance", 2.0},
+                                                   {"attenuationColor", {1, 0.25, 0.5}}};
+    const SpecularSurface body = specular_surface(read_material(glass), glm::vec3(1.0F));
+    EXPECT_EQ(body.kind, SpecularKind::glass);
+    EXPECT_NEAR(body.ior, 1.7F, 1e-6F);
+    // Beer and Lambert: after 2 m the colour is left, after 1 m its root.
+    EXPECT_NEAR(std::exp(-body.absorption.r), 1.0F, 1e-6F);
+    EXPECT_NEAR(std::exp(-body.absorption.g), 0.5F, 1e-6F);
+    EXPECT_NEAR(body.absorption.b, 0.5F * std::numbers::ln2_v<float>, 1e-6F);
+
+    glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.2;
+    EXPECT_EQ(specular_kind(read_material(glass)), SpecularKind::none);
+}
+
+TEST(SpecularSurface, GlassReflectsNothingByItsBrdf) {
+    Material glass;
+    glass.metallic = 0.0F;
+    glass.roughness = 0.0F;
+    glass.transmission = 1.0F;
+    EXPECT_EQ(make_brdf(glass, glm::vec3(1.0F)), Brdf{});
+}
+
+}  // namespace
+}  // namespace raybundle::test
