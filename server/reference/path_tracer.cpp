@@ -36,7 +36,7 @@ glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& dire
     if (!hit) {
         return background_towards(scene_.scene(), direction);
     }
-    const glm::dvec3 sum = scene_.emission(*hit);
+    const glm::dvec3 sum = scene_.shown_emission(*hit);
     if (hit->absorbs()) {
         return sum;
     }
