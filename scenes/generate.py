@@ -16,8 +16,9 @@ from generator.effects import SCENES as EFFECTS
 from generator.gltf import scene_files
 from generator.living_room import living_room
 from generator.overlaps import check_overlaps
+from generator.surface_effects import SCENES as SURFACE_EFFECTS
 
-SCENES = (cornell_box, living_room, *EFFECTS)
+SCENES = (cornell_box, living_room, *EFFECTS, *SURFACE_EFFECTS)
 
 
 def write_scene(files: dict[str, bytes], folder: pathlib.Path) -> None:

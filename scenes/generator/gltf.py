@@ -54,14 +54,27 @@ class _Document:
 
 
 def _material_json(document: _Document, material: Material, area: float) -> dict[str, object]:
-    pbr: dict[str, object] = {"metallicFactor": 0.0, "roughnessFactor": material.roughness or 1.0}
+    pbr: dict[str, object] = {"metallicFactor": material.metallic,
+                              "roughnessFactor": material.roughness or 1.0}
+    names = sorted(document.model.textures)
     if material.texture:
-        names = sorted(document.model.textures)
         pbr["baseColorTexture"] = {"index": names.index(material.texture)}
     else:
         pbr["baseColorFactor"] = [*material.base_colour, 1.0]
+    if material.reflectance_texture:
+        pbr["metallicRoughnessTexture"] = {"index": names.index(material.reflectance_texture)}
     result: dict[str, object] = {"name": material.name, "pbrMetallicRoughness": pbr}
+    if material.normal_texture:
+        result["normalTexture"] = {"index": names.index(material.normal_texture)}
+    if material.double_sided:
+        result["doubleSided"] = True
     extensions: dict[str, object] = {}
+    if material.unlit:
+        extensions["KHR_materials_unlit"] = {}
+    if material.transmission:
+        extensions["KHR_materials_diffuse_transmission"] = {
+            "diffuseTransmissionFactor": material.transmission,
+            "diffuseTransmissionColorFactor": list(material.transmission_colour)}
     if material.mirror:
         pbr["metallicFactor"], pbr["roughnessFactor"] = 1.0, 0.0
     elif material.glass is not None:
@@ -72,7 +85,7 @@ def _material_json(document: _Document, material: Material, area: float) -> dict
             extensions["KHR_materials_volume"] = {
                 "thicknessFactor": 1.0, "attenuationDistance": 1.0,
                 "attenuationColor": list(material.attenuation)}
-    elif material.roughness is None:
+    elif material.roughness is None and not material.unlit:
         extensions["KHR_materials_specular"] = {"specularFactor": 0.0}
     emitted = radiance(material, area)
     if max(emitted) > 0.0:
@@ -93,8 +106,11 @@ def _primitive_json(document: _Document, name: str, primitive: Primitive) -> dic
         "POSITION": document.add_accessor(primitive.positions, FLOAT, "VEC3", ARRAY_BUFFER, True),
         "NORMAL": document.add_accessor(primitive.normals, FLOAT, "VEC3", ARRAY_BUFFER),
     }
-    if material.texture:
+    if material.textures():
         attributes["TEXCOORD_0"] = document.add_accessor(primitive.uvs, FLOAT, "VEC2", ARRAY_BUFFER)
+    if any(colour != (1.0, 1.0, 1.0) for colour in primitive.colours):
+        attributes["COLOR_0"] = document.add_accessor(primitive.colours, FLOAT, "VEC3",
+                                                      ARRAY_BUFFER)
     wide = len(primitive.positions) > 65535
     indices = document.add_accessor([(i,) for i in primitive.indices],
                                     UNSIGNED_INT if wide else UNSIGNED_SHORT, "SCALAR",
@@ -176,7 +192,7 @@ def _add_camera(document: _Document, camera: Camera) -> int:
 
 def _add_textures(document: _Document) -> None:
     for index, name in enumerate(sorted(document.model.textures)):
-        document.append("images", {"uri": name})
+        document.append("images", {"uri": name.rsplit("/", 1)[-1]})
         document.append("textures", {"source": index, "sampler": 0})
     if document.model.textures:
         document.append("samplers", {"magFilter": 9729, "minFilter": 9987,

@@ -17,18 +17,21 @@ class Primitive:
     positions: list[Vec] = field(default_factory=list)
     normals: list[Vec] = field(default_factory=list)
     uvs: list[tuple[float, float]] = field(default_factory=list)
+    colours: list[Vec] = field(default_factory=list)
     indices: list[int] = field(default_factory=list)
     lookup: dict[tuple[object, ...], int] = field(default_factory=dict)
 
-    def add_corner(self, position: Vec, normal: Vec, uv: tuple[float, float]) -> None:
+    def add_corner(self, position: Vec, normal: Vec, uv: tuple[float, float],
+                   colour: Vec = (1.0, 1.0, 1.0)) -> None:
         normal = tuple(round(c, 4) + 0.0 for c in normal)
         uv = (round(uv[0], 5), round(uv[1], 5))
-        key = (position, normal, uv)
+        key = (position, normal, uv, colour)
         if key not in self.lookup:
             self.lookup[key] = len(self.positions)
             self.positions.append(position)
             self.normals.append(normal)
             self.uvs.append(uv)
+            self.colours.append(colour)
         self.indices.append(self.lookup[key])
 
 
@@ -68,7 +71,8 @@ def append_solid(primitives: dict[str, Primitive], solid: Solid, step: float) ->
             position = snap(solid.points[corner], step)
             uv = solid.uv(solid.points[corner], unit(normals[index])) if solid.uv else (0.0, 0.0)
             smooth = _corner_normal(faces_round[corner], index, normals, solid.crease)
-            primitive.add_corner(position, smooth, uv)
+            colour = solid.colour(solid.points[corner]) if solid.colour else (1.0, 1.0, 1.0)
+            primitive.add_corner(position, smooth, uv, colour)
 
 
 def _area(solid: Solid, corners: tuple[int, int, int]) -> float:

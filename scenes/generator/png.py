@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Minimal PNG writer for palette images."""
+"""Minimal PNG writer for palette and true-colour images."""
 
 from __future__ import annotations
 
@@ -32,3 +32,11 @@ def palette_png(rows: Sequence[Sequence[int]], palette: Sequence[Colour8]) -> by
     return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) +
             _chunk(b"PLTE", bytes(c for colour in palette for c in colour)) +
             _chunk(b"IDAT", _stored(pixels)) + _chunk(b"IEND", b""))
+
+
+def rgb_png(rows: Sequence[Sequence[Colour8]]) -> bytes:
+    """PNG of 8-bit RGB, row 0 at the top."""
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    pixels = b"".join(b"\0" + bytes(c for colour in row for c in colour) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"IDAT", _stored(pixels)) +
+            _chunk(b"IEND", b""))

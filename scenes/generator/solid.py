@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 Vec = tuple[float, float, float]
 UvMap = Callable[[Vec, Vec], tuple[float, float]]  # (position, face normal) -> texture coordinates
+ColourMap = Callable[[Vec], Vec]  # position -> factor of the base colour, linear
 
 
 def add(a: Vec, b: Vec) -> Vec:
@@ -55,6 +56,7 @@ class Solid:
     inward: bool = False
     face_materials: dict[int, str] = field(default_factory=dict)
     uv: UvMap | None = None
+    colour: ColourMap | None = None
 
     def mapped(self, transform: Callable[[Vec], Vec]) -> Solid:
         """The solid with every point transformed (the transform must keep orientation)."""
@@ -130,7 +132,8 @@ class Camera:
 class Material:
     """glTF metallic-roughness material.
 
-    `base_colour` is linear Rec. 709. `roughness` None: pure Lambert (specularFactor 0).
+    `base_colour` is linear Rec. 709, a factor of `texture`. `roughness` None: pure Lambert
+    (specularFactor 0). `reflectance_texture` holds factors of roughness (G) and `metallic` (B).
     `luminance` (cd/m²) or `flux` (lm, over all surfaces of the material) make it a luminaire of the
     given colour. `mirror`: a metal without roughness. `glass`: index of refraction; of a body whose
     light `attenuation` is left of after 1 m, or of a thin pane where that is None.
@@ -146,6 +149,17 @@ class Material:
     luminance: float = 0.0
     flux: float = 0.0
     light_colour: Vec = (1.0, 1.0, 1.0)
+    metallic: float = 0.0
+    reflectance_texture: str | None = None
+    normal_texture: str | None = None
+    unlit: bool = False
+    transmission: float = 0.0  # KHR_materials_diffuse_transmission: share of the diffuse part
+    transmission_colour: Vec = (1.0, 1.0, 1.0)
+    double_sided: bool = False
+
+    def textures(self) -> list[str]:
+        names = (self.texture, self.reflectance_texture, self.normal_texture)
+        return [name for name in names if name]
 
 
 @dataclass

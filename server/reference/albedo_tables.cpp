@@ -2,6 +2,7 @@
 #include "reference/albedo_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "scene/patch_colour.h"
@@ -10,6 +11,15 @@ namespace raybundle {
 
 AlbedoTables::AlbedoTables(const Scene& scene) {
     for (const Material& material : scene.materials) {
+        grids_.emplace_back();
+        if (has_reflectance_grid(material)) {
+            table_of_material_.push_back(tables_.size());
+            std::vector<ReflectanceTable> levels =
+                grid_tables(grids_.back().emplace(scene, material), scene, material);
+            tables_.insert(tables_.end(), levels.begin(), levels.end());
+            glossy_ = true;
+            continue;
+        }
         const ReflectanceModel model = reflectance_model(material);
         const bool lambert = model.lobe.kind == LobeKind::none;
         const Brdf brdf = lambert ? Brdf{} : make_brdf(model, mean_base_colour(scene, material));
@@ -24,13 +34,23 @@ AlbedoTables::AlbedoTables(const Scene& scene) {
     }
 }
 
+const ReflectanceTable& AlbedoTables::table(std::uint32_t material,
+                                            const Scattering& scattering) const {
+    std::size_t index = table_of_material_[material];
+    if (const std::optional<ReflectanceGrid>& grid = grids_[material]) {
+        const float roughness = std::sqrt(scattering.brdf().lobe.alpha);
+        index += grid->roughness_level(grid->nearest({grid->low.x, roughness}));
+    }
+    return tables_[index];
+}
+
 glm::dvec3 AlbedoTables::albedo(std::uint32_t material, const Scattering& scattering) const {
-    const ReflectanceTable& table = tables_[table_of_material_[material]];
-    return glm::dvec3(table.albedo(scattering.brdf(), scattering.outgoing_cosine()));
+    return glm::dvec3(
+        table(material, scattering).albedo(scattering.brdf(), scattering.outgoing_cosine()));
 }
 
 double AlbedoTables::importance(std::uint32_t material, const Scattering& scattering) const {
-    return tables_[table_of_material_[material]].importance(scattering.outgoing_cosine());
+    return table(material, scattering).importance(scattering.outgoing_cosine());
 }
 
 }  // namespace raybundle

@@ -4,15 +4,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "reference/scattering.h"
+#include "scene/reflectance_grid.h"
 #include "scene/reflectance_table.h"
 
 namespace raybundle {
 
 /// Directional albedo and importance of all materials of a scene, by the tables of
-/// scene/reflectance_table.h; one table for each distinct reflectance.
+/// scene/reflectance_table.h; one table for each distinct reflectance,
+/// and one for each level of roughness of a material where that is textured.
 class AlbedoTables {
   public:
     /// Some milliseconds for each distinct glossy material.
@@ -28,8 +31,12 @@ class AlbedoTables {
     [[nodiscard]] bool glossy() const { return glossy_; }
 
   private:
+    [[nodiscard]] const ReflectanceTable& table(std::uint32_t material,
+                                                const Scattering& scattering) const;
+
     std::vector<ReflectanceTable> tables_;
-    std::vector<std::size_t> table_of_material_;
+    std::vector<std::size_t> table_of_material_;         // the first of a grid's
+    std::vector<std::optional<ReflectanceGrid>> grids_;  // of materials
     bool glossy_ = false;
 };
 

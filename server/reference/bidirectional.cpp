@@ -90,9 +90,10 @@ double Bidirectional::connect_ratio(const PathVertex& light, const SurfacePoint&
 glm::dvec3 Bidirectional::met_light(const Subpath& eye, std::size_t eye_count) const {
     const PathVertex& end = eye[eye_count - 1];
     const bool sky = end.kind == Kind::sky;
-    const glm::dvec3 emitted = !sky            ? scene_.emission(end.point)
-                               : eye_count > 2 ? sky_towards(scene_.scene(), -end.towards)
-                                               : background_towards(scene_.scene(), -end.towards);
+    const glm::dvec3 emitted =
+        !sky ? (eye_count > 2 ? scene_.emission(end.point) : scene_.shown_emission(end.point))
+        : eye_count > 2 ? sky_towards(scene_.scene(), -end.towards)
+                        : background_towards(scene_.scene(), -end.towards);
     if (is_black(emitted)) {
         return emitted;
     }

@@ -20,7 +20,7 @@ glm::dvec3 LightTracer::radiance(const glm::dvec3& direction, PixelSampler& samp
         follow_particle(sampler, splats);
     }
     const std::optional<SurfacePoint> hit = scene_.trace(camera_.origin(), direction);
-    return hit ? scene_.emission(*hit) : background_towards(scene_.scene(), direction);
+    return hit ? scene_.shown_emission(*hit) : background_towards(scene_.scene(), direction);
 }
 
 void LightTracer::follow_particle(PixelSampler& sampler, std::vector<Splat>& splats) const {

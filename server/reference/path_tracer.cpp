@@ -38,7 +38,7 @@ glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& dire
     if (!seen.hit) {
         return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
-    const glm::dvec3 sum = scene_.emission(*seen.hit);
+    const glm::dvec3 sum = scene_.shown_emission(*seen.hit);
     if (seen.hit->absorbs()) {
         return seen.weight * sum;
     }

@@ -19,7 +19,7 @@ glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& orig
     if (!hit) {
         return background_towards(scene_.scene(), direction);
     }
-    const glm::dvec3 emission = scene_.emission(*hit);
+    const glm::dvec3 emission = scene_.shown_emission(*hit);
     if (hit->absorbs()) {
         return emission;
     }

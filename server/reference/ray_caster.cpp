@@ -12,10 +12,10 @@ glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direc
         return background_towards(scene_.scene(), direction);
     }
     if (hit->absorbs() || lights_.empty()) {
-        return scene_.emission(*hit);
+        return scene_.shown_emission(*hit);
     }
     const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
-    glm::dvec3 sum = scene_.emission(*hit) + sampled(*hit, scattering, sampler);
+    glm::dvec3 sum = scene_.shown_emission(*hit) + sampled(*hit, scattering, sampler);
     if (!scattering.is_lambert()) {
         sum += met(*hit, scattering, sampler);
     }

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/reflectance_grid.h"
+
 namespace raybundle {
 namespace {
 
@@ -97,6 +99,10 @@ RayScene::RayScene(const Scene& scene, const PatchMesh& mesh)
     models_.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
         models_.push_back(reflectance_model(material));
+        textured_models_.emplace_back();
+        if (has_reflectance_grid(material)) {
+            textured_models_.back().emplace(material);
+        }
     }
     place_vertices();
     find_smooth_triangles();

@@ -67,14 +67,22 @@ class RayScene {
 
     /// Emitted radiance, cd/m².
     [[nodiscard]] glm::dvec3 emission(const SurfacePoint& point) const;
-    /// Linear base colour, factor times texture.
+    /// What a camera sees the point send of its own, cd/m²: an unlit surface besides.
+    [[nodiscard]] glm::dvec3 shown_emission(const SurfacePoint& point) const;
+    /// Linear base colour, factor times texture and vertex colours.
     [[nodiscard]] glm::vec3 base_colour(const SurfacePoint& point) const;
-    /// Reflectance with the base colour at this point.
+    /// Metalness and roughness, factors times texture.
+    [[nodiscard]] glm::vec2 metallic_roughness(const SurfacePoint& point) const;
+    /// Reflectance with what the textures say at this point.
     [[nodiscard]] Brdf brdf(const SurfacePoint& point) const;
     [[nodiscard]] const Material& material(const SurfacePoint& point) const;
     /// Interpolated vertex normal, unit, on the side of the geometric one; the geometric normal
     /// itself where the triangle is flat.
     [[nodiscard]] glm::dvec3 shading_normal(const SurfacePoint& point) const;
+    /// The same after the material's normal map, for a viewer in this direction, unit; see
+    /// scene/normal_map.h. As patches know neither, only what a picture shows has it.
+    [[nodiscard]] glm::dvec3 shading_normal(const SurfacePoint& point,
+                                            const glm::dvec3& to_eye) const;
     /// Whether alpha MASK leaves the surface standing at this point.
     [[nodiscard]] bool covered(std::uint32_t triangle, const glm::dvec2& barycentric) const;
 
@@ -115,7 +123,8 @@ class RayScene {
     double scale_;                                // own units per metre, a power of two
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, own space; normals not unit
     std::vector<bool> smooth_;                    // triangles whose vertex normals bend
-    std::vector<ReflectanceModel> models_;        // of the materials
+    std::vector<ReflectanceModel> models_;        // of the materials, as the next
+    std::vector<std::optional<TexturedReflectance>> textured_models_;
     std::unique_ptr<RTCDeviceTy, DeviceDeleter> device_;
     std::unique_ptr<RTCSceneTy, SceneDeleter> embree_;
 };

@@ -5,6 +5,7 @@
 
 #include "reference/ray_scene.h"
 #include "reference/texture_lookup.h"
+#include "scene/normal_map.h"
 
 namespace raybundle {
 namespace {
@@ -127,14 +128,37 @@ bool RayScene::covered(std::uint32_t triangle, const glm::dvec2& barycentric) co
 glm::vec3 RayScene::base_colour(const SurfacePoint& point) const {
     const Material& m = material(point);
     const Texture* texture = texture_of(scene_, m.base_colour_texture);
-    if (texture == nullptr) {
-        return m.base_colour;
+    glm::vec3 factor = m.base_colour;
+    if (!mesh_.colours.empty()) {
+        const glm::uvec3& t = mesh_.triangles[point.triangle];
+        factor *=
+            glm::vec3(interpolated(glm::dvec3(mesh_.colours[t.x]), glm::dvec3(mesh_.colours[t.y]),
+                                   glm::dvec3(mesh_.colours[t.z]), point.barycentric));
     }
-    return m.base_colour *
+    if (texture == nullptr) {
+        return factor;
+    }
+    return factor *
            glm::vec3(look_up(*texture, m.base_colour_texture.uv_from_mesh_uv, mesh_uv(point)));
 }
 
+glm::vec2 RayScene::metallic_roughness(const SurfacePoint& point) const {
+    const Material& m = material(point);
+    const glm::vec2 factors(m.metallic, m.roughness);
+    const TextureSlot& slot = m.metallic_roughness_texture;
+    if (slot.texture < 0) {
+        return factors;
+    }
+    const glm::vec3 texel(
+        look_up_data(*texture_of(scene_, slot), slot.uv_from_mesh_uv, mesh_uv(point)));
+    return factors * glm::vec2(texel.b, texel.g);
+}
+
 Brdf RayScene::brdf(const SurfacePoint& point) const {
+    const auto& textured = textured_models_[mesh_.triangle_material[point.triangle]];
+    if (textured) {
+        return make_brdf(textured->at(metallic_roughness(point)), base_colour(point));
+    }
     return make_brdf(models_[mesh_.triangle_material[point.triangle]], base_colour(point));
 }
 
@@ -149,6 +173,34 @@ glm::dvec3 RayScene::emission(const SurfacePoint& point) const {
     }
     return glm::dvec3(m.emission) *
            glm::dvec3(look_up(*texture, m.emission_texture.uv_from_mesh_uv, mesh_uv(point)));
+}
+
+glm::dvec3 RayScene::shown_emission(const SurfacePoint& point) const {
+    if (material(point).unlit && !point.absorbs()) {
+        return double{unlit_white} * glm::dvec3(glm::clamp(base_colour(point), 0.0F, 1.0F));
+    }
+    return emission(point);
+}
+
+glm::dvec3 RayScene::shading_normal(const SurfacePoint& point, const glm::dvec3& to_eye) const {
+    const Material& m = material(point);
+    const glm::dvec3 smooth = shading_normal(point);
+    const Texture* texture = texture_of(scene_, m.normal_texture);
+    if (texture == nullptr) {
+        return smooth;
+    }
+    const glm::uvec3& t = mesh_.triangles[point.triangle];
+    const glm::dmat2 turned(glm::mat2(m.normal_texture.uv_from_mesh_uv));
+    const glm::dvec3 a(positions_[t.x]);
+    const glm::dvec2 uv(mesh_.uvs[t.x]);
+    const TangentEdges edges{glm::dvec3(positions_[t.y]) - a, glm::dvec3(positions_[t.z]) - a,
+                             turned * (glm::dvec2(mesh_.uvs[t.y]) - uv),
+                             turned * (glm::dvec2(mesh_.uvs[t.z]) - uv)};
+    const double side = point.patch == point.triangle ? 1.0 : -1.0;
+    const glm::dvec3 texel(
+        look_up_data(*texture, m.normal_texture.uv_from_mesh_uv, mesh_uv(point)));
+    const double scale = m.normal_scale;
+    return facing_normal(side * mapped_normal(edges, side * smooth, texel, scale), to_eye);
 }
 
 glm::dvec3 RayScene::shading_normal(const SurfacePoint& point) const {

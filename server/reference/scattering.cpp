@@ -26,8 +26,10 @@ Scattering::Scattering(const SurfacePoint& point, const glm::dvec3& normal,
 
 Scattering::Scattering(const RayScene& scene, const SurfacePoint& point, NormalKind normal,
                        const glm::dvec3& outgoing)
-    : Scattering(point, normal == NormalKind::shading ? scene.shading_normal(point) : point.normal,
-                 outgoing, scene.brdf(point)) {}
+    : Scattering(
+          point,
+          normal == NormalKind::shading ? scene.shading_normal(point, outgoing) : point.normal,
+          outgoing, scene.brdf(point)) {}
 
 Scattering Scattering::white(const SurfacePoint& point) {
     Brdf brdf;

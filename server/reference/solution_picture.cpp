@@ -32,8 +32,9 @@ glm::dvec3 radiance(const RayScene& scene, const AlbedoTables& tables,
         return glm::dvec3(0.0);
     }
     const Scattering scattering(scene, *hit, NormalKind::shading, -direction);
-    return scene.emission(*hit) + main_part(tables, scene.mesh().triangle_material[hit->triangle],
-                                            scattering, irradiance.at(*hit));
+    return scene.shown_emission(*hit) + main_part(tables,
+                                                  scene.mesh().triangle_material[hit->triangle],
+                                                  scattering, irradiance.at(*hit));
 }
 
 }  // namespace

@@ -11,4 +11,8 @@ namespace raybundle {
 glm::dvec4 look_up(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
                    const glm::dvec2& mesh_uv);
 
+/// The same of a texture that holds numbers and no colours: all four as they are.
+glm::dvec4 look_up_data(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
+                        const glm::dvec2& mesh_uv);
+
 }  // namespace raybundle

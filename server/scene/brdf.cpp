@@ -79,16 +79,24 @@ glm::vec3 max_phong(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_
     return brdf.f0 * (power * (n + 2.0F) / (2.0F * pi * std::max({w_in.z, w_out.z, min_cosine})));
 }
 
-ReflectanceModel metallic_roughness_model(const Material& material) {
-    const float metallic = std::clamp(material.metallic, 0.0F, 1.0F);
-    const float specular = std::clamp(material.specular, 0.0F, 1.0F);
+/// What a dielectric surface reflects.
+struct Specular {
+    glm::vec3 colour;
+    float factor;
+};
+
+/// The model without SpecularLobe::inverse_mean.
+ReflectanceModel uncoupled_model(const Specular& dielectric_surface, float metallic,
+                                 float roughness) {
+    metallic = std::clamp(metallic, 0.0F, 1.0F);
+    const float specular = std::clamp(dielectric_surface.factor, 0.0F, 1.0F);
     ReflectanceModel model;
     if (metallic <= 0.0F && specular <= 0.0F) {
         return model;
     }
-    const float roughness = std::clamp(material.roughness, min_roughness, 1.0F);
+    roughness = std::clamp(roughness, min_roughness, 1.0F);
     const glm::vec3 dielectric =
-        glm::clamp(dielectric_f0 * material.specular_colour, 0.0F, 1.0F) * specular;
+        glm::clamp(dielectric_f0 * dielectric_surface.colour, 0.0F, 1.0F) * specular;
     const float dielectric_share = (1.0F - metallic) * (1.0F - energy_margin * specular);
     model.f0 = dielectric_share * dielectric;
     model.f0_share = metallic;
@@ -98,26 +106,76 @@ ReflectanceModel metallic_roughness_model(const Material& material) {
     model.lobe.f90 = dielectric_share * specular + metallic;
     if (metallic < 1.0F) {
         model.lobe.coating = glm::vec2(max_component(dielectric), specular);
+    }
+    return model;
+}
+
+bool is_coated(const SpecularLobe& lobe) {
+    return lobe.coating != glm::vec2(0.0F);
+}
+
+ReflectanceModel metallic_roughness_model(const Material& material,
+                                          const glm::vec2& metallic_roughness) {
+    ReflectanceModel model = uncoupled_model({material.specular_colour, material.specular},
+                                             metallic_roughness.x, metallic_roughness.y);
+    if (is_coated(model.lobe)) {
         model.lobe.inverse_mean = inverse_mean_transmission(model.lobe);
     }
+    return model;
+}
+
+/// Multiplies the whole BRDF.
+ReflectanceModel scaled(ReflectanceModel model, float factor) {
+    model.f0 *= factor;
+    model.f0_share *= factor;
+    model.lambert_share *= factor;
+    model.lobe.f90 *= factor;
+    return model;
+}
+
+ReflectanceModel black_model() {
+    ReflectanceModel model;
+    model.lambert_share = 0.0F;
     return model;
 }
 
 }  // namespace
 
 ReflectanceModel reflectance_model(const Material& material) {
-    if (is_glass(material)) {  // scene/specular_surface.h knows what it does
-        ReflectanceModel model;
-        model.lambert_share = 0.0F;
-        return model;
+    return reflectance_model(material, {material.metallic, material.roughness});
+}
+
+ReflectanceModel reflectance_model(const Material& material, const glm::vec2& metallic_roughness) {
+    if (material.unlit || is_glass(material)) {  // scene/specular_surface.h knows what glass does
+        return black_model();
     }
-    ReflectanceModel model = material.max_phong ? max_phong_model(*material.max_phong)
-                                                : metallic_roughness_model(material);
-    model.f0 *= material.reflectance;
-    model.f0_share *= material.reflectance;
-    model.lambert_share *= material.reflectance;
-    model.lobe.f90 *= material.reflectance;
-    return model;
+    return scaled(material.max_phong ? max_phong_model(*material.max_phong)
+                                     : metallic_roughness_model(material, metallic_roughness),
+                  material.reflectance);
+}
+
+TexturedReflectance::TexturedReflectance(const Material& material)
+    : specular_colour_(material.specular_colour),
+      specular_(material.specular),
+      reflectance_(material.reflectance) {
+    for (int i = 0; i <= steps; ++i) {
+        const float roughness = static_cast<float>(i) / static_cast<float>(steps);
+        inverse_mean_[static_cast<std::size_t>(i)] =
+            metallic_roughness_model(material, {0.0F, roughness}).lobe.inverse_mean;
+    }
+}
+
+ReflectanceModel TexturedReflectance::at(const glm::vec2& metallic_roughness) const {
+    ReflectanceModel model =
+        uncoupled_model({specular_colour_, specular_}, metallic_roughness.x, metallic_roughness.y);
+    if (is_coated(model.lobe)) {
+        const float place =
+            std::clamp(metallic_roughness.y, 0.0F, 1.0F) * static_cast<float>(steps);
+        const auto first = static_cast<std::size_t>(std::min(static_cast<int>(place), steps - 1));
+        model.lobe.inverse_mean = glm::mix(inverse_mean_[first], inverse_mean_[first + 1],
+                                           place - static_cast<float>(first));
+    }
+    return scaled(model, reflectance_);
 }
 
 Brdf make_brdf(const ReflectanceModel& model, const glm::vec3& base_colour) {

@@ -3,6 +3,7 @@
 // z = normal; w_in looks to where the light comes from. All BRDFs are isotropic and reciprocal.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
@@ -54,9 +55,25 @@ struct ReflectanceModel {
 };
 
 /// glTF 2.0 appendix B (metallic-roughness) with KHR_materials_specular, or max-Phong over a
-/// Lambert base; nothing for glass. Roughness is at least min_roughness. Some 10 us; the first call
-/// for a glossy material also integrates the GGX table.
+/// Lambert base; black for unlit materials and glass. Roughness is at least min_roughness. Some 10
+/// us; the first call for a glossy material also integrates the GGX table.
 ReflectanceModel reflectance_model(const Material& material);
+
+/// The model where a texture gives metalness (x) and roughness (y) in the place of the factors.
+ReflectanceModel reflectance_model(const Material& material, const glm::vec2& metallic_roughness);
+
+/// The same for many values of one material: its costly part is tabulated over roughness.
+class TexturedReflectance {
+  public:
+    explicit TexturedReflectance(const Material& material);
+    [[nodiscard]] ReflectanceModel at(const glm::vec2& metallic_roughness) const;
+
+  private:
+    static constexpr int steps = 128;
+    glm::vec3 specular_colour_;
+    float specular_, reflectance_;
+    std::array<float, steps + 1> inverse_mean_{};  // over roughness, 0 to 1
+};
 
 /// Cheap. base_colour: factor times texture, linear; clamped to 0..max_albedo. A max-Phong lobe and
 /// its Lambert base are scaled down together where they would reflect more than max_albedo.

@@ -74,7 +74,8 @@ EdgeRefinement::Corner midway(const EdgeRefinement::Corner& a, const EdgeRefinem
     // Sums commute, so that both neighbours of the edge get the same bits.
     const glm::vec3 sum = a.normal + b.normal;
     const float length = glm::length(sum);
-    return {point, length > 1e-6F ? sum / length : a.normal, 0.5F * (a.uv + b.uv)};
+    return {point, length > 1e-6F ? sum / length : a.normal, 0.5F * (a.uv + b.uv),
+            0.5F * (a.colour + b.colour)};
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
             }
             // -0 becomes 0, so that equal corners have equal bits.
             refined.corners[k] = {global[triangle.object][local], vertex.normal + 0.0F,
-                                  vertex.uv + 0.0F};
+                                  vertex.uv + 0.0F, vertex.colour + 0.0F};
         }
         refined.node = static_cast<std::uint32_t>(nodes_.size());
         nodes_.emplace_back();

@@ -20,6 +20,7 @@ class EdgeRefinement {
         std::uint32_t point = 0;  ///< index into points()
         glm::vec3 normal{0.0F};   ///< object space, unit
         glm::vec2 uv{0.0F};
+        glm::vec3 colour{1.0F};
     };
     struct RefinedTriangle {
         std::array<Corner, 3> corners;

@@ -32,7 +32,7 @@ struct Survey {
     std::size_t mirrors = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
     double transmitted_share = 0.0;  // largest share that glass lets pass
-    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0;
+    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0;
     double specular_share = 0.0;  // largest of a material, of what it reflects
 
     [[nodiscard]] double share(double flux) const {
@@ -118,9 +118,8 @@ void survey_materials(const Scene& scene, Survey& survey) {
             survey.specular_share = std::max(survey.specular_share, share);
         }
         survey_specular(specular_surface(material, mean_base_colour(scene, material)), survey);
-        const bool textured =
-            material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0;
-        survey.textured += textured ? 1 : 0;
+        survey.textured += varies_by_texture(material) ? 1 : 0;
+        survey.bumpy += material.normal_texture.texture >= 0 ? 1 : 0;
         survey.masked += material.alpha_mode == AlphaMode::mask ? 1 : 0;
     }
 }
@@ -145,7 +144,11 @@ class Planner {
             textured ? count_of(survey_.textured, "material") + " have a texture"
                      : "no material in use has a texture",
             "L(D|G)+E", textured ? 1.0 : 0.0, 0);
-        absent("normal-maps", "normal textures are not read", "L(D|G)+E");
+        const bool bumpy = survey_.bumpy > 0;
+        add("normal-maps", bumpy,
+            bumpy ? count_of(survey_.bumpy, "material") + " with a normal map, at the pixels"
+                  : "no material in use has a normal map",
+            "L(D|G)+E", bumpy ? 1.0 : 0.0, 0);
         plan_lights();
         absent("medium", "no participating medium can be given", "L(M|D|G)+E");
         return std::move(effects_);
@@ -263,11 +266,20 @@ void remove_mirrors(Scene& scene) {
     }
 }
 
+void remove_normal_maps(Scene& scene) {
+    for (Material& material : scene.materials) {
+        material.normal_texture.texture = -1;
+    }
+}
+
 void remove_textures(Scene& scene, PatchMesh& mesh) {
     scene.textures.clear();
+    remove_normal_maps(scene);
+    mesh.metallic_roughness.clear();
     for (Material& material : scene.materials) {
         material.base_colour_texture.texture = -1;
         material.emission_texture.texture = -1;
+        material.metallic_roughness_texture.texture = -1;
         material.alpha_mode = AlphaMode::opaque;
     }
     mesh.coverage.clear();
@@ -296,6 +308,8 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
         }
     } else if (name == "textures") {
         remove_textures(scene, mesh);
+    } else if (name == "normal-maps") {
+        remove_normal_maps(scene);
     } else if (name == "punctual-lights") {
         std::erase_if(scene.punctual_lights,
                       [](const PunctualLight& light) { return !light.of_sky; });

@@ -147,6 +147,9 @@ class Baker {
             if (!data.uvs.empty()) {
                 vertex.uv = data.uvs[v];
             }
+            if (!data.colours.empty()) {
+                vertex.colour = data.colours[v];
+            }
             scene_.vertices.push_back(vertex);
         }
     }

@@ -26,7 +26,7 @@ struct Approximation {
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
 constexpr std::array<Approximation, 5> approximated = {{
-    {"KHR_materials_unlit", "unlit materials are lit like all others"},
+    {"KHR_materials_unlit", "unlit materials are shown as they are, and are black to light"},
     {"KHR_materials_variants", "the default material variants are used"},
     {"KHR_materials_pbrSpecularGlossiness",
      "colours and glossiness are used, the specular-glossiness texture is ignored"},

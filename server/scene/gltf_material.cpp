@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "scene/gltf_image.h"
+#include "scene/gltf_loader.h"
 #include "scene/gltf_max_phong.h"
 #include "scene/specular_surface.h"
 
@@ -44,13 +45,43 @@ float ior_reflectance(float ior) {
     return root * root;
 }
 
-int uv_set_of(const tinygltf::TextureInfo& info) {
+/// Textures of a material that is lit like others. An unlit one has only its base colour.
+bool is_unlit(const tinygltf::Material& material) {
+    return find_extension(material.extensions, "KHR_materials_unlit") != nullptr;
+}
+
+/// Index -1 if there is none.
+tinygltf::TextureInfo metallic_roughness_info(const tinygltf::Material& material) {
+    return specular_glossiness(material) != nullptr
+               ? tinygltf::TextureInfo()
+               : material.pbrMetallicRoughness.metallicRoughnessTexture;
+}
+
+template <typename Info>
+int uv_set_of(const Info& info) {
     const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
     return transform == nullptr ? info.texCoord : integer_or(*transform, "texCoord", info.texCoord);
 }
 
+/// UV set of the first texture that a material has, in this order; -1 without any.
+int first_uv_set(const tinygltf::Material& material) {
+    const tinygltf::TextureInfo base = base_colour_info(material);
+    if (base.index >= 0 || is_unlit(material)) {
+        return base.index >= 0 ? uv_set_of(base) : -1;
+    }
+    if (material.emissiveTexture.index >= 0) {
+        return uv_set_of(material.emissiveTexture);
+    }
+    const tinygltf::TextureInfo reflectance = metallic_roughness_info(material);
+    if (reflectance.index >= 0) {
+        return uv_set_of(reflectance);
+    }
+    return material.normalTexture.index >= 0 ? uv_set_of(material.normalTexture) : -1;
+}
+
 /// KHR_texture_transform: scale, then rotate counter-clockwise (v points down), then offset.
-glm::mat3 uv_transform(const tinygltf::TextureInfo& info) {
+template <typename Info>
+glm::mat3 uv_transform(const Info& info) {
     const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
     if (transform == nullptr) {
         return glm::mat3(1.0F);
@@ -103,6 +134,13 @@ class MaterialReader {
         read_transmission(source, material);
         material.max_phong = read_max_phong(source.extras);
         material.double_sided = source.doubleSided;
+        material.unlit = is_unlit(source);
+        if (material.unlit) {
+            material.emission = glm::vec3(0.0F);
+            material.emission_texture = {};
+        } else {
+            read_details(source, item_path("materials", index), material);
+        }
         note_unused(source);
         scene_.materials.push_back(std::move(material));
     }
@@ -175,10 +213,45 @@ class MaterialReader {
             return;
         }
         material.emission_texture = slot(info);
-        const tinygltf::TextureInfo base = base_colour_info(source);
-        if (base.index >= 0 && uv_set_of(base) != uv_set_of(info)) {
-            document_.note(fmt::format(
-                "{}: the emission texture is read with the uv of the base colour", path));
+        check_uv_set(source, info, path, "emission texture");
+    }
+
+    /// Textures that say how a surface reflects.
+    void read_details(const tinygltf::Material& source, const std::string& path,
+                      Material& material) {
+        const tinygltf::TextureInfo reflectance = metallic_roughness_info(source);
+        if (reflectance.index >= 0 && !material.max_phong) {
+            material.metallic_roughness_texture = detail_slot(reflectance);
+            check_uv_set(source, reflectance, path, "metallic-roughness texture");
+        }
+        if (source.normalTexture.index >= 0) {
+            material.normal_texture = detail_slot(source.normalTexture);
+            material.normal_scale = static_cast<float>(source.normalTexture.scale);
+            check_uv_set(source, source.normalTexture, path, "normal map");
+        }
+    }
+
+    /// The slot of a texture that a scene is worth showing without: if it cannot be read, a notice
+    /// says so.
+    template <typename Info>
+    TextureSlot detail_slot(const Info& info) {
+        try {
+            return slot(info);
+        } catch (const SceneError& error) {
+            document_.note(fmt::format("a texture of roughness or normals is ignored: {}: {}",
+                                       error.json_path(), error.reason()));
+            return {};
+        }
+    }
+
+    /// A vertex has one pair of uv.
+    template <typename Info>
+    void check_uv_set(const tinygltf::Material& source, const Info& info, const std::string& path,
+                      const char* what) {
+        if (uv_set_of(info) != first_uv_set(source)) {
+            document_.note(
+                fmt::format("{}: the {} is read with the uv of the {}", path, what,
+                            base_colour_info(source).index >= 0 ? "base colour" : "first texture"));
         }
     }
 
@@ -193,13 +266,18 @@ class MaterialReader {
     }
 
     void note_unused(const tinygltf::Material& source) {
-        if (source.normalTexture.index >= 0 || source.occlusionTexture.index >= 0 ||
-            source.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0) {
-            document_.note("normal, occlusion and metallic-roughness textures are ignored");
+        if (source.occlusionTexture.index >= 0) {
+            document_.note("occlusion textures are ignored: what they stand for is simulated");
+        }
+        const auto* specular = find_extension(source.extensions, "KHR_materials_specular");
+        if (specular != nullptr &&
+            (specular->Has("specularTexture") || specular->Has("specularColorTexture"))) {
+            document_.note("textures of KHR_materials_specular are ignored, its factors are used");
         }
     }
 
-    TextureSlot slot(const tinygltf::TextureInfo& info) {
+    template <typename Info>
+    TextureSlot slot(const Info& info) {
         TextureSlot result;
         result.uv_from_mesh_uv = uv_transform(info);
         const int image = image_of(document_, info.index);
@@ -222,21 +300,23 @@ class MaterialReader {
         }
         const bool repeat_u = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
         const bool repeat_v = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        const auto [it, inserted] = known_.try_emplace(std::tuple(image, repeat_u, repeat_v),
-                                                       static_cast<int>(scene_.textures.size()));
-        if (inserted) {
-            add_texture(image, repeat_u, repeat_v);
+        const std::tuple key(image, repeat_u, repeat_v);
+        if (const auto known = known_.find(key); known != known_.end()) {
+            return known->second;
         }
-        return it->second;
+        add_texture(image, repeat_u, repeat_v);
+        const auto added = static_cast<int>(scene_.textures.size() - 1);
+        known_.emplace(key, added);
+        return added;
     }
 
     void add_texture(int image, bool repeat_u, bool repeat_v) {
         DecodedImage decoded = decode_image(document_, image);
-        texture_bytes_ += decoded.rgba.size();
-        if (texture_bytes_ > max_texture_bytes) {
+        if (decoded.rgba.size() > max_texture_bytes - texture_bytes_) {
             document_.fail(item_path("images", image),
                            fmt::format("decoded images exceed {} bytes", max_texture_bytes));
         }
+        texture_bytes_ += decoded.rgba.size();
         scene_.textures.push_back({item(document_.model().images, image).name, decoded.width,
                                    decoded.height, repeat_u, repeat_v, std::move(decoded.rgba)});
     }
@@ -264,17 +344,14 @@ bool material_has_texture(const GltfDocument& document, int material) {
     if (material < 0) {
         return false;
     }
-    const tinygltf::Material& source = item(document.model().materials, material);
-    return base_colour_info(source).index >= 0 || source.emissiveTexture.index >= 0;
+    return first_uv_set(item(document.model().materials, material)) >= 0;
 }
 
 int uv_set_of_material(const GltfDocument& document, int material) {
     if (material < 0) {
         return 0;
     }
-    const tinygltf::Material& source = item(document.model().materials, material);
-    const tinygltf::TextureInfo base = base_colour_info(source);
-    return uv_set_of(base.index >= 0 ? base : source.emissiveTexture);
+    return std::max(first_uv_set(item(document.model().materials, material)), 0);
 }
 
 }  // namespace raybundle

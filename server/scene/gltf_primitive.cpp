@@ -66,6 +66,29 @@ class Attributes {
                             : read_floats(document_, accessor, components, path);
     }
 
+    /// COLOR_0, of three components or, alpha left out, of four. Empty if absent.
+    [[nodiscard]] std::vector<glm::vec3> read_colours() const {
+        const char* const semantic = "COLOR_0";
+        if (!has(semantic)) {
+            return {};
+        }
+        std::size_t components = 3;
+        if (draco_ && draco_->attributes.contains(semantic)) {
+            components = draco_->attributes.at(semantic).components;
+        } else if (item(document_.model().accessors, accessor_or_none(accessors_, semantic)).type ==
+                   TINYGLTF_TYPE_VEC4) {
+            components = 4;
+        }
+        components = std::clamp<std::size_t>(components, 3, 4);
+        const std::vector<float> values = read(semantic, components);
+        std::vector<glm::vec3> colours;
+        for (std::size_t i = 0; i + components <= values.size(); i += components) {
+            colours.push_back(
+                glm::clamp(glm::vec3(values[i], values[i + 1], values[i + 2]), 0.0F, 1.0F));
+        }
+        return colours;
+    }
+
   private:
     const GltfDocument& document_;
     const AccessorMap& accessors_;
@@ -147,6 +170,7 @@ void check_lengths(const GltfDocument& document, const PrimitiveData& data,
     };
     check(data.normals.size(), "NORMAL");
     check(data.uvs.size(), "TEXCOORD");
+    check(data.colours.size(), "COLOR_0");
     check(data.joints.size(), "JOINTS_0");
     check(data.weights.size(), "WEIGHTS_0");
 }
@@ -196,9 +220,7 @@ void read_attributes(GltfDocument& document, const Attributes& attributes, Primi
         data.joints = as_vectors<glm::uvec4>(attributes.read("JOINTS_0", 4));
         data.weights = as_vectors<glm::vec4>(attributes.read("WEIGHTS_0", 4));
     }
-    if (attributes.has("COLOR_0")) {
-        document.note("vertex colours are ignored");
-    }
+    data.colours = attributes.read_colours();
     if (attributes.has("JOINTS_1")) {
         document.note("only four joints per vertex are used");
     }

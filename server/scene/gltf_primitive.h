@@ -15,6 +15,7 @@ struct PrimitiveData {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec3> colours;  ///< COLOR_0 without alpha, linear, 0 to 1
     std::vector<glm::uvec4> joints;
     std::vector<glm::vec4> weights;
     std::vector<glm::uvec3> triangles;  ///< counter-clockwise from the front

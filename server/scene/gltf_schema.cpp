@@ -123,6 +123,7 @@ constexpr Rule rules[] = {
     number("materials[].pbrMetallicRoughness.metallicFactor", 0, 1),
     number("materials[].pbrMetallicRoughness.roughnessFactor", 0, 1),
     numbers("materials[].emissiveFactor", 3, 0, 1e9),
+    number("materials[].normalTexture.scale", -1e6, 1e6),
     choice("materials[].alphaMode", "OPAQUE|MASK|BLEND"),
     number("materials[].alphaCutoff", 0, huge),
     flag("materials[].doubleSided"),
@@ -197,6 +198,8 @@ constexpr Rule rules[] = {
 constexpr std::string_view texture_infos[] = {
     "materials[].pbrMetallicRoughness.baseColorTexture",
     "materials[].emissiveTexture",
+    "materials[].normalTexture",
+    "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
     "materials[].extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture",
 };
 

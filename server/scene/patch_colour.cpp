@@ -13,6 +13,18 @@ const Texture* texture_of(const Scene& scene, const TextureSlot& slot) {
     return slot.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(slot.texture)];
 }
 
+glm::vec2 patch_metallic_roughness(const Scene& scene, const Material& material,
+                                   const std::array<glm::vec2, 3>& mesh_uv) {
+    const glm::vec2 factors(material.metallic, material.roughness);
+    const TextureSlot& slot = material.metallic_roughness_texture;
+    const Texture* texture = texture_of(scene, slot);
+    if (texture == nullptr) {
+        return factors;
+    }
+    const glm::vec3 mean = texture_data_mean(*texture, slot.uv_from_mesh_uv, mesh_uv);
+    return factors * glm::vec2(mean.b, mean.g);
+}
+
 }  // namespace
 
 std::optional<float> texture_alpha_cutoff(const Material& material) {
@@ -23,9 +35,9 @@ std::optional<float> texture_alpha_cutoff(const Material& material) {
 }
 
 PatchColour patch_colour(const Scene& scene, const Material& material,
-                         const std::array<glm::vec2, 3>& mesh_uv) {
+                         const std::array<glm::vec2, 3>& mesh_uv, const glm::vec3& factor) {
     PatchColour result;
-    glm::vec3 colour = material.base_colour;
+    glm::vec3 colour = material.base_colour * factor;
     const std::optional<float> cutoff = texture_alpha_cutoff(material);
     if (const Texture* texture = texture_of(scene, material.base_colour_texture)) {
         const TextureMean mean =
@@ -35,10 +47,19 @@ PatchColour patch_colour(const Scene& scene, const Material& material,
     } else if (cutoff && *cutoff > 1.0F) {
         result.coverage = 0.0F;
     }
+    result.metallic_roughness = patch_metallic_roughness(scene, material, mesh_uv);
+    if (material.unlit) {
+        return result;
+    }
     result.base_colour = clamped_base_colour(colour);
     result.was_clamped = exceeds_max_albedo(colour);
     result.emission = patch_emission(scene, material, mesh_uv);
     return result;
+}
+
+bool varies_by_texture(const Material& material) {
+    return material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0 ||
+           material.metallic_roughness_texture.texture >= 0;
 }
 
 glm::vec3 mean_base_colour(const Scene& scene, const Material& material) {

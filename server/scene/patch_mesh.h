@@ -15,11 +15,12 @@ namespace raybundle {
 struct PatchMesh {
     static constexpr std::uint32_t no_patch = 0xffffffffU;
 
-    // Vertices, welded: equal position, normal, uv and object are one vertex, so that the patches
-    // round a vertex are the ones to interpolate over (a smoothing group).
+    // Vertices, welded: equal position, normal, uv, colour and object are one vertex, so that the
+    // patches round a vertex are the ones to interpolate over (a smoothing group).
     std::vector<glm::vec3> positions;          ///< object space, metres
     std::vector<glm::vec3> normals;            ///< object space, unit
     std::vector<glm::vec2> uvs;                ///< mesh uv, before the slot's transform
+    std::vector<glm::vec3> colours;            ///< factors of the base colour; empty: all white
     std::vector<std::uint32_t> vertex_object;  ///< index into Scene::objects
 
     // Triangles.
@@ -40,6 +41,9 @@ struct PatchMesh {
     /// Linear, area mean over the patch, <= 0.999; what is reflected of it, scene/brdf.h says.
     std::vector<glm::vec3> base_colour;
     std::vector<glm::vec3> emission;  ///< radiance, cd/m², area mean over the patch
+    /// Metalness and roughness of triangles, area means; empty where no material has a texture of
+    /// them.
+    std::vector<glm::vec2> metallic_roughness;
     /// Share of the patch that alpha MASK leaves; empty where nothing is cut.
     std::vector<float> coverage;
 

@@ -22,10 +22,30 @@ glm::vec3 albedo_of(const Brdf& brdf, const ReflectanceNode& node) {
 }  // namespace
 
 ReflectanceTable::ReflectanceTable(const Brdf& brdf) : brdf_(brdf) {
-    const SpecularLobe& lobe = brdf.lobe;
-    if (lobe.kind == LobeKind::none) {
+    if (brdf.lobe.kind == LobeKind::none) {
         return;
     }
+    tabulate_albedo();
+    for (int i = 0; i < reflectance_nodes; ++i) {
+        nodes_[static_cast<std::size_t>(i)].importance = integrate_importance(i);
+    }
+    mean_ = integrate_mean();
+}
+
+ReflectanceTable::ReflectanceTable(const Brdf& brdf, const ReflectanceTable& similar)
+    : brdf_(brdf) {
+    if (brdf.lobe.kind == LobeKind::none) {
+        return;
+    }
+    tabulate_albedo();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        nodes_[i].importance = similar.nodes_[i].importance;
+    }
+    mean_ = integrate_mean();
+}
+
+void ReflectanceTable::tabulate_albedo() {
+    const SpecularLobe& lobe = brdf_.lobe;
     for (int i = 0; i < reflectance_nodes; ++i) {
         const LobeAlbedo albedo = lobe.kind == LobeKind::ggx
                                       ? ggx_albedo_at_node(lobe.alpha, i)
@@ -35,10 +55,6 @@ ReflectanceTable::ReflectanceTable(const Brdf& brdf) : brdf_(brdf) {
         node.bias = albedo.bias;
         node.transmission = 1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias;
     }
-    for (int i = 0; i < reflectance_nodes; ++i) {
-        nodes_[static_cast<std::size_t>(i)].importance = integrate_importance(i);
-    }
-    mean_ = integrate_mean();
 }
 
 ReflectanceNode ReflectanceTable::integrate_mean() const {

@@ -47,6 +47,8 @@ class ReflectanceTable {
   public:
     /// Integrates S at every node: some milliseconds for a glossy BRDF.
     explicit ReflectanceTable(const Brdf& brdf);
+    /// Takes the importance, node by node, from the table of a similar BRDF instead.
+    ReflectanceTable(const Brdf& brdf, const ReflectanceTable& similar);
 
     /// a(cosine), per channel.
     [[nodiscard]] glm::vec3 albedo(float cosine) const { return albedo(brdf_, cosine); }
@@ -63,6 +65,7 @@ class ReflectanceTable {
     [[nodiscard]] std::span<const ReflectanceNode> nodes() const { return nodes_; }
 
   private:
+    void tabulate_albedo();
     [[nodiscard]] ReflectanceNode at(float cosine) const;
     [[nodiscard]] float integrate_importance(int index) const;
     [[nodiscard]] ReflectanceNode integrate_mean() const;

@@ -31,13 +31,14 @@ struct Bounds {
 };
 
 /// Image of a texture, 8 bits a channel, RGBA, row 0 first as in the file (glTF: v = 0 is row 0).
+/// Colours are sRGB-encoded; roughness, metalness and normals are not.
 struct Texture {
     std::string name;
     int width = 0;
     int height = 0;
     bool repeat_u = true;  ///< else clamped to the edge
     bool repeat_v = true;
-    std::vector<std::uint8_t> rgba;  ///< width * height * 4; colour is sRGB-encoded
+    std::vector<std::uint8_t> rgba;  ///< width * height * 4
 };
 
 /// A use of a texture by a material, with KHR_texture_transform already folded into
@@ -69,6 +70,10 @@ struct Material {
     float alpha_cutoff = 0.5F;
     float metallic = 1.0F;
     float roughness = 1.0F;
+    /// Factors of roughness in G, of metalness in B. None for materials without a GGX lobe.
+    TextureSlot metallic_roughness_texture;
+    TextureSlot normal_texture;       ///< in tangent space, see scene/normal_map.h
+    float normal_scale = 1.0F;        ///< of its x and y
     float specular = 1.0F;            ///< KHR_materials_specular specularFactor; 0: pure Lambert
     glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
     float ior = 1.5F;                 ///< KHR_materials_ior, of what is transmitted
@@ -82,7 +87,13 @@ struct Material {
     glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
     bool double_sided = false;
+    /// KHR_materials_unlit: a picture shows base_colour as it is; to light the surface is black.
+    bool unlit = false;
 };
+
+/// Radiance of an unlit surface of base colour 1 where a picture is asked for radiance, cd/m²: the
+/// white of the display that sRGB is defined for (IEC 61966-2-1).
+constexpr float unlit_white = 80.0F;
 
 /// Translation, rotation, scale: local transform of a node, as in glTF.
 struct Transform {
@@ -138,6 +149,7 @@ struct Vertex {
     glm::vec3 position{0.0F};  ///< object space, metres
     glm::vec3 normal{0.0F};    ///< object space, unit
     glm::vec2 uv{0.0F};        ///< TEXCOORD_0 (or the set that the base colour uses)
+    glm::vec3 colour{1.0F};    ///< factor of the base colour, linear, 0 to 1
 };
 
 /// What loading left out because nothing could ever see it.

@@ -27,12 +27,14 @@ glm::vec3 absorption_of(const Material& material) {
 }  // namespace
 
 SpecularKind specular_kind(const Material& material) {
-    if (material.max_phong || material.alpha_mode != AlphaMode::opaque ||
+    if (material.unlit || material.max_phong || material.alpha_mode != AlphaMode::opaque ||
         material.emission != glm::vec3(0.0F)) {
         return SpecularKind::none;
     }
     if (material.metallic >= least_metal) {
-        return material.roughness <= mirror_roughness ? SpecularKind::mirror : SpecularKind::none;
+        const bool smooth = material.roughness <= mirror_roughness &&
+                            material.metallic_roughness_texture.texture < 0;
+        return smooth ? SpecularKind::mirror : SpecularKind::none;
     }
     if (material.transmission < least_transmission) {
         return SpecularKind::none;

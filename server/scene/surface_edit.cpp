@@ -21,14 +21,19 @@ glm::vec3 emission_of(const Light& light) {
 
 PatchColour colour_of(const Scene& scene, const Material& material, const PatchMesh& mesh,
                       std::size_t patch) {
-    if (material.base_colour_texture.texture < 0 && material.emission_texture.texture < 0) {
+    const bool coloured = !mesh.colours.empty();
+    if (!varies_by_texture(material) && !coloured && !material.unlit) {
         PatchColour plain;
         plain.base_colour = clamped_base_colour(material.base_colour);
         plain.emission = material.emission;
+        plain.metallic_roughness = glm::vec2(material.metallic, material.roughness);
         return plain;
     }
     const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
-    return patch_colour(scene, material, {mesh.uvs[t.x], mesh.uvs[t.y], mesh.uvs[t.z]});
+    const glm::vec3 factor =
+        coloured ? (mesh.colours[t.x] + mesh.colours[t.y] + mesh.colours[t.z]) / 3.0F
+                 : glm::vec3(1.0F);
+    return patch_colour(scene, material, {mesh.uvs[t.x], mesh.uvs[t.y], mesh.uvs[t.z]}, factor);
 }
 
 }  // namespace
@@ -86,6 +91,9 @@ void refresh_surfaces(const Scene& scene, std::span<const std::uint32_t> materia
         const PatchColour colour = colour_of(scene, scene.materials[index], mesh, i);
         mesh.base_colour[i] = colour.base_colour;
         mesh.emission[i] = colour.emission;
+        if (!mesh.metallic_roughness.empty()) {
+            mesh.metallic_roughness[mesh.patch_triangle[i]] = colour.metallic_roughness;
+        }
     }
 }
 

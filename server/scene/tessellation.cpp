@@ -14,6 +14,7 @@
 #include "scene/patch_colour.h"
 #include "scene/patch_mesh.h"
 #include "scene/point_index.h"
+#include "scene/reflectance_grid.h"
 
 namespace raybundle {
 namespace {
@@ -99,13 +100,14 @@ struct CornerHash {
         const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
         std::uint64_t hash = mix_bits(bits(c.normal.x) << 32U | bits(c.normal.y));
         hash = mix_bits(hash ^ (bits(c.uv.x) << 32U | bits(c.uv.y)));
+        hash = mix_bits(hash ^ (bits(c.colour.x) << 32U | (bits(c.colour.y) ^ bits(c.colour.z))));
         return mix_bits(hash ^ (bits(c.normal.z) << 32U | c.point));
     }
 };
 
 struct CornerEqual {
     bool operator()(const EdgeRefinement::Corner& a, const EdgeRefinement::Corner& b) const {
-        return a.point == b.point && a.normal == b.normal && a.uv == b.uv;
+        return a.point == b.point && a.normal == b.normal && a.uv == b.uv && a.colour == b.colour;
     }
 };
 
@@ -121,8 +123,11 @@ class PatchPainter {
         const Material& material = scene_.materials[triangle.material];
         const std::array<glm::vec2, 3> uv = {triangle.corners[0].uv, triangle.corners[1].uv,
                                              triangle.corners[2].uv};
-        if (material.base_colour_texture.texture >= 0 || material.emission_texture.texture >= 0) {
-            const PatchColour colour = patch_colour(scene_, material, uv);
+        const glm::vec3 factor =
+            (triangle.corners[0].colour + triangle.corners[1].colour + triangle.corners[2].colour) /
+            3.0F;
+        if (varies_by_texture(material) || factor != glm::vec3(1.0F)) {
+            const PatchColour colour = patch_colour(scene_, material, uv, factor);
             clamped_[triangle.material] = clamped_[triangle.material] || colour.was_clamped;
             return colour;
         }
@@ -187,6 +192,12 @@ class MeshBuilder {
         if (!cut_) {
             mesh_.coverage.clear();
         }
+        if (!coloured_) {
+            mesh_.colours.clear();
+        }
+        if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_reflectance_grid)) {
+            mesh_.metallic_roughness.clear();
+        }
         if (mesh_.triangles.empty()) {
             throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
         }
@@ -205,6 +216,7 @@ class MeshBuilder {
         mesh_.base_colour.push_back(colour.base_colour);
         mesh_.emission.push_back(colour.emission);
         mesh_.coverage.push_back(colour.coverage);
+        mesh_.metallic_roughness.push_back(colour.metallic_roughness);
         cut_ = cut_ || colour.coverage < 1.0F;
     }
 
@@ -215,6 +227,8 @@ class MeshBuilder {
             mesh_.positions.push_back(refinement_.points()[corner.point]);
             mesh_.normals.push_back(corner.normal);
             mesh_.uvs.push_back(corner.uv);
+            mesh_.colours.push_back(corner.colour);
+            coloured_ = coloured_ || corner.colour != glm::vec3(1.0F);
             mesh_.vertex_object.push_back(object);
         }
         return it->second;
@@ -296,7 +310,8 @@ class MeshBuilder {
     PatchPainter painter_;
     std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
-    bool cut_ = false;  // alpha MASK has left less than the whole of some patch
+    bool coloured_ = false;  // some vertex is not white
+    bool cut_ = false;       // alpha MASK has left less than the whole of some patch
     std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
     std::size_t invisible_ = 0;
 };

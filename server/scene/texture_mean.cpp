@@ -28,11 +28,18 @@ int texel_index(float coordinate, int size, bool repeat) {
     return std::min(static_cast<int>(inside * static_cast<float>(size)), size - 1);
 }
 
+/// What the bytes of a texture stand for.
+using Decode = float (*)(std::uint8_t);
+
+float linear_from_data(std::uint8_t value) {
+    return static_cast<float>(value) / 255.0F;
+}
+
 class TriangleSampler {
   public:
-    TriangleSampler(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
+    TriangleSampler(const Texture& texture, Decode decode, const glm::mat3& uv_from_mesh_uv,
                     const std::array<glm::vec2, 3>& mesh_uv, std::optional<float> alpha_cutoff)
-        : texture_(texture), alpha_cutoff_(alpha_cutoff) {
+        : texture_(texture), decode_(decode), alpha_cutoff_(alpha_cutoff) {
         for (std::size_t k = 0; k < 3; ++k) {
             uv_[k] = glm::vec2(uv_from_mesh_uv * glm::vec3(mesh_uv[k], 1.0F));
         }
@@ -88,11 +95,11 @@ class TriangleSampler {
             return;
         }
         ++covered_;
-        sum_ += glm::vec3(linear_from_srgb(texel[0]), linear_from_srgb(texel[1]),
-                          linear_from_srgb(texel[2]));
+        sum_ += glm::vec3(decode_(texel[0]), decode_(texel[1]), decode_(texel[2]));
     }
 
     const Texture& texture_;
+    Decode decode_;
     std::optional<float> alpha_cutoff_;
     std::array<glm::vec2, 3> uv_{};
     glm::vec3 sum_{0.0F};
@@ -109,7 +116,15 @@ float linear_from_srgb(std::uint8_t encoded) {
 TextureMean texture_mean(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
                          const std::array<glm::vec2, 3>& mesh_uv,
                          std::optional<float> alpha_cutoff) {
-    return TriangleSampler(texture, uv_from_mesh_uv, mesh_uv, alpha_cutoff).mean();
+    return TriangleSampler(texture, linear_from_srgb, uv_from_mesh_uv, mesh_uv, alpha_cutoff)
+        .mean();
+}
+
+glm::vec3 texture_data_mean(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
+                            const std::array<glm::vec2, 3>& mesh_uv) {
+    return TriangleSampler(texture, linear_from_data, uv_from_mesh_uv, mesh_uv, std::nullopt)
+        .mean()
+        .colour;
 }
 
 }  // namespace raybundle

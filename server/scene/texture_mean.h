@@ -23,4 +23,8 @@ TextureMean texture_mean(const Texture& texture, const glm::mat3& uv_from_mesh_u
                          const std::array<glm::vec2, 3>& mesh_uv,
                          std::optional<float> alpha_cutoff = std::nullopt);
 
+/// Area mean of a texture that holds numbers and no colours, 0..1.
+glm::vec3 texture_data_mean(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
+                            const std::array<glm::vec2, 3>& mesh_uv);
+
 }  // namespace raybundle

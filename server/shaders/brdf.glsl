@@ -20,9 +20,19 @@ struct Brdf {
     int kind;            // LOBE_*
 };
 
-/// The BRDF of a material where its base colour (factor times texture, linear) is known.
-Brdf make_brdf(uint material, vec3 base_colour) {
-    int at = 3 * int(material);
+/// Record of a material at a pixel: the place in its grid comes with the packed albedo.
+uint reflectance_record(uint material, uint packed_albedo) {
+#ifdef REFLECTANCE_TEXTURED
+    if (int(texelFetch(reflectance_texels, 3 * int(material) + 2).z) == LOBE_TEXTURED) {
+        return uint(texelFetch(reflectance_texels, 3 * int(material)).x) + (packed_albedo >> 24);
+    }
+#endif
+    return material;
+}
+
+/// The BRDF of a record where its base colour (factor times texture, linear) is known.
+Brdf make_brdf(uint record, vec3 base_colour) {
+    int at = 3 * int(record);
     vec4 f0 = texelFetch(reflectance_texels, at);
     vec4 lobe = texelFetch(reflectance_texels, at + 1);
     vec4 table = texelFetch(reflectance_texels, at + 2);

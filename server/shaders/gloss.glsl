@@ -8,7 +8,7 @@
 #include "brdf.glsl"
 #include "mesh.glsl"
 
-/// Base colour, and the material (bits) of a glossy patch or NOT_GLOSSY.
+/// Base colour, and the reflectance record (bits) of a glossy patch or NOT_GLOSSY.
 layout(binding = UNIT_REFLECTORS) uniform usamplerBuffer reflector_texels;
 /// PackedGloss.
 layout(binding = UNIT_GLOSS) uniform usamplerBuffer gloss_texels;

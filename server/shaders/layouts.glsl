@@ -42,7 +42,7 @@
 #define BINDING_FACET_INDICES 32  // uint[3 * facets]: vertices
 #define BINDING_FLUX 33           // FluxSums[]: per block of patches, then the totals
 #define BINDING_BALANCE 34        // Balance
-#define BINDING_REFLECTORS 35     // vec4[]: base colour, material of a glossy patch (bits) or NOT_GLOSSY
+#define BINDING_REFLECTORS 35     // vec4[]: base colour, reflectance record of a glossy patch (bits) or NOT_GLOSSY
 #define BINDING_GLOSS 36          // uvec4[]: glossy part of a patch's radiance, see gloss.glsl
 #define BINDING_CHAIN 37          // vec2[]: importance of the accepted sample, its scale C
 #define BINDING_PIXEL_GLOSS 38    // vec4[]: see pixel_gloss.glsl
@@ -60,6 +60,7 @@
 #define BINDING_PUNCTUAL 55           // PunctualData[]
 #define BINDING_PIXEL_FIRST_SHOT 56   // vec4[]: see view_first_shot.comp
 #define BINDING_IES 57                // float[IES_ROWS * IES_COLUMNS] for each profile: cd
+#define BINDING_TRANSMITTANCE 58      // vec4[]: rgb: share of the light on a patch's back that it sends from its front
 #define BINDING_TILES 59              // see tiles.glsl
 #define BINDING_CONTINUED 60          // ContinuedPixel[]
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
@@ -90,13 +91,14 @@
 #define UNIT_MATERIALS 12         // rgba32f: MaterialData, five texels each
 #define UNIT_FACETS 13            // rgba32f: FacetGeometry, four texels each
 #define UNIT_FACET_NODES 14       // rg32ui: FacetNode of scene/facet_tree.h
-#define UNIT_REFLECTANCE 15       // rgba32f: Reflectance, three texels each, then tables, see brdf.glsl
+#define UNIT_REFLECTANCE 15       // rgba32f: Reflectance, three texels each, of materials and then of grids, then tables, see brdf.glsl
 #define UNIT_REFLECTORS 16        // rgba32f
 #define UNIT_GLOSS 17             // rgba32f
 #define UNIT_PIXEL_GLOSS 18       // rgba32f
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 #define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
 
+#define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
 #define UNIT_ENVIRONMENT 30       // rgba32f, equirectangular: cd/m^2, see environment.glsl
@@ -182,7 +184,7 @@ struct VertexData {
     uint first_patch;  // into BINDING_VERTEX_PATCHES
     uint patch_count;
     uint object;
-    uint pad;
+    uint colour;  // factor of the base colour, unorm 4x8, square-root encoded
 };
 
 struct MaterialData {
@@ -193,11 +195,26 @@ struct MaterialData {
     uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
 };
 
+// What the textures of a material do besides its base colour.
+struct MaterialDetails {
+    vec4 factors;      // metallic, roughness, scale of a normal map's x and y; w: 1: unlit
+    vec4 grid;         // of roughness: ln of the lowest, levels per unit of ln; of metalness: lowest, levels per unit
+    uvec4 grid_levels;  // of roughness, of metalness; 0: neither is textured
+    vec4 reflectance_row0;  // metallic-roughness texture: as uv_row0, uv_row1 and texture_info of MaterialData
+    vec4 reflectance_row1;
+    uvec4 reflectance_info;
+    vec4 normal_row0;  // normal map
+    vec4 normal_row1;
+    uvec4 normal_info;
+};
+#define MATERIAL_DETAILS_TEXELS 9
+
 #define MAX_ALBEDO 0.999  // of a base colour: the iteration contracts
 #define REFLECTANCE_NODES 80
 #define LOBE_NONE 0
 #define LOBE_GGX 1
 #define LOBE_MAX_PHONG 2
+#define LOBE_TEXTURED 3  // roughness and metalness vary: f0.x is the first record of its grid, see ReflectanceGrid
 
 // A material's BRDF apart from its base colour, see scene/brdf.h.
 struct Reflectance {
@@ -230,7 +247,7 @@ struct PixelSurface {
     vec3 position;   // world space
     uint patch_id;   // NO_PATCH: background
     uint normal;     // shading normal, octahedral snorm 2x16
-    uint albedo;     // at the angle of view, unorm 4x8, square-root encoded
+    uint albedo;     // at the angle of view, unorm 4x8, square-root encoded; w: place in the material's ReflectanceGrid
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
     uint facet;        // also of black backs; and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
 };
@@ -239,6 +256,7 @@ struct PixelSurface {
 #define PIXEL_SKY 0x40000000u
 #define PIXEL_BACK 0x20000000u  // the facet's back is seen
 #define PIXEL_GLOSSY 0x10000000u
+#define PIXEL_UNLIT 0x08000000u  // shown as is
 #define PIXEL_CONTINUED 0x04000000u  // specular: shows what lies at the ends of its view rays
 #define PIXEL_FACET_MASK 0x03ffffffu
 

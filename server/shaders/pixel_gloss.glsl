@@ -7,13 +7,13 @@
 #include "facets.glsl"
 
 /// The BRDF at a pixel whose directional albedo towards the eye is known; at_out: brdf_at() of that angle.
-Brdf pixel_brdf(uint material, vec3 albedo, float cos_out, out vec4 at_out) {
-    Brdf plain = make_brdf(material, vec3(0.0));
+Brdf pixel_brdf(uint record, vec3 albedo, float cos_out, out vec4 at_out) {
+    Brdf plain = make_brdf(record, vec3(0.0));
     at_out = brdf_at(plain, cos_out);
-    int at = 3 * int(material);
+    int at = 3 * int(record);
     float f0_share = texelFetch(reflectance_texels, at).w;
     float lambert_share = texelFetch(reflectance_texels, at + 1).z;
     vec3 uncoloured = plain.f0 * at_out.x + plain.f90 * at_out.y;
     float per_colour = lambert_share * at_out.z + f0_share * at_out.x;
-    return make_brdf(material, max(albedo - uncoloured, 0.0) / max(per_colour, 1e-4));
+    return make_brdf(record, max(albedo - uncoloured, 0.0) / max(per_colour, 1e-4));
 }

@@ -135,7 +135,8 @@ vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
 #endif
     float cos_out = dot(x.normal, w_out);
     vec4 at_out;
-    Brdf brdf = pixel_brdf(facet_material(facet_base + (x.surface >> 1)), albedo, cos_out, at_out);
+    uint record = reflectance_record(facet_material(facet_base + (x.surface >> 1)), x.albedo);
+    Brdf brdf = pixel_brdf(record, albedo, cos_out, at_out);
     vec4 at_in = brdf_at(brdf, dot(x.normal, w_in));
     vec3 reflected = value * brdf_value(brdf, x.normal, w_in, w_out, at_in.z * at_out.z);
     vec3 gloss = reflected - value * albedo * brdf_inverse_pi;

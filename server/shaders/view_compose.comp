@@ -65,7 +65,13 @@ vec3 shown(uvec2 at) {
 /// Displayed colour of a pixel, 0..1.
 vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
-    return srgb_encoded(shoulder(pixel_radiance(index, load_pixel(index)) * view.display.y));
+    PixelSurface p = load_pixel(index);
+#ifdef UNLIT
+    if ((p.facet & PIXEL_UNLIT) != 0u && p.patch_id != NO_PATCH) {
+        return srgb_encoded(pixel_albedo(p));  // as it is, at any exposure
+    }
+#endif
+    return srgb_encoded(shoulder(pixel_radiance(index, p) * view.display.y));
 }
 #endif
 

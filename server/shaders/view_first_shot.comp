@@ -47,7 +47,7 @@ void main() {
         vec3 w_out = normalize(view.eye.xyz - position);
 #endif
         vec4 at_out;
-        Brdf brdf = pixel_brdf(facet_material(facet), albedo, dot(normal, w_out), at_out);
+        Brdf brdf = pixel_brdf(reflectance_record(facet_material(facet), q.y), albedo, dot(normal, w_out), at_out);
 #endif
         for (uint k = 0u; k < punctual_count; ++k) {
             vec3 w_in;

@@ -2,9 +2,9 @@
 // Geometry buffer of a viewer: surface point, normal and texture colour of every pixel, from the
 // rasterised surface ids; specular surfaces get their base colour here and the rest in
 // view_resolve_specular.comp. Accumulated irradiance follows its surface point from the picture before
-// (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED, SMOOTH (some
-// vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved), CONTINUED (pixels
-// behind mirrors and glass, see continued.glsl).
+// (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED,
+// DETAILS (material_details.glsl), VERTEX_COLOURS, SMOOTH (some vertex normals bend away from their planes), REPROJECT,
+// MOVED (an object has just moved), CONTINUED (pixels behind mirrors and glass, see continued.glsl).
 #include "layouts.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
@@ -19,7 +19,7 @@ layout(std430, binding = BINDING_PIXELS) writeonly buffer PixelBuffer { uvec4 pi
 layout(std430, binding = BINDING_PIXEL_IRRADIANCE) writeonly buffer IrradianceBuffer {
     vec4 pixel_irradiance[];
 };
-#if defined(TEXTURED) || defined(SMOOTH)
+#if defined(TEXTURED) || defined(SMOOTH) || defined(VERTEX_COLOURS)
 layout(binding = UNIT_VERTEX_DATA) uniform usamplerBuffer vertex_data_texels;
 #endif
 #ifdef TEXTURED
@@ -45,11 +45,15 @@ uniform float crease_distance;  // m, see receiving_point()
 #endif
 
 #ifdef TEXTURED
-vec3 texel(uvec4 info, ivec2 at) {
+vec3 texel_data(uvec4 info, ivec2 at) {
     ivec2 size = ivec2(info.yz);
     at.x = (info.w & 1u) != 0u ? at.x - size.x * int(floor(float(at.x) / float(size.x))) : clamp(at.x, 0, size.x - 1);
     at.y = (info.w & 2u) != 0u ? at.y - size.y * int(floor(float(at.y) / float(size.y))) : clamp(at.y, 0, size.y - 1);
-    vec3 encoded = unpackUnorm4x8(texels[info.x + uint(at.y * size.x + at.x)]).rgb;
+    return unpackUnorm4x8(texels[info.x + uint(at.y * size.x + at.x)]).rgb;
+}
+
+vec3 texel(uvec4 info, ivec2 at) {
+    vec3 encoded = texel_data(info, at);
     return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), step(0.04045, encoded));
 }
 
@@ -66,6 +70,17 @@ vec3 texture_colour(int material, uvec4 info, vec2 mesh_uv) {
 }
 
 vec2 vertex_uv(uint vertex) { return uintBitsToFloat(texelFetch(vertex_data_texels, int(2u * vertex)).zw); }
+#endif
+
+#ifdef DETAILS
+#include "material_details.glsl"
+#endif
+
+#ifdef VERTEX_COLOURS
+vec3 vertex_colour(uint vertex) {
+    vec3 root = unpackUnorm4x8(texelFetch(vertex_data_texels, int(2u * vertex + 1u)).w).rgb;
+    return root * root;
+}
 #endif
 
 #ifdef SMOOTH
@@ -167,10 +182,14 @@ void main() {
     vec3 albedo = texelFetch(material_texels, material).rgb;
 #ifdef TEXTURED
     uvec4 info = floatBitsToUint(texelFetch(material_texels, material + 4));
+    vec2 mesh_uv = weights.x * vertex_uv(triangle.x) + weights.y * vertex_uv(triangle.y) + weights.z * vertex_uv(triangle.z);
     if (info.y != 0u) {
-        albedo *= texture_colour(material, info, weights.x * vertex_uv(triangle.x) + weights.y * vertex_uv(triangle.y) +
-                                                     weights.z * vertex_uv(triangle.z));
+        albedo *= texture_colour(material, info, mesh_uv);
     }
+#endif
+#ifdef VERTEX_COLOURS
+    albedo *= weights.x * vertex_colour(triangle.x) + weights.y * vertex_colour(triangle.y) +
+              weights.z * vertex_colour(triangle.z);
 #endif
     vec3 shaded = normal;
 #ifdef SMOOTH
@@ -179,6 +198,18 @@ void main() {
     }
 #endif
     uint flags = (surface & 1u) != 0u ? PIXEL_BACK : 0u;
+    float place = 0.0;  // in the material's grid of reflectance
+#ifdef NORMAL_MAPS
+    vec2 uv0 = vertex_uv(triangle.x);
+    shaded = mapped_normal(triangle.w & MATERIAL_MASK, mesh_uv, vertex_uv(triangle.y) - uv0, vertex_uv(triangle.z) - uv0,
+                           e1, e2, shaded, (surface & 1u) != 0u, normalize(view.eye.xyz - position));
+#endif
+#ifdef REFLECTANCE_TEXTURED
+    place = float(reflectance_place(triangle.w & MATERIAL_MASK, mesh_uv)) / 255.0;
+#endif
+#ifdef UNLIT
+    flags |= texelFetch(details_texels, MATERIAL_DETAILS_TEXELS * int(triangle.w & MATERIAL_MASK)).w > 0.0 ? PIXEL_UNLIT : 0u;
+#endif
 #ifdef SPECULAR
     vec4 lobe = texelFetch(reflectance_texels, 3 * int(triangle.w & MATERIAL_MASK) + 2);
     flags |= lobe.w > 0.0 ? PIXEL_GLOSSY : 0u;
@@ -190,7 +221,7 @@ void main() {
     bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
     pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
-                                    packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0)),
+                                    packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), place)),
                                     packUnorm2x16(vec2(v1, v2)),
                                     surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) | flags);
 #ifdef CONSTANT_RADIANCE

@@ -70,8 +70,8 @@ void main() {
         return;
     }
     vec3 position = uintBitsToFloat(p.xyz);
-    vec3 root = unpackUnorm4x8(q.y).rgb;
-    Brdf brdf = make_brdf(material, root * root);
+    vec4 root = unpackUnorm4x8(q.y);
+    Brdf brdf = make_brdf(reflectance_record(material, q.y), root.rgb * root.rgb);
 #ifdef CONTINUED
     vec3 w_out = continued_towards(index);
 #else
@@ -79,7 +79,7 @@ void main() {
 #endif
     vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
     vec3 albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_out)));
-    pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), 1.0));
+    pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), root.w));
 #ifdef GLOSSY
 #if defined(CONTINUED) && defined(REPROJECT)
     pixel_gloss[index] = kept_gloss_of(index) - vec4(0.0, 0.0, 0.0, common_weight);

@@ -27,7 +27,7 @@ vec4 probe_statistics(uint probe) {
     }
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
-    if (p.patch_id == NO_PATCH || (p.facet & PIXEL_EMITTER) != 0u) {
+    if (p.patch_id == NO_PATCH || (p.facet & (PIXEL_EMITTER | PIXEL_UNLIT)) != 0u) {
         return vec4(0.0);
     }
     float share = 1.0;

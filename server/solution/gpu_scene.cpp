@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/packing.hpp>
 #include <numeric>
 
 namespace raybundle {
@@ -41,6 +42,11 @@ bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
         }
     }
     return false;
+}
+
+/// unorm 4x8, square-root encoded.
+std::uint32_t packed_colour(const glm::vec3& colour) {
+    return glm::packUnorm4x8(glm::vec4(glm::sqrt(glm::clamp(colour, 0.0F, 1.0F)), 1.0F));
 }
 
 glm::vec4 with_bits(const glm::vec3& v, std::uint32_t bits) {
@@ -91,6 +97,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
     }
     upload_geometry(scene, mesh);
     upload_materials(scene, mesh);
+    upload_details(scene);
     upload_reflectors(mesh);
     upload_vertex_data(mesh);
     create_textures();
@@ -161,8 +168,8 @@ void GpuScene::upload_surfaces(const PatchMesh& mesh) {
     std::vector<layout::PatchSurface> surfaces;
     surfaces.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
-        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(material, mesh.base_colour[i]),
+        const std::uint32_t record = reflectance_record(mesh, i);
+        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(record, mesh.base_colour[i]),
                                       mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
                             glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
     }
@@ -217,8 +224,9 @@ void GpuScene::upload_reflectors(const PatchMesh& mesh) {
     reflectors.reserve(mesh.patch_count());
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
-        reflectors.push_back(
-            with_bits(mesh.base_colour[i], reflectance_.glossy(material) ? material : NOT_GLOSSY));
+        reflectors.push_back(with_bits(mesh.base_colour[i], reflectance_.glossy(material)
+                                                                ? reflectance_record(mesh, i)
+                                                                : NOT_GLOSSY));
     }
     if (reflectors_.bytes() > 0) {
         reflectors_.write<glm::vec4>(reflectors, 0);
@@ -248,7 +256,8 @@ void GpuScene::upload_vertex_data(const PatchMesh& mesh) {
     data.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         data.push_back({octahedral_from_vector(mesh.normals[i]), mesh.uvs[i], first[i],
-                        first[i + 1] - first[i], mesh.vertex_object[i], 0});
+                        first[i + 1] - first[i], mesh.vertex_object[i],
+                        mesh.colours.empty() ? 0xffffffffU : packed_colour(mesh.colours[i])});
     }
     vertex_data_ = Buffer::from<layout::VertexData>("vertex data", data);
     vertex_patches_ = Buffer::from<std::uint32_t>("vertex patches", vertex_patches);
@@ -275,7 +284,15 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(mesh.patch_count() > mesh.triangle_count(), "DOUBLE_SIDED");
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
+    define_if(!mesh.colours.empty(), "VERTEX_COLOURS");
     define_if(!mesh.coverage.empty(), "ALPHA_MASK");
+    define_if(details_.bytes() > 0, "DETAILS");
+    const auto any_material = [&scene](auto property) {
+        return std::any_of(scene.materials.begin(), scene.materials.end(), property);
+    };
+    define_if(any_material([](const Material& m) { return m.normal_texture.texture >= 0; }),
+              "NORMAL_MAPS");
+    define_if(any_material([](const Material& m) { return m.unlit; }), "UNLIT");
     define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
     define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                           [](const PunctualLight& light) { return light.profile != nullptr; }),
@@ -366,6 +383,9 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
     facets_.bind();
     reflectance_.bind();
+    if (details_.bytes() > 0) {
+        glBindTextureUnit(UNIT_MATERIAL_DETAILS, details_texture_.get());
+    }
     if (environment_) {
         glBindTextureUnit(UNIT_ENVIRONMENT, environment_texture_.get());
     }
@@ -431,8 +451,8 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum =
-        facets_.bytes() + reflectance_.bytes() + reflectors_.bytes() + environment_bytes_;
+    std::size_t sum = details_.bytes() + facets_.bytes() + reflectance_.bytes() +
+                      reflectors_.bytes() + environment_bytes_;
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {

@@ -54,11 +54,12 @@ class GpuScene {
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
-    /// ALPHA_MASK, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle), GLOSSY (some
-    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
-    /// profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view
-    /// rays go on from some surfaces), GLASS (bundles pass some). What is absent is not even
-    /// compiled.
+    /// VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour, or are
+    /// unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle),
+    /// GLOSSY (some radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES
+    /// (some with profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE,
+    /// MIRRORS (view rays go on from some surfaces), GLASS (bundles pass some). What is absent is
+    /// not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -104,6 +105,10 @@ class GpuScene {
     [[nodiscard]] layout::MaterialData material_data(const Material& material) const;
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
+    void upload_details(const Scene& scene);
+    [[nodiscard]] layout::MaterialDetails material_details(const Scene& scene,
+                                                           std::size_t material) const;
+    [[nodiscard]] std::uint32_t reflectance_record(const PatchMesh& mesh, std::size_t patch) const;
     void upload_environment();
     void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
@@ -134,6 +139,8 @@ class GpuScene {
     Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
     std::vector<glm::uvec4> texture_info_;  // of the scene's textures, see MaterialData
     Buffer reflectors_;                     // only where some patch is glossy
+    Buffer details_;                        // only where some material has any
+    Texture2D details_texture_;
     Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
     Texture2D reflector_texture_;
     std::vector<std::string> defines_;

@@ -15,6 +15,7 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                index * sizeof(layout::MaterialData));
     }
+    upload_details(scene);
     upload_surfaces(mesh);
     upload_reflectors(mesh);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
@@ -35,9 +36,13 @@ ReflectanceModel transported_model(const Material& material) {
     return reflectance_model(rough);
 }
 
-/// What a material's table is made for. All Lambert surfaces share one.
+/// What a material's table is made for. All Lambert surfaces share one. Of a grid, its sharpest
+/// lobe.
 Brdf representative(const Scene& scene, const Material& material) {
-    const ReflectanceModel model = transported_model(material);
+    const ReflectanceModel model =
+        has_reflectance_grid(material)
+            ? reflectance_model(material, ReflectanceGrid(scene, material).low)
+            : transported_model(material);
     return model.lobe.kind == LobeKind::none ? Brdf{}
                                              : make_brdf(model, mean_base_colour(scene, material));
 }
@@ -74,17 +79,61 @@ layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_t
 ReflectanceTables::ReflectanceTables(const Scene& scene) {
     bool max_phong = false;
     for (const Material& material : scene.materials) {
-        table_of_material_.push_back(table_for(scene, material));
+        table_of_record_.push_back(table_for(scene, material));
         models_.push_back(transported_model(material));
-        const LobeKind kind = models_.back().lobe.kind;
-        specular_ |= kind != LobeKind::none;
-        any_glossy_ |= glossy(models_.size() - 1);
-        max_phong |= kind == LobeKind::max_phong;
+        glossy_.push_back(table(models_.size() - 1).mean_importance() > gloss_threshold);
+        grids_.emplace_back();
+        first_record_.push_back(0);
+        max_phong |= models_.back().lobe.kind == LobeKind::max_phong;
     }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (has_reflectance_grid(scene.materials[i])) {
+            add_grid(scene, i);
+        }
+        any_glossy_ |= glossy_[i];
+    }
+    specular_ = std::any_of(models_.begin(), models_.end(), [](const ReflectanceModel& model) {
+        return model.lobe.kind != LobeKind::none;
+    });
     if (max_phong) {
         defines_.emplace_back("MAX_PHONG 1");
     }
+    if (models_.size() > scene.materials.size()) {
+        defines_.emplace_back("REFLECTANCE_TEXTURED 1");
+    }
     upload();
+}
+
+/// Records and tables for all places of a material's grid; their number stays while factors change.
+void ReflectanceTables::add_grid(const Scene& scene, std::size_t material) {
+    const ReflectanceGrid grid(scene, scene.materials[material]);
+    const std::size_t first_table = tables_.size();
+    first_record_[material] = models_.size();
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        models_.emplace_back();
+        table_of_record_.push_back(first_table + grid.roughness_level(i));
+    }
+    Key unlike;
+    unlike.fill(std::numeric_limits<float>::quiet_NaN());
+    keys_.insert(keys_.end(), static_cast<std::size_t>(grid.roughness_levels), unlike);
+    tables_.insert(tables_.end(), static_cast<std::size_t>(grid.roughness_levels),
+                   ReflectanceTable(Brdf{}));
+    fill_grid(scene, material);
+}
+
+void ReflectanceTables::fill_grid(const Scene& scene, std::size_t material) {
+    const Material& source = scene.materials[material];
+    const ReflectanceGrid& grid = grids_[material].emplace(scene, source);
+    const std::size_t first = first_record_[material];
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        models_[first + i] = reflectance_model(source, grid.at(i));
+    }
+    const std::vector<ReflectanceTable> tables = grid_tables(grid, scene, source);
+    std::copy(tables.begin(), tables.end(),
+              tables_.begin() + static_cast<std::ptrdiff_t>(table_of_record_[first]));
+    glossy_[material] = std::any_of(tables.begin(), tables.end(), [](const ReflectanceTable& t) {
+        return t.mean_importance() > gloss_threshold;
+    });
 }
 
 /// Index of the table of a material, which is integrated where none is like it.
@@ -111,16 +160,20 @@ bool ReflectanceTables::covers(const Scene& scene, std::size_t material) const {
 void ReflectanceTables::update(const Scene& scene, std::size_t material) {
     // The old table goes where nobody else has it: while a colour is dragged there would be more
     // and more of them.
-    const std::size_t old = table_of_material_[material];
-    const bool shared = std::count(table_of_material_.begin(), table_of_material_.end(), old) > 1;
+    const std::size_t old = table_of_record_[material];
+    const bool shared = std::count(table_of_record_.begin(), table_of_record_.end(), old) > 1;
     const Brdf brdf = representative(scene, scene.materials[material]);
     if (!shared && std::find(keys_.begin(), keys_.end(), key_of(brdf)) == keys_.end()) {
         keys_[old] = key_of(brdf);
         tables_[old] = ReflectanceTable(brdf);
     } else {
-        table_of_material_[material] = table_for(scene, scene.materials[material]);
+        table_of_record_[material] = table_for(scene, scene.materials[material]);
     }
     models_[material] = transported_model(scene.materials[material]);
+    glossy_[material] = table(material).mean_importance() > gloss_threshold;
+    if (grids_[material]) {
+        fill_grid(scene, material);
+    }
     upload();
 }
 
@@ -136,9 +189,18 @@ void ReflectanceTables::upload() {
                        " texels of reflectance do not fit into a buffer texture");
     }
     std::vector<layout::Reflectance> record;
-    for (std::size_t i = 0; i < models_.size(); ++i) {
-        record.push_back(
-            record_of(models_[i], records + reflectance_nodes * table_of_material_[i], glossy(i)));
+    const auto first_node = [&](std::size_t i) {
+        return records + reflectance_nodes * table_of_record_[i];
+    };
+    for (std::size_t i = 0; i < grids_.size(); ++i) {
+        record.push_back(record_of(models_[i], first_node(i), glossy(i)));
+        if (grids_[i]) {
+            record.back().f0.x = static_cast<float>(first_record_[i]);
+            record.back().table.z = static_cast<float>(LOBE_TEXTURED);
+        }
+    }
+    for (std::size_t i = grids_.size(); i < models_.size(); ++i) {
+        record.push_back(record_of(models_[i], first_node(i), false));
     }
     buffer_ = Buffer("reflectance", texels * sizeof(glm::vec4));
     buffer_.write<layout::Reflectance>(record, 0);

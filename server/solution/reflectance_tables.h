@@ -3,18 +3,21 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/gl_objects.h"
+#include "scene/reflectance_grid.h"
 #include "scene/reflectance_table.h"
 #include "scene/scene.h"
 
 namespace raybundle {
 
-/// The reflectance of a scene's materials for brdf.glsl: a record per material, and a table per
-/// distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them, SpecularRays tell.
-/// Importance is tabulated for the mean base colour of a material's texture.
+/// The reflectance of a scene's materials for brdf.glsl: a record per material, one for each place
+/// in the grid of a material whose roughness or metalness is textured (ReflectanceGrid), and a
+/// table per distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them,
+/// SpecularRays tell. Importance is tabulated for the mean base colour of a material's texture.
 class ReflectanceTables {
   public:
     /// Integrates the tables on the CPU, about 6 ms for each distinct glossy BRDF, and uploads
@@ -28,27 +31,37 @@ class ReflectanceTables {
     void update(const Scene& scene, std::size_t material);
 
     void bind() const;  ///< the buffer texture, to UNIT_REFLECTANCE
-    /// Macros that brdf.glsl wants for this scene: MAX_PHONG.
+    /// Macros that brdf.glsl wants for this scene: MAX_PHONG, REFLECTANCE_TEXTURED.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     /// Whether any material has a specular lobe.
     [[nodiscard]] bool specular() const { return specular_; }
     /// Whether a material's reflection depends on direction so much that the solution follows it
     /// there: more than gloss_threshold of the incident light goes where a Lambert surface of equal
     /// albedo would not send it. Below, only its albedo depends on the angle.
-    [[nodiscard]] bool glossy(std::size_t material) const {
-        return table(material).mean_importance() > gloss_threshold;
-    }
+    [[nodiscard]] bool glossy(std::size_t material) const { return glossy_[material]; }
     [[nodiscard]] bool any_glossy() const { return any_glossy_; }
     static constexpr float gloss_threshold = 0.02F;
 
-    /// Albedo of a material for light from everywhere alike, with this base colour.
-    [[nodiscard]] glm::vec3 mean_albedo(std::size_t material, const glm::vec3& base_colour) const {
-        return table(material).mean_albedo(make_brdf(models_[material], base_colour));
+    /// Albedo of a record for light from everywhere alike, with this base colour.
+    [[nodiscard]] glm::vec3 mean_albedo(std::size_t record, const glm::vec3& base_colour) const {
+        return table(record).mean_albedo(make_brdf(models_[record], base_colour));
     }
 
-    /// The table that stands for a material.
-    [[nodiscard]] const ReflectanceTable& table(std::size_t material) const {
-        return tables_[table_of_material_[material]];
+    /// Where the metalness and roughness of a material come from; nothing: from its factors.
+    [[nodiscard]] const std::optional<ReflectanceGrid>& grid(std::size_t material) const {
+        return grids_[material];
+    }
+    /// Record of a material where its texture has this metalness and roughness: the material's own
+    /// number where it has no grid.
+    [[nodiscard]] std::size_t record(std::size_t material,
+                                     const glm::vec2& metallic_roughness) const {
+        const std::optional<ReflectanceGrid>& grid = grids_[material];
+        return grid ? first_record_[material] + grid->nearest(metallic_roughness) : material;
+    }
+
+    /// The table that stands for a record. Those of the materials come first.
+    [[nodiscard]] const ReflectanceTable& table(std::size_t record) const {
+        return tables_[table_of_record_[record]];
     }
     [[nodiscard]] std::size_t table_count() const { return tables_.size(); }
     [[nodiscard]] std::size_t bytes() const { return buffer_.bytes(); }
@@ -56,12 +69,17 @@ class ReflectanceTables {
   private:
     void upload();
     std::size_t table_for(const Scene& scene, const Material& material);
+    void add_grid(const Scene& scene, std::size_t material);
+    void fill_grid(const Scene& scene, std::size_t material);
 
     std::vector<ReflectanceTable> tables_;
-    std::vector<std::array<float, 13>> keys_;  // of the tables
-    std::vector<std::size_t> table_of_material_;
+    std::vector<std::array<float, 13>> keys_;  // of the tables; those of grids match none
+    std::vector<std::size_t> table_of_record_;
     std::vector<std::string> defines_;
-    std::vector<ReflectanceModel> models_;
+    std::vector<ReflectanceModel> models_;               // of the records
+    std::vector<std::optional<ReflectanceGrid>> grids_;  // of the materials, as the next two
+    std::vector<std::size_t> first_record_;              // of a grid
+    std::vector<bool> glossy_;
     bool specular_ = false, any_glossy_ = false;
     Buffer buffer_;
     Texture2D texture_;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What textures besides the base colour do to a surface, and materials that are not lit.
+#include <algorithm>
+#include <array>
+
+#include "solution/gpu_scene.h"
+
+namespace raybundle {
+namespace {
+
+bool has_details(const Material& material) {
+    return has_reflectance_grid(material) || material.normal_texture.texture >= 0 || material.unlit;
+}
+
+/// Rows of the slot's transform.
+std::array<glm::vec4, 2> uv_rows(const TextureSlot& slot) {
+    const glm::mat3& m = slot.uv_from_mesh_uv;
+    return {glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F), glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F)};
+}
+
+}  // namespace
+
+layout::MaterialDetails GpuScene::material_details(const Scene& scene, std::size_t material) const {
+    const Material& source = scene.materials[material];
+    layout::MaterialDetails details{};
+    details.factors = glm::vec4(source.metallic, source.roughness, source.normal_scale,
+                                source.unlit ? 1.0F : 0.0F);
+    if (const std::optional<ReflectanceGrid>& grid = reflectance_.grid(material)) {
+        const TextureSlot& slot = source.metallic_roughness_texture;
+        const auto rows = uv_rows(slot);
+        details.grid = grid->parameters();
+        details.grid_levels = glm::uvec4(grid->roughness_levels, grid->metallic_levels, 0, 0);
+        details.reflectance_row0 = rows[0];
+        details.reflectance_row1 = rows[1];
+        details.reflectance_info = texture_info_[static_cast<std::size_t>(slot.texture)];
+    }
+    if (const TextureSlot& slot = source.normal_texture; slot.texture >= 0) {
+        const auto rows = uv_rows(slot);
+        details.normal_row0 = rows[0];
+        details.normal_row1 = rows[1];
+        details.normal_info = texture_info_[static_cast<std::size_t>(slot.texture)];
+    }
+    return details;
+}
+
+void GpuScene::upload_details(const Scene& scene) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), has_details)) {
+        return;
+    }
+    std::vector<layout::MaterialDetails> details;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        details.push_back(material_details(scene, i));
+    }
+    if (details_.bytes() > 0) {
+        details_.write<layout::MaterialDetails>(details, 0);
+        return;
+    }
+    details_ = Buffer::from<layout::MaterialDetails>("material details", details);
+    details_texture_ = create_buffer_texture("material details", GL_RGBA32F, details_);
+}
+
+std::uint32_t GpuScene::reflectance_record(const PatchMesh& mesh, std::size_t patch) const {
+    const std::uint32_t triangle = mesh.patch_triangle[patch];
+    const std::uint32_t material = mesh.triangle_material[triangle];
+    return mesh.metallic_roughness.empty() ? material
+                                           : static_cast<std::uint32_t>(reflectance_.record(
+                                                 material, mesh.metallic_roughness[triangle]));
+}
+
+}  // namespace raybundle
