@@ -30,7 +30,7 @@ struct SpecularSurface {
     }
 };
 
-/// Metals up to this roughness are mirrors; where it lies is measured in server/README.md.
+/// Metals up to this roughness are mirrors: through bundles so narrow a lobe settles too slowly.
 constexpr float mirror_roughness = 0.1F;
 
 /// What a material is for view rays: a mirror where nothing but a narrow metallic lobe reflects,

@@ -167,7 +167,7 @@ TEST(SpecularView, ASlabOfGlassShiftsAndAbsorbs) {
 }
 
 /// Where glass splits a ray more often than there is room for ends, chance decides: the mean over
-/// many rays is what all ends would bring. Two panes: 4 ends of first order, more by reflections.
+/// many rays is what all ends would bring.
 TEST(SpecularView, RaysThroughManyPanesKeepTheirLight) {
     SceneBuilder b;
     const auto pane = b.add_material(glass_material(0.0F));
