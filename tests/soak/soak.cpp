@@ -33,7 +33,7 @@ constexpr int good_viewers = 2;
 constexpr int stalled = 100;
 constexpr int flapping = 50;
 constexpr double most_growth = 0.02;  // of memory, after it has settled
-constexpr double settling_s = 60.0;   // or a quarter of the time, where that is shorter
+constexpr double settling_s = 60.0;   // or half of the time, where that is shorter
 constexpr double sample_s = 1.0;
 
 double seconds_since(Clock::time_point start) {
@@ -87,7 +87,8 @@ struct Footprint {
 };
 
 Footprint watch(Daemon& daemon, double seconds) {
-    const double settling = std::min(settling_s, 0.25 * seconds);
+    const double settling = std::min(settling_s, 0.5 * seconds);
+    constexpr double last_share = 0.75;  // from here on it is the end
     std::vector<double> before, after;
     const double processor = processor_seconds(daemon.process());
     const auto start = Clock::now();
@@ -95,9 +96,9 @@ Footprint watch(Daemon& daemon, double seconds) {
         std::this_thread::sleep_for(std::chrono::duration<double>(sample_s));
         daemon.output();  // a pipe that nobody reads would stop the server
         const double now = seconds_since(start);
-        if (now >= settling && now < 2.0 * settling) {
+        if (now >= settling && now < std::min(2.0 * settling, last_share * seconds)) {
             before.push_back(resident_mib(daemon.process()));
-        } else if (now >= 0.75 * seconds) {
+        } else if (now >= last_share * seconds) {
             after.push_back(resident_mib(daemon.process()));
         }
     }
