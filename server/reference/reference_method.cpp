@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/reference_method.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "reference/bidirectional.h"
@@ -171,6 +172,11 @@ class SingleRayMethod : public ReferenceMethod {
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed) {
+    if (scene.transmitting() && kind != ReferenceKind::path) {
+        throw std::runtime_error(
+            "the scene transmits light diffusely, which of the methods on the CPU only path "
+            "follows");
+    }
     switch (kind) {
         case ReferenceKind::single_ray:
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);

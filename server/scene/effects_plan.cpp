@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
-constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
-constexpr float nearly_mirror = 0.1F;         // roughness
+constexpr std::size_t first_shot_bytes = 32;    // irradiance, and the radiance that it makes
+constexpr std::size_t transmission_bytes = 16;  // transmittance and the other side
+constexpr float nearly_mirror = 0.1F;           // roughness
 
 /// Numbers that several effects ask for.
 struct Survey {
@@ -28,8 +29,10 @@ struct Survey {
     double environment_flux = 0.0;
     double sun_flux = 0.0;
     std::size_t punctual = 0, suns = 0;
-    std::size_t glossy = 0, mirrors = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0;
-    double specular_share = 0.0;  // largest of a material, of what it reflects
+    std::size_t glossy = 0, mirrors = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0,
+                transmitting = 0;
+    double transmitted_share = 0.0;  // largest of a material
+    double specular_share = 0.0;     // largest of a material, of what it reflects
 
     [[nodiscard]] double share(double flux) const {
         const double all = area_flux + punctual_flux + sky_flux + environment_flux + sun_flux;
@@ -101,6 +104,11 @@ void survey_materials(const Scene& scene, Survey& survey) {
             survey.mirrors += !material.max_phong && material.roughness < nearly_mirror ? 1 : 0;
         }
         survey.textured += varies_by_texture(material) ? 1 : 0;
+        survey.transmitting += transmits(material) ? 1 : 0;
+        const glm::vec3& through = material.transmittance;
+        survey.transmitted_share =
+            std::max(survey.transmitted_share,
+                     static_cast<double>(std::max({through.r, through.g, through.b})));
         survey.bumpy += material.normal_texture.texture >= 0 ? 1 : 0;
         survey.masked += material.alpha_mode == AlphaMode::mask ? 1 : 0;
     }
@@ -162,7 +170,11 @@ class Planner {
                survey_.mirrors > 0 ? "mirrors are carried as glossy, and so is what they throw"
                                    : "nothing reflects or refracts like a mirror",
                "LS+D(D|G)*E");
-        absent("diffuse-transmission", "no material transmits", "L(D|G)*D(D|G)*E");
+        const bool through = survey_.transmitting > 0;
+        add("diffuse-transmission", through,
+            through ? count_of(survey_.transmitting, "material") + " transmitting light diffusely"
+                    : "no material in use transmits light diffusely",
+            "L(D|G)*D(D|G)*E", survey_.transmitted_share, transmission_bytes);
     }
 
     void plan_lights() {
@@ -254,6 +266,10 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
         remove_textures(scene, mesh);
     } else if (name == "normal-maps") {
         remove_normal_maps(scene);
+    } else if (name == "diffuse-transmission") {
+        for (Material& material : scene.materials) {
+            material.transmittance = glm::vec3(0.0F);
+        }
     } else if (name == "punctual-lights") {
         std::erase_if(scene.punctual_lights,
                       [](const PunctualLight& light) { return !light.of_sky; });

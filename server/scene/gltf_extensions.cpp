@@ -12,7 +12,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 13> fully_read = {
+constexpr std::array<std::string_view, 14> fully_read = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_materials_emissive_strength",
@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 13> fully_read = {
     "KHR_lights_punctual",
     "EXT_lights_ies",
     "KHR_materials_ior",
+    "KHR_materials_diffuse_transmission",
 };
 
 struct Approximation {
@@ -33,9 +34,8 @@ struct Approximation {
 };
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
-constexpr std::array<Approximation, 9> approximated = {{
+constexpr std::array<Approximation, 8> approximated = {{
     {"KHR_materials_clearcoat", "the clear coat is left out"},
-    {"KHR_materials_diffuse_transmission", "materials that transmit light are opaque"},
     {"KHR_materials_transmission", "materials that transmit light are opaque"},
     {"KHR_materials_volume", "what is inside of materials is left out"},
     {"KHR_materials_unlit", "unlit materials are shown as they are, and are black to light"},
