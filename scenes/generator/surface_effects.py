@@ -114,4 +114,14 @@ def unlit() -> SceneModel:
                   [_room("white", "white"), SceneObject("sign", [sign], (1.8, 0.001, 2.2))])
 
 
-SCENES = (roughness_texture, normal_map, vertex_colours, unlit)
+def diffuse_transmission() -> SceneModel:
+    """A curtain of orange cloth between the lamp and the viewer: without it its front is dark."""
+    points = [(-1.3, 0.0, 0.0), (1.3, 0.0, 0.0), (1.3, 2.2, 0.0), (-1.3, 2.2, 0.0)]
+    curtain = Solid(points, [(0, 3, 2, 1)], "cloth")
+    return _model("diffuse_transmission", [
+        Material("cloth", (0.6, 0.6, 0.6), transmission=0.6, transmission_colour=(0.9, 0.5, 0.2),
+                 double_sided=True)],
+        [_room("white", "white"), SceneObject("curtain", [curtain], (2.0, 0.001, 1.0))])
+
+
+SCENES = (roughness_texture, normal_map, vertex_colours, unlit, diffuse_transmission)

@@ -42,8 +42,27 @@ glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& dire
     if (seen.hit->absorbs()) {
         return seen.weight * sum;
     }
-    const Scattering scattering(scene_, *seen.hit, NormalKind::shading, -seen.direction);
-    return seen.weight * (sum + reflected(*seen.hit, scattering, sampler));
+    SurfacePoint point = *seen.hit;
+    Scattering scattering(scene_, point, NormalKind::shading, -seen.direction);
+    const double factor = choose_side(point, scattering, sampler);
+    return seen.weight * (sum + factor * reflected(point, scattering, sampler));
+}
+
+double PathTracer::choose_side(SurfacePoint& point, Scattering& scattering,
+                               Sampler& sampler) const {
+    const Material& material = scene_.material(point);
+    if (!transmits(material)) {
+        return 1.0;
+    }
+    const double through = largest_channel(glm::dvec3(material.transmittance));
+    const double chance =
+        through / (through + largest_channel(glm::dvec3(scattering.brdf().lambert)));
+    if (sampler.next() >= chance) {
+        return 1.0 / (1.0 - chance);
+    }
+    point = scene_.other_side(point);
+    scattering = Scattering::lambert(point, material.transmittance);
+    return 1.0 / chance;
 }
 
 glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) const {
@@ -91,6 +110,7 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
         }
         point = *met.hit;
         scattering = Scattering(scene_, point, NormalKind::geometric, -met.direction);
+        throughput *= choose_side(point, scattering, sampler);
     }
     return sum;
 }

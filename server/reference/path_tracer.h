@@ -42,6 +42,10 @@ class PathTracer {
                                        Sampler& sampler) const;
     [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
                                         Sampler& sampler) const;
+    /// Where the surface transmits light diffusely, chooses whose light is followed: that of its
+    /// own side, or that of the other one. Returns what to multiply it by.
+    [[nodiscard]] double choose_side(SurfacePoint& point, Scattering& scattering,
+                                     Sampler& sampler) const;
     [[nodiscard]] double survival_chance(const SurfacePoint& point, const Scattering& scattering,
                                          const glm::dvec3& throughput) const;
     /// Of what a ray of that direction has met, without punctual lights.

@@ -76,6 +76,10 @@ class RayScene {
     /// Reflectance with what the textures say at this point.
     [[nodiscard]] Brdf brdf(const SurfacePoint& point) const;
     [[nodiscard]] const Material& material(const SurfacePoint& point) const;
+    /// The same point of the surface's other side; for materials with two.
+    [[nodiscard]] SurfacePoint other_side(const SurfacePoint& point) const;
+    /// Whether any material transmits light diffusely: only path tracing follows it.
+    [[nodiscard]] bool transmitting() const;
     /// Interpolated vertex normal, unit, on the side of the geometric one; the geometric normal
     /// itself where the triangle is flat.
     [[nodiscard]] glm::dvec3 shading_normal(const SurfacePoint& point) const;

@@ -110,6 +110,17 @@ const Material& RayScene::material(const SurfacePoint& point) const {
     return scene_.materials[mesh_.triangle_material[point.triangle]];
 }
 
+SurfacePoint RayScene::other_side(const SurfacePoint& point) const {
+    SurfacePoint other = point;
+    other.patch = point.patch == point.triangle ? mesh_.back_patch[point.triangle] : point.triangle;
+    other.normal = -point.normal;
+    return other;
+}
+
+bool RayScene::transmitting() const {
+    return std::any_of(scene_.materials.begin(), scene_.materials.end(), transmits);
+}
+
 bool RayScene::covered(std::uint32_t triangle, const glm::dvec2& barycentric) const {
     const Material& m = scene_.materials[mesh_.triangle_material[triangle]];
     if (m.alpha_mode != AlphaMode::mask) {

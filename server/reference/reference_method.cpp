@@ -177,6 +177,11 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
         throw std::runtime_error("of the comparison methods only 'path' knows glass, which " +
                                  scene.scene().name + " has");
     }
+    if (scene.transmitting() && kind != ReferenceKind::path) {
+        throw std::runtime_error(
+            "the scene transmits light diffusely, which of the methods on the CPU only path "
+            "follows");
+    }
     switch (kind) {
         case ReferenceKind::single_ray:
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);

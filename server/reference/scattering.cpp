@@ -32,8 +32,12 @@ Scattering::Scattering(const RayScene& scene, const SurfacePoint& point, NormalK
           outgoing, scene.brdf(point)) {}
 
 Scattering Scattering::white(const SurfacePoint& point) {
+    return lambert(point, glm::vec3(1.0F));
+}
+
+Scattering Scattering::lambert(const SurfacePoint& point, const glm::vec3& albedo) {
     Brdf brdf;
-    brdf.lambert = glm::vec3(1.0F);
+    brdf.lambert = albedo;
     return {point, point.normal, point.normal, brdf};
 }
 

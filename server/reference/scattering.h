@@ -33,6 +33,8 @@ class Scattering {
     /// A Lambert surface of albedo 1 about the geometric normal: pi times what it reflects is the
     /// irradiance.
     static Scattering white(const SurfacePoint& point);
+    /// A Lambert surface of this albedo about the geometric normal.
+    static Scattering lambert(const SurfacePoint& point, const glm::vec3& albedo);
 
     /// f_r cos_in, 1/sr; 0 for directions behind the surface. cos_in is the shading normal's.
     [[nodiscard]] glm::dvec3 evaluate(const glm::dvec3& incoming) const;

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
-constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
+constexpr std::size_t first_shot_bytes = 32;    // irradiance, and the radiance that it makes
+constexpr std::size_t transmission_bytes = 16;  // transmittance and the other side
 
 /// Numbers that several effects ask for.
 struct Survey {
@@ -32,7 +33,9 @@ struct Survey {
     std::size_t mirrors = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
     double transmitted_share = 0.0;  // largest share that glass lets pass
-    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0;
+    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0,
+                transmitting = 0;
+    double diffused_share = 0.0;  // largest that a material transmits diffusely
     double specular_share = 0.0;  // largest of a material, of what it reflects
 
     [[nodiscard]] double share(double flux) const {
@@ -119,6 +122,11 @@ void survey_materials(const Scene& scene, Survey& survey) {
         }
         survey_specular(specular_surface(material, mean_base_colour(scene, material)), survey);
         survey.textured += varies_by_texture(material) ? 1 : 0;
+        survey.transmitting += transmits(material) ? 1 : 0;
+        const glm::vec3& through = material.transmittance;
+        survey.diffused_share =
+            std::max(survey.diffused_share,
+                     static_cast<double>(std::max({through.r, through.g, through.b})));
         survey.bumpy += material.normal_texture.texture >= 0 ? 1 : 0;
         survey.masked += material.alpha_mode == AlphaMode::mask ? 1 : 0;
     }
@@ -171,7 +179,11 @@ class Planner {
                    : "no material in use has a specular lobe",
             "L(D|G)*G(D|G)*E", survey_.specular_share, glossy_bytes);
         plan_specular();
-        absent("diffuse-transmission", "no material transmits", "L(D|G)*D(D|G)*E");
+        const bool through = survey_.transmitting > 0;
+        add("diffuse-transmission", through,
+            through ? count_of(survey_.transmitting, "material") + " transmitting light diffusely"
+                    : "no material in use transmits light diffusely",
+            "L(D|G)*D(D|G)*E", survey_.diffused_share, transmission_bytes);
     }
 
     void plan_specular() {
@@ -310,6 +322,10 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
         remove_textures(scene, mesh);
     } else if (name == "normal-maps") {
         remove_normal_maps(scene);
+    } else if (name == "diffuse-transmission") {
+        for (Material& material : scene.materials) {
+            material.transmittance = glm::vec3(0.0F);
+        }
     } else if (name == "punctual-lights") {
         std::erase_if(scene.punctual_lights,
                       [](const PunctualLight& light) { return !light.of_sky; });

@@ -12,12 +12,23 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 15> fully_read = {
-    "KHR_mesh_quantization",   "KHR_texture_transform",      "KHR_materials_emissive_strength",
-    "KHR_materials_specular",  "KHR_draco_mesh_compression", "KHR_node_visibility",
-    "EXT_meshopt_compression", "EXT_mesh_gpu_instancing",    "EXT_texture_webp",
-    "KHR_xmp_json_ld",         "KHR_lights_punctual",        "EXT_lights_ies",
-    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_volume",
+constexpr std::array<std::string_view, 16> fully_read = {
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_specular",
+    "KHR_draco_mesh_compression",
+    "KHR_node_visibility",
+    "EXT_meshopt_compression",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_xmp_json_ld",
+    "KHR_lights_punctual",
+    "EXT_lights_ies",
+    "KHR_materials_ior",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
 };
 
 struct Approximation {
@@ -25,7 +36,8 @@ struct Approximation {
 };
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
-constexpr std::array<Approximation, 5> approximated = {{
+constexpr std::array<Approximation, 6> approximated = {{
+    {"KHR_materials_clearcoat", "the clear coat is left out"},
     {"KHR_materials_unlit", "unlit materials are shown as they are, and are black to light"},
     {"KHR_materials_variants", "the default material variants are used"},
     {"KHR_materials_pbrSpecularGlossiness",
@@ -34,8 +46,6 @@ constexpr std::array<Approximation, 5> approximated = {{
     {"KHR_texture_basisu",
      "KTX2 images cannot be decoded: the fallback images of the textures are used"},
 }};
-
-constexpr std::string_view material_extension = "KHR_materials_";
 
 bool is_fully_read(const std::string& name) {
     return std::find(fully_read.begin(), fully_read.end(), name) != fully_read.end();
@@ -48,7 +58,7 @@ const Approximation* find_approximation(const std::string& name) {
 }
 
 bool can_be_required(const std::string& name) {
-    return is_fully_read(name) || name.starts_with(material_extension) ||
+    return is_fully_read(name) ||
            (find_approximation(name) != nullptr && name != "KHR_texture_basisu");
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "scene/base_colour.h"
 #include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
 #include "scene/gltf_max_phong.h"
@@ -141,6 +142,7 @@ class MaterialReader {
         } else {
             read_details(source, item_path("materials", index), material);
         }
+        read_diffuse_transmission(source, material);
         note_unused(source);
         scene_.materials.push_back(std::move(material));
     }
@@ -229,6 +231,35 @@ class MaterialReader {
             material.normal_scale = static_cast<float>(source.normalTexture.scale);
             check_uv_set(source, source.normalTexture, path, "normal map");
         }
+    }
+
+    /// KHR_materials_diffuse_transmission: the Lambert part becomes
+    /// (1 - factor) base colour reflected + factor colour transmitted.
+    void read_diffuse_transmission(const tinygltf::Material& source, Material& material) {
+        const auto* extension =
+            find_extension(source.extensions, "KHR_materials_diffuse_transmission");
+        if (extension == nullptr || material.unlit || material.max_phong) {
+            return;
+        }
+        const float factor = number_or(*extension, "diffuseTransmissionFactor", 0.0F);
+        const glm::vec3 colour =
+            vector_or(*extension, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
+        if (extension->Has("diffuseTransmissionTexture") ||
+            extension->Has("diffuseTransmissionColorTexture")) {
+            document_.note(
+                "textures of KHR_materials_diffuse_transmission are ignored, its factors are used");
+        }
+        if (factor <= 0.0F || colour == glm::vec3(0.0F)) {
+            return;
+        }
+        document_.note("surfaces that transmit light diffusely are thin, without gloss");
+        material.transmittance = max_albedo * factor * glm::clamp(colour, 0.0F, 1.0F);
+        material.base_colour =
+            glm::min((1.0F - factor) * material.base_colour, max_albedo - material.transmittance);
+        material.metallic = 0.0F;
+        material.specular = 0.0F;
+        material.metallic_roughness_texture = {};
+        material.double_sided = true;
     }
 
     /// The slot of a texture that a scene is worth showing without: if it cannot be read, a notice

@@ -123,6 +123,11 @@ constexpr Rule rules[] = {
     number("materials[].pbrMetallicRoughness.metallicFactor", 0, 1),
     number("materials[].pbrMetallicRoughness.roughnessFactor", 0, 1),
     numbers("materials[].emissiveFactor", 3, 0, 1e9),
+    number("materials[].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionFactor", 0,
+           1),
+    numbers(
+        "materials[].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionColorFactor",
+        3, 0, huge),
     number("materials[].normalTexture.scale", -1e6, 1e6),
     choice("materials[].alphaMode", "OPAQUE|MASK|BLEND"),
     number("materials[].alphaCutoff", 0, huge),

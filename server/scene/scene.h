@@ -87,9 +87,17 @@ struct Material {
     glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
     bool double_sided = false;
+    /// KHR_materials_diffuse_transmission: share of the light on one side that is sent from the
+    /// other, like a Lambert surface's. With it base_colour is what is left to reflect, there is no
+    /// specular lobe, and the surface has two sides.
+    glm::vec3 transmittance{0.0F};
     /// KHR_materials_unlit: a picture shows base_colour as it is; to light the surface is black.
     bool unlit = false;
 };
+
+inline bool transmits(const Material& material) {
+    return material.transmittance != glm::vec3(0.0F);
+}
 
 /// Radiance of an unlit surface of base colour 1 where a picture is asked for radiance, cd/m²: the
 /// white of the display that sRGB is defined for (IEC 61966-2-1).

@@ -55,6 +55,10 @@ std::string problem_of(const Scene& scene, const MaterialEdit& edit) {
         return "material " + std::to_string(edit.material) +
                " has a Phong lobe: neither roughness nor metallic";
     }
+    if (transmits(material) && (edit.roughness || edit.metallic)) {
+        return "material " + std::to_string(edit.material) +
+               " transmits light: neither roughness nor metallic";
+    }
     return {};
 }
 
@@ -76,6 +80,9 @@ std::uint32_t apply(Scene& scene, const LightEdit& edit) {
 std::uint32_t apply(Scene& scene, const MaterialEdit& edit) {
     Material& material = scene.materials[edit.material - 1];
     material.base_colour = edit.base_colour.value_or(material.base_colour);
+    if (transmits(material)) {
+        material.base_colour = glm::min(material.base_colour, max_albedo - material.transmittance);
+    }
     material.roughness = edit.roughness.value_or(material.roughness);
     material.metallic = edit.metallic.value_or(material.metallic);
     return edit.material - 1;

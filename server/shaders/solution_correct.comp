@@ -13,6 +13,9 @@ layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irra
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_CHECKPOINT) buffer CheckpointBuffer { vec4 checkpoint[]; };
 layout(std430, binding = BINDING_INCREMENTS) readonly buffer IncrementBuffer { vec4 increments[]; };
+#ifdef TRANSMISSION
+#include "transmission.glsl"
+#endif
 #ifdef GLOSSY
 #include "gloss.glsl"
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
@@ -53,6 +56,9 @@ void main() {
     source[i] = iterate;
     vec3 emitted = patch_source(i);
     vec3 reflected = surfaces[i].albedo.rgb * iterate.rgb * inverse_pi;
+#ifdef TRANSMISSION
+    reflected += transmitted_exitance(i) * inverse_pi;  // corrected or not yet: until the next group of bundles
+#endif
 #ifdef GLOSSY
     for (bool glossy = is_glossy(i); glossy; glossy = false) {
         reflected = max(radiance[i].rgb - emitted + surfaces[i].albedo.rgb * increment * inverse_pi, 0.0);

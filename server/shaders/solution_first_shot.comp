@@ -12,6 +12,9 @@ layout(std430, binding = BINDING_FIRST_SHOT) buffer FirstShotBuffer { vec4 first
 #ifdef GLOSSY
 #include "gloss.glsl"
 #endif
+#ifdef TRANSMISSION
+layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
+#endif
 uniform uint patch_count;
 uniform uint divisions;  // of each edge; a patch has its square of parts
 
@@ -60,6 +63,16 @@ void main() {
         }
 #endif
         reflected += albedo * sum * inverse_pi;
+#ifdef TRANSMISSION
+        for (bool through = transmittance[i].rgb != vec3(0.0); through; through = false) {
+            vec3 behind = vec3(0.0);
+            for (uint part = 0u; part < parts; ++part) {
+                vec2 at = part_centroid(part);
+                behind += punctual_irradiance(k, a + at.x * e1 + at.y * e2, -normal, -normal, NO_HIT, w_in);
+            }
+            reflected += transmittance[i].rgb * behind * (inverse_pi / float(parts));
+        }
+#endif
     }
     radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
     first_shot[2u * i] = vec4(irradiance, 0.0);

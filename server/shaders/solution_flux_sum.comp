@@ -7,6 +7,9 @@ layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { Patch
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
+#ifdef TRANSMISSION
+#include "transmission.glsl"
+#endif
 #ifdef GLOSSY
 layout(std430, binding = BINDING_RADIANCE) readonly buffer RadianceBuffer { vec4 radiance[]; };
 #endif
@@ -23,6 +26,9 @@ FluxSums patch_flux(uint i) {
     f.reflected = (pi * area) * vec4(radiance[i].rgb - patch_source(i), 0.0);
 #else
     f.reflected = surfaces[i].albedo * f.incident;
+#ifdef TRANSMISSION
+    f.reflected.rgb += area * transmitted_exitance(i);
+#endif
 #endif
     f.emitted = area * vec4(pi * patch_source(i), 1.0);
     return f;

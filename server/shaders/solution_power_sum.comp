@@ -10,6 +10,9 @@ layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
 layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
 #endif
+#ifdef TRANSMISSION
+#include "transmission.glsl"
+#endif
 uniform uint patch_count;
 shared vec3 sums[POWER_BLOCK];
 void main() {
@@ -17,9 +20,14 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     sums[lane] = vec3(0.0);
     if (i < patch_count) {
+#ifndef TRANSMISSION  // else solution_level.comp has
         source[i].rgb *= balance.scale.rgb;
+#endif
         vec3 emitted = patch_source(i);
         vec3 reflected = surfaces[i].albedo.rgb * source[i].rgb / pi;
+#ifdef TRANSMISSION
+        reflected += transmitted_exitance(i) / pi;
+#endif
 #ifdef GLOSSY
         for (bool glossy = is_glossy(i); glossy; glossy = false) {
             vec3 scale = balance.scale.rgb;

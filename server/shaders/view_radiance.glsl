@@ -45,14 +45,15 @@ PixelSurface load_pixel(uint index) {
 
 vec3 vertex_irradiance(uint slot) { return texelFetch(vertex_irradiance_texels, int(slot)).rgb; }
 
-/// Irradiance of the object-space solution, interpolated over the vertices (radiance units).
-vec3 object_space_irradiance(PixelSurface p) {
+/// Irradiance of the object-space solution, interpolated over the vertices (radiance units), on the side that is
+/// seen or on the other.
+vec3 object_space_irradiance(PixelSurface p, bool behind) {
     uint triangle = p.patch_id;
-    uint side = 0u;
+    uint side = behind ? 1u : 0u;
 #ifdef DOUBLE_SIDED
     if (p.patch_id >= triangle_count) {
         triangle = floatBitsToUint(patch_attributes(p.patch_id).w);
-        side = 1u;
+        side = 1u - side;
     }
 #endif
     uvec3 t = 2u * load_triangle(triangle).xyz + side;
@@ -67,7 +68,7 @@ vec3 blended_irradiance(uint index, PixelSurface p) {
 #endif
     float weight = pixel_weight(own, view.weights.x);
     float confidence = weight / (weight + view.display.z);
-    vec3 blended = mix(object_space_irradiance(p), pixel_mean(own, view.weights.x), confidence);
+    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(own, view.weights.x), confidence);
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
 #endif
@@ -110,6 +111,26 @@ vec3 radiance_of_ends(uint index) {
 }
 #endif
 
+#ifdef TRANSMISSION
+layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
+#ifdef FIRST_SHOT
+layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };
+#endif
+
+/// What comes through from the other side; that light is known per patch.
+vec3 transmitted_radiance(PixelSurface p) {
+    vec4 t = transmittance[p.patch_id];
+    if (t.rgb == vec3(0.0)) {
+        return vec3(0.0);
+    }
+    vec3 behind = object_space_irradiance(p, true);
+#ifdef FIRST_SHOT
+    behind += first_shot[2u * floatBitsToUint(t.w)].rgb;
+#endif
+    return t.rgb * behind * inverse_pi;
+}
+#endif
+
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
 #if defined(MIRRORS) && !defined(CONTINUED)
@@ -127,6 +148,9 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #endif
     vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
     vec3 reflected = pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
+#ifdef TRANSMISSION
+    reflected += transmitted_radiance(p);
+#endif
 #ifdef GLOSSY
     for (bool glossy = (p.facet & PIXEL_GLOSSY) != 0u; glossy; glossy = false) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));

@@ -98,6 +98,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
     upload_geometry(scene, mesh);
     upload_materials(scene, mesh);
     upload_details(scene);
+    upload_transmittance(scene, mesh);
     upload_reflectors(mesh);
     upload_vertex_data(mesh);
     create_textures();
@@ -287,6 +288,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(!mesh.colours.empty(), "VERTEX_COLOURS");
     define_if(!mesh.coverage.empty(), "ALPHA_MASK");
     define_if(details_.bytes() > 0, "DETAILS");
+    define_if(transmitting(), "TRANSMISSION");
     const auto any_material = [&scene](auto property) {
         return std::any_of(scene.materials.begin(), scene.materials.end(), property);
     };
@@ -383,6 +385,9 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
     facets_.bind();
     reflectance_.bind();
+    if (transmitting()) {
+        transmittance_.bind_storage(BINDING_TRANSMITTANCE);
+    }
     if (details_.bytes() > 0) {
         glBindTextureUnit(UNIT_MATERIAL_DETAILS, details_texture_.get());
     }
@@ -451,8 +456,8 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum = details_.bytes() + facets_.bytes() + reflectance_.bytes() +
-                      reflectors_.bytes() + environment_bytes_;
+    std::size_t sum = details_.bytes() + transmittance_.bytes() + facets_.bytes() +
+                      reflectance_.bytes() + reflectors_.bytes() + environment_bytes_;
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {

@@ -57,10 +57,12 @@ class GpuScene {
     /// VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour, or are
     /// unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle),
     /// GLOSSY (some radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES
-    /// (some with profiles), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE,
-    /// MIRRORS (view rays go on from some surfaces), GLASS (bundles pass some). What is absent is
+    /// (some with profiles), TRANSMISSION (some patches send light that arrives on their other
+    /// side), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view
+    /// rays go on from some surfaces), GLASS (bundles pass some). What is absent is
     /// not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
+    [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
     [[nodiscard]] std::uint32_t vertex_base(Place place) const;
@@ -106,6 +108,7 @@ class GpuScene {
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
     void upload_details(const Scene& scene);
+    void upload_transmittance(const Scene& scene, const PatchMesh& mesh);
     [[nodiscard]] layout::MaterialDetails material_details(const Scene& scene,
                                                            std::size_t material) const;
     [[nodiscard]] std::uint32_t reflectance_record(const PatchMesh& mesh, std::size_t patch) const;
@@ -141,6 +144,7 @@ class GpuScene {
     Buffer reflectors_;                     // only where some patch is glossy
     Buffer details_;                        // only where some material has any
     Texture2D details_texture_;
+    Buffer transmittance_;  // only where a material transmits
     Texture2D patch_texture_, triangle_texture_, world_texture_, vertex_texture_, material_texture_;
     Texture2D reflector_texture_;
     std::vector<std::string> defines_;

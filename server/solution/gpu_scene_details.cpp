@@ -2,6 +2,7 @@
 // What textures besides the base colour do to a surface, and materials that are not lit.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "solution/gpu_scene.h"
 
@@ -57,6 +58,23 @@ void GpuScene::upload_details(const Scene& scene) {
     }
     details_ = Buffer::from<layout::MaterialDetails>("material details", details);
     details_texture_ = create_buffer_texture("material details", GL_RGBA32F, details_);
+}
+
+void GpuScene::upload_transmittance(const Scene& scene, const PatchMesh& mesh) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), transmits)) {
+        return;
+    }
+    std::vector<glm::vec4> values;
+    values.reserve(mesh.patch_count());
+    for (std::uint32_t i = 0; i < mesh.patch_count(); ++i) {
+        const std::uint32_t triangle = mesh.patch_triangle[i];
+        const Material& material = scene.materials[mesh.triangle_material[triangle]];
+        const std::uint32_t other = i == triangle ? mesh.back_patch[triangle] : triangle;
+        const bool through = transmits(material) && other != PatchMesh::no_patch;
+        values.emplace_back(through ? material.transmittance : glm::vec3(0.0F),
+                            std::bit_cast<float>(through ? other : NO_PATCH));
+    }
+    transmittance_ = Buffer::from<glm::vec4>("transmittance", values);
 }
 
 std::uint32_t GpuScene::reflectance_record(const PatchMesh& mesh, std::size_t patch) const {

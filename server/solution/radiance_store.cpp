@@ -43,6 +43,9 @@ RadianceStore::RadianceStore(const GpuScene& scene)
                                  &balance_, &flux_, &checkpoint_buffer_}) {
         buffer->clear();
     }
+    if (scene_.transmitting()) {
+        level_.emplace(std::vector<std::string>{"solution_level.comp"});
+    }
     if (scene_.reflectance().any_glossy()) {
         gloss_ = Buffer("gloss", std::size_t{patch_count_} * sizeof(glm::uvec4));
         chain_ = Buffer("gloss chain", std::size_t{patch_count_} * sizeof(glm::vec2));
@@ -177,6 +180,10 @@ void RadianceStore::refresh_power() const {
     balance_flux_.set("constant_radiance", scene_.constant_radiance() ? 1 : 0);
     balance_flux_.set("shoots_only", shoots_only_ ? 1 : 0);
     balance_flux_.dispatch(1);
+    if (level_) {
+        level_->set("patch_count", patch_count_);
+        level_->dispatch(patch_count_);
+    }
     power_sum_.set("patch_count", patch_count_);
     power_sum_.dispatch(patch_count_);
     power_scan_.set("block_count", block_count_);

@@ -2,6 +2,9 @@
 // The shipped scenes of what textures and vertices do to a surface, against path tracing.
 #include <gtest/gtest.h>
 
+#include <glm/gtc/constants.hpp>
+
+#include "../unit/gltf_builder.h"
 #include "pictures.h"
 #include "scene/effects_plan.h"
 #include "scene/gltf_loader.h"
@@ -72,6 +75,78 @@ TEST(SurfaceEffects, VertexColoursAreAsByPathTracing) {
     LoadedScene loaded = load_effect("vertex_colours");
     const auto picture = solved(loaded, 320);
     EXPECT_LT(block_difference(picture, path_traced(loaded, 384), size, block), 0.03);
+}
+
+TEST(SurfaceEffects, LightThroughACurtainIsAsByPathTracing) {
+    LoadedScene loaded = load_effect("diffuse_transmission");
+    const auto picture = solved(loaded, 512);
+    EXPECT_LT(block_difference(picture, path_traced(loaded, 768), size, block), 0.03);
+    ASSERT_TRUE(remove_effect("diffuse-transmission", loaded.scene, loaded.mesh));
+    EXPECT_GT(block_difference(picture, path_traced(loaded, 64), size, block), 0.1);
+}
+
+/// A horizontal sheet of 2 m, and sunlight of 100 lx straight from above.
+Scene sheet_in_the_sun() {
+    test::GltfBuilder builder;
+    const int positions = builder.add_positions({{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}});
+    const int material =
+        builder.add_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}},
+                              {"extensions",
+                               {{"KHR_materials_diffuse_transmission",
+                                 {{"diffuseTransmissionFactor", 0.4},
+                                  {"diffuseTransmissionColorFactor", {1, 0.5, 0.25}}}}}}});
+    const int mesh = builder.add_mesh({{"attributes", {{"POSITION", positions}}},
+                                       {"indices", builder.add_indices({0, 1, 2, 0, 2, 3})},
+                                       {"material", material}});
+    builder.add_node({{"mesh", mesh}});
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 100}}};
+    const double half = std::sqrt(0.5);
+    builder.add_node({{"rotation", {-half, 0, 0, half}},
+                      {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return builder.load();
+}
+
+// rho E / pi from above, tau E / pi from below.
+TEST(SurfaceEffects, ASheetInTheSunSendsItsShareToEitherSide) {
+    Scene scene = sheet_in_the_sun();
+    TessellationSettings tessellation;
+    tessellation.patch_size = 0.5F;
+    const PatchMesh mesh = tessellate(scene, tessellation);
+    Solver solver(scene, mesh);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, glm::uvec2(4, 4));
+    BundleReceiver* const receivers[] = {&image};
+    const RayScene rays(scene, mesh);
+    const LightSampling lights(rays);
+    const PathTracer tracer(rays, lights);
+    for (const float side : {1.0F, -1.0F}) {
+        Camera camera;
+        camera.eye = {0.0F, 2.0F * side, 0.0F};
+        camera.target = glm::vec3(0.0F);
+        camera.up = {0.0F, 0.0F, -1.0F};
+        image.set_camera(camera);
+        for (int i = 0; i < 16; ++i) {
+            solver.step(receivers);
+        }
+        const double e_over_pi = 100.0 / glm::pi<double>();
+        const glm::dvec3 exact =
+            e_over_pi * (side > 0.0F ? 0.6 * glm::dvec3(0.5, 0.25, 1.0)
+                                     : 0.999 * 0.4 * glm::dvec3(1.0, 0.5, 0.25));
+        const glm::dvec3 shown(image.read_radiance()[5]);
+        glm::dvec3 traced(0.0);
+        constexpr int paths = 4096;
+        for (int i = 0; i < paths; ++i) {
+            PixelSampler path(1, 0, 0, static_cast<std::uint32_t>(i));
+            traced += tracer.radiance(rays.from_world({0.1, 2.0 * side, 0.1}),
+                                      {0.0, -static_cast<double>(side), 0.0}, path);
+        }
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(shown[c], exact[c], 0.01 * exact[c] + 0.01) << side;
+            // A share of at least a fifth is followed: 4 standard deviations of 4096 choices.
+            EXPECT_NEAR(traced[c] / paths, exact[c], 0.13 * exact[c]) << side;
+        }
+    }
 }
 
 TEST(SurfaceEffects, UnlitSurfacesShowTheirColourWhateverLightsThem) {

@@ -303,6 +303,26 @@ TEST(VertexColours, StayWhenAMaterialIsRepainted) {
     expect_near(glm::dvec3(mesh.base_colour[0]), {0.1, 0.1, 0.0}, 1e-6);
 }
 
+TEST(DiffuseTransmission, SharesTheLambertPartOut) {
+    const Json material = {
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}, {"metallicFactor", 0.7}}},
+        {"extensions",
+         {{"KHR_materials_diffuse_transmission",
+           {{"diffuseTransmissionFactor", 0.25},
+            {"diffuseTransmissionColorFactor", {1, 0.5, 0}}}}}}};
+    Scene scene = square_of(material, rough_metal_beside_smooth_plastic).load();
+    const Material& cloth = scene.materials[0];
+    expect_near(glm::dvec3(cloth.base_colour), {0.375, 0.75, 0.75}, 1e-6);
+    expect_near(glm::dvec3(cloth.transmittance), 0.999 * glm::dvec3(0.25, 0.125, 0.0), 1e-6);
+    EXPECT_TRUE(cloth.double_sided);
+    EXPECT_EQ(make_brdf(cloth, cloth.base_colour).lobe.kind, LobeKind::none);
+    EXPECT_TRUE(has_notice(scene, "thin, without gloss"));
+    // What is repainted cannot send more than it receives, nor become metal.
+    apply(scene, MaterialEdit{1, glm::vec3(1.0F), {}, {}});
+    EXPECT_NEAR(scene.materials[0].base_colour.r, 0.999F - 0.999F * 0.25F, 1e-6F);
+    EXPECT_NE(problem_of(scene, MaterialEdit{1, {}, {}, 1.0F}), "");
+}
+
 TEST(Unlit, IsBlackToLightAndDoesNotEmit) {
     Scene scene = square_of({{"emissiveFactor", {1, 1, 1}},
                              {"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}}},
