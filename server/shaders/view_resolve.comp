@@ -3,7 +3,7 @@
 // rasterised surface ids; specular surfaces get their base colour here and the rest in
 // view_resolve_specular.comp. Accumulated irradiance follows its surface point from the picture before
 // (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED, SMOOTH (some
-// vertex normals bend away from their planes), REPROJECT, MOVED (an object has just moved).
+// vertex normals bend away from their planes), REPROJECT, MOVED (objects have just moved).
 #include "layouts.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
