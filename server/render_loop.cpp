@@ -26,7 +26,11 @@ constexpr double solver_burst_ms = 50.0;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
 constexpr const char* no_memory = "the server has no memory for a picture of this size";
-constexpr glm::uvec2 rehearsal_size(24);
+/// llvmpipe compiles a shader again for textures whose sizes are powers of two, and for buffer
+/// textures whose size in bytes is a multiple of 65 536 (Mesa 22.3 takes a part of it for a number
+/// of levels): 800x800 is drawn as 24x24 is, 640x480 as 192x192, 512x512 as 64x64. The first time
+/// not everything is there that is looked up later.
+constexpr glm::uvec2 rehearsal_sizes[] = {{24, 24}, {24, 24}, {192, 192}, {64, 64}};
 constexpr std::uint32_t max_width = 3840;
 constexpr std::uint32_t max_height = 2160;
 
@@ -72,7 +76,9 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
 void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
     if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
-        rehearse();
+        for (const glm::uvec2& size : rehearsal_sizes) {
+            rehearse(size);
+        }
     }
     while (!stop) {
         for (const ClientEvent& event : server_.inbox().drain()) {
@@ -96,16 +102,10 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 
 /// Software drivers compile shaders when they are first used, each for some tenths of a second: a
 /// small picture goes through all that a viewer's does. Its iterations count as any others.
-void RenderLoop::rehearse() {
-    ViewerImage image(solver_->scene(), solver_->store(), *programs_, rehearsal_size);
+void RenderLoop::rehearse(const glm::uvec2& size) {
+    ViewerImage image(solver_->scene(), solver_->store(), *programs_, size);
     image.set_camera(scene_.cameras.front());
     BundleReceiver* const receivers[] = {&image};
-    const auto movable = std::find_if(scene_.objects.begin(), scene_.objects.end(),
-                                      [](const Object& object) { return object.movable; });
-    if (movable != scene_.objects.end()) {
-        solver_->rehearse_move(static_cast<std::uint32_t>(movable - scene_.objects.begin()),
-                               movable->world_from_object(), receivers);
-    }
     do {
         solver_->step(receivers);
     } while (!solver_->between_groups());
@@ -114,6 +114,12 @@ void RenderLoop::rehearse() {
     image.smooth();
     image.compose(DisplayMode::photo, 0.0F);
     image.take();
+    const auto movable = std::find_if(scene_.objects.begin(), scene_.objects.end(),
+                                      [](const Object& object) { return object.movable; });
+    if (movable != scene_.objects.end()) {
+        solver_->rehearse_move(static_cast<std::uint32_t>(movable - scene_.objects.begin()),
+                               movable->world_from_object(), receivers);
+    }
 }
 
 void RenderLoop::refuse_waiting() {

@@ -67,7 +67,7 @@ class RenderLoop {
   private:
     using Clock = std::chrono::steady_clock;
 
-    void rehearse();
+    void rehearse(const glm::uvec2& size);
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
     void join(const ClientEvent& event);
@@ -76,6 +76,7 @@ class RenderLoop {
     bool record(PendingChange& pending);
     void start_undo(const PendingChange& pending);
     void start_surfaces(std::vector<PendingChange> pending);
+    void start_moves(std::vector<PendingChange> pending);
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
     void gather_all();

@@ -21,6 +21,19 @@ v1::ServerMessage ok() {
     return message;
 }
 
+/// Whether a change can be worked in together with those that come before it.
+bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
+    const bool moving = pending.front().change.has_move_object();
+    if (next.is_undo() || next.change.has_move_object() != moving) {
+        return false;
+    }
+    const auto same = [&next](const PendingChange& p) {
+        return subject_of(p.change) == subject_of(next.change);
+    };
+    return !moving ||
+           (pending.size() < MOST_MOVED && std::none_of(pending.begin(), pending.end(), same));
+}
+
 }  // namespace
 
 void RenderLoop::queue_change(const ClientEvent& event) {
@@ -35,7 +48,8 @@ void RenderLoop::queue_change(const ClientEvent& event) {
     changes_.add(event);
 }
 
-/// Makes the change that waits longest; lights and materials that wait behind one another together.
+/// Makes the change that waits longest, together with those right behind it that one special phase
+/// can work in: lights and materials, or some moved objects.
 void RenderLoop::start_pending_change() {
     if (changes_.empty() || solver_->correcting()) {
         return;
@@ -45,23 +59,17 @@ void RenderLoop::start_pending_change() {
         start_undo(first);
         return;
     }
-    if (!first.change.has_move_object()) {
-        std::vector<PendingChange> pending;
-        pending.push_back(std::move(first));
-        while (!changes_.empty() && !changes_.front().is_undo() &&
-               !changes_.front().change.has_move_object()) {
-            pending.push_back(changes_.take());
-        }
+    const bool moving = first.change.has_move_object();
+    std::vector<PendingChange> pending;
+    pending.push_back(std::move(first));
+    while (!changes_.empty() && fits(changes_.front(), pending)) {
+        pending.push_back(changes_.take());
+    }
+    if (moving) {
+        start_moves(std::move(pending));
+    } else {
         start_surfaces(std::move(pending));
-        return;
     }
-    if (!record(first)) {
-        return;
-    }
-    const std::uint32_t object = first.change.move_object().object() - 1;
-    gather_all();
-    solver_->move_object(object, scene_.objects[object].world_from_object(), receivers_);
-    announce(first);
 }
 
 /// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
@@ -108,6 +116,23 @@ void RenderLoop::announce(const PendingChange& pending) {
     server_.broadcast(message, pending.requests.empty() ? 0 : pending.change.by());
     for (const auto& [id, session] : sessions_) {
         session->note_change();
+    }
+}
+
+void RenderLoop::start_moves(std::vector<PendingChange> pending) {
+    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    std::vector<ObjectMove> moves;
+    for (const PendingChange& p : pending) {
+        const std::uint32_t object = p.change.move_object().object() - 1;
+        moves.push_back({object, scene_.objects[object].world_from_object()});
+    }
+    if (moves.empty()) {
+        return;
+    }
+    gather_all();
+    solver_->move_objects(moves, receivers_);
+    for (const PendingChange& p : pending) {
+        announce(p);
     }
 }
 

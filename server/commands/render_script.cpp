@@ -43,14 +43,19 @@ class Sequence {
     /// Brings everything to a time; `before` is that of the frame before, negative for the first.
     void go_to(double before, double time) {
         change_surfaces(before, time);
+        std::vector<ObjectMove> moves;
         for (const std::uint32_t object : script_.moving_objects()) {
             const Transform transform = script_.transform_at(object, time);
             Object& moved = loaded_.scene.objects[object];
             if (transform.matrix() != moved.transform.matrix()) {
                 moved.transform = transform;
-                solver_->move_object(object, moved.world_from_object(), receivers());
-                correct();
+                moves.push_back({object, moved.world_from_object()});
             }
+        }
+        for (std::size_t first = 0; first < moves.size(); first += MOST_MOVED) {
+            const std::size_t count = std::min<std::size_t>(moves.size() - first, MOST_MOVED);
+            solver_->move_objects(std::span(moves).subspan(first, count), receivers());
+            correct();
         }
         image_->set_camera(script_.camera_at(time));
     }

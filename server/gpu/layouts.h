@@ -32,6 +32,6 @@ static_assert(sizeof(PunctualData) == 112);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);
-static_assert(sizeof(BundleParameters) == 16 * 22);
+static_assert(sizeof(BundleParameters) == 16 * (18 + 4 * MOST_MOVED));
 static_assert(sizeof(ViewParameters) == 64 + 16 * 11);
 }  // namespace raybundle::layout

@@ -71,7 +71,8 @@
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
 #define VIEW_TILE 8  // pixels along a tile of a viewer
 #define MOST_DIFFERENCES 8  // pairs of bundles whose affected tiles are listed at once
-#define MOST_BOXES 8  // that hold what has moved
+#define MOST_MOVED 4  // objects that are elsewhere at once: components of a vector
+#define MOST_BOXES 8  // that hold them, at either place
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -296,8 +297,8 @@ struct BundleParameters {
                          // limit of density.glsl, 0 = none; batch
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
-    mat4 before_from_now;  // rotation of the object that is elsewhere at place 1
-    uvec4 moved;           // x: that object, or NO_PATCH
+    mat4 before_from_now[MOST_MOVED];  // rotations of the objects that are elsewhere at place 1
+    uvec4 moved;                       // those objects, the rest NO_PATCH
 };
 
 struct ViewParameters {

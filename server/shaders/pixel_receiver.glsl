@@ -37,7 +37,7 @@ layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer
 #endif
 uniform uint facet_base;    // facets and vertices of the place that was drawn
 uniform uint vertex_base;
-uniform uint moved_object;  // object that is elsewhere at place 1, or NO_PATCH
+uniform uvec4 moved_objects;  // that are elsewhere at place 1, the rest NO_PATCH
 
 struct Receiver {
     vec3 position;
@@ -65,9 +65,9 @@ bool load_receiver(uint index, out Receiver x) {
     x.object = 0u;
     x.albedo = q.y;
 #ifdef SPECIAL
-    // SPECIAL: signed increments instead of samples of the mean, at either place of a moved object.
+    // SPECIAL: signed increments instead of samples of the mean, at either place of moved objects.
     x.object = facet_object(facet_base + facet);
-    bool before = vertex_base != 0u && x.object == moved_object && p.w != NO_PATCH;
+    bool before = vertex_base != 0u && any(equal(uvec4(x.object), moved_objects)) && p.w != NO_PATCH;
     WHERE(before) {
         vec2 v = unpackUnorm2x16(q.z);
         uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz + vertex_base;

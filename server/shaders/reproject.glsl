@@ -9,7 +9,7 @@ uniform float old_common_weight;
 #ifdef CONSTANT_RADIANCE
 uniform vec3 old_constant;  // ViewParameters::constant of that picture
 #endif
-uniform uint moved_object;    // whose place 1 differs, or NO_PATCH
+uniform uvec4 moved_objects;  // whose place 1 differs, the rest NO_PATCH
 uniform float kept_weight;    // share of the old weight that a reprojected value keeps
 uniform float same_distance;  // m, at unit distance: points closer than this (and coplanar) are the same
 
@@ -44,7 +44,7 @@ uniform uint vertex_count;
 
 /// Where a point of an object was before the change.
 vec3 position_before(vec3 position, uint object, uvec3 triangle, vec3 weights) {
-    if (object != moved_object) {
+    if (!any(equal(uvec4(object), moved_objects))) {
         return position;
     }
     uvec3 before = triangle + vertex_count;

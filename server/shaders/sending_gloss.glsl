@@ -9,8 +9,10 @@ Gloss sending_gloss(uint patch_id, vec3 normal, vec3 middle, vec3 point) {
     LightSource source = gloss_source(packed_gloss);
     for (bool before = bundle.resolution.w == 1u; before; before = false) {
         uint object = floatBitsToUint(patch_attributes(patch_id).z);
-        source.direction =
-            object == bundle.moved.x ? mat3(bundle.before_from_now) * source.direction : source.direction;
+        for (int k = 0; k < MOST_MOVED; ++k) {
+            vec3 turned = mat3(bundle.before_from_now[k]) * source.direction;
+            source.direction = object == bundle.moved[k] ? turned : source.direction;
+        }
     }
     Gloss g;
     g.scale = gloss_scale(packed_gloss);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Remembers the state before a change: x = luminance of the mean irradiance, y = its weight. The phase then
-// sets z = variance of its increment over the square of that, 0: nothing has come in (solution_correct.comp).
+// sets z = variance of its increment over the square of that, 0: nothing has come in, and w = two halves: the error
+// that is left, relative to the mean, and the weight that it keeps (solution_correct.comp).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };

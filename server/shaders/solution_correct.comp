@@ -26,6 +26,8 @@ uniform float most_weight;    // that any patch keeps
 uniform float bundles_noise;  // 1/K
 
 const float inverse_pi = 0.31830988618;
+const float wrong = 2.0;           // squared error of few bundles over what they say themselves
+const float likely_unseen = 0.15;  // of the squared error that most_weight reckons with
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -50,6 +52,11 @@ void main() {
     float error = left_error(noise, bundles_noise, measured * measured, after) + moved;
     mean.w *= kept_weight(mean.w, after, error);
     checkpoint[i].z = noise;
+    // What the phase leaves, as it is to be expected: few bundles differ by less than they are wrong, and a weight is
+    // more careful about what is not seen.
+    float unseen = likely_unseen * sample_deviation * sample_deviation * after * after / most_weight;
+    float left = sqrt(wrong * error + unseen) / max(after, 1e-20);
+    checkpoint[i].w = uintBitsToFloat(packHalf2x16(min(vec2(left, mean.w), 6e4)));
     irradiance[i] = mean;
     vec4 iterate = source[i];
     iterate.rgb = max(iterate.rgb + increment, 0.0);

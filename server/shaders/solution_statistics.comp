@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the
 // correction since the last change (since loading: of everything), y = its squared error that is left. A mean
-// E of weight w has the variance (s E)^2 / w, whatever a special phase has left of the weight; what it had
-// before the change, with the weight w0, is no part of the correction:  error^2 = (s E)^2 (1/w - 1/w0).
+// E of weight w consists of what a special phase has left, of weight k and error e E, and of samples since:
+//   error^2 = (k e E / w)^2 + (s E)^2 ((w - k) / w^2 - 1/w0),
+// where what the mean had before the change, with the weight w0, is no part of the correction.
 // And the squared irradiance (z), with the squared distance of the iterate from the mean (w): how noisy
 // samples are.
 #include "layouts.glsl"
@@ -33,7 +34,10 @@ void main() {
         if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
             float deviation = sample_deviation * now;
             float before = checkpoint[i].y > 0.0 ? 1.0 / checkpoint[i].y : 0.0;
-            float error = deviation * deviation * max(1.0 / weight - before, 0.0);
+            vec2 left = unpackHalf2x16(floatBitsToUint(checkpoint[i].w));
+            float kept = min(left.y / weight, 1.0);
+            float error = deviation * deviation * max((1.0 - kept) / weight - before, 0.0);
+            error += kept * kept * left.x * left.x * now * now;
             error = min(error, correction * correction);  // not worse than having done nothing
             sum.x += patches[i].area * correction * correction;
             sum.y += patches[i].area * error;

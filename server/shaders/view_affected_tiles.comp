@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the tiles of a viewer that the difference between bundles before and after a move can reach: where a ray
-// along which some pixel of the tile looks passes a box that holds the moved object at either place.
+// along which some pixel of the tile looks passes a box that holds a moved object at either place.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };

@@ -4,7 +4,7 @@
 // view_resolve_specular.comp. Accumulated irradiance follows its surface point from the picture before
 // (reprojection by world position and patch); what was not visible there starts without weight. Variants: TEXTURED,
 // DETAILS (material_details.glsl), VERTEX_COLOURS, SMOOTH (some vertex normals bend away from their planes), REPROJECT,
-// MOVED (an object has just moved), CONTINUED (pixels behind mirrors and glass, see continued.glsl).
+// MOVED (objects have just moved), CONTINUED (pixels behind mirrors and glass, see continued.glsl).
 #include "layouts.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"

@@ -23,6 +23,7 @@ ChangeStore::ChangeStore(const GpuScene& scene, RadianceStore& store)
       reflect_({"change_reflect.comp"}),
       take_({"change_take.comp"}),
       noise_({"change_noise.comp"}),
+      flux_({"change_flux.comp"}),
       fold_({"change_fold.comp"}),
       correct_({"solution_correct.comp"}, scene.defines()) {
     begin();
@@ -102,6 +103,12 @@ ChangeNoise ChangeStore::noise(unsigned bundles) const {
     result.change = sum.z > 0.0 ? std::sqrt(sum.x / sum.z) : 0.0;
     result.relative = sum.x > 0.0 ? std::sqrt(sum.y / sum.x) : 0.0;
     return result;
+}
+
+double ChangeStore::reflected_share() const {
+    increments_.bind_storage(BINDING_INCREMENTS);
+    const glm::dvec4 sum = store_.reduce(flux_);
+    return sum.y > 0.0 ? sum.x / sum.y : (sum.x > 0.0 ? 1.0 : 0.0);
 }
 
 void ChangeStore::fold(unsigned bundles, float unseen) const {

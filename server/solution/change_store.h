@@ -49,6 +49,9 @@ class ChangeStore {
     /// weight 1/bundles.
     void take(unsigned bundles) const;
     [[nodiscard]] ChangeNoise noise(unsigned bundles) const;
+    /// Reflected flux of the increments of all stages that have ended, of either sign alike, over
+    /// that of all light: how much the change may change further on.
+    [[nodiscard]] double reflected_share() const;
     /// Ends a stage. unseen: share of its mean that may be missing altogether.
     void fold(unsigned bundles, float unseen) const;
     /// Adds the increments to the solution, whose weights shrink where these are uncertain.
@@ -63,7 +66,7 @@ class ChangeStore {
     Buffer increments_, stage_, changed_, old_surfaces_;
     Texture2D changed_texture_;
     ShaderProgram scale_, source_, power_sum_, power_scan_, power_density_;
-    ShaderProgram reflect_, take_, noise_, fold_, correct_;
+    ShaderProgram reflect_, take_, noise_, flux_, fold_, correct_;
 };
 
 }  // namespace raybundle

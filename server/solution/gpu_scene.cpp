@@ -111,7 +111,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
     upload_matrices();
     place_geometry(Place::now);
     place_geometry(Place::before);
-    diameter_ = std::max(glm::length(bounds().extent()), 1e-6F);
+    measure();
 }
 
 void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
@@ -334,6 +334,7 @@ void GpuScene::place_geometry(Place place) const {
 }
 
 void GpuScene::settle() {
+    moved_ = glm::uvec4(NO_PATCH);
     const auto half = world_from_object_.begin() + object_count_;
     std::copy(world_from_object_.begin(), half, half);
     upload_matrices();
@@ -344,17 +345,12 @@ void GpuScene::settle() {
     copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
     copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     facets_.settle();
+    measure();
 }
 
-void GpuScene::move_object(std::uint32_t object, const glm::mat4& world_from_object) {
-    settle();
-    world_from_object_[object] = glm::translate(glm::mat4(1.0F), -origin_) * world_from_object;
-    upload_matrices();
-    place_geometry(Place::now);
-    if (specular_rays_) {
-        specular_rays_->place(object, world_from_object_[object]);
-    }
-    diameter_ = std::max(diameter_, glm::length(bounds().extent()));
+/// What lies far away makes every bundle coarse, but only as long as it is there.
+void GpuScene::measure() {
+    diameter_ = std::max(glm::length(bounds().extent()), 1e-6F);
 }
 
 void GpuScene::draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,

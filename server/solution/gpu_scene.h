@@ -21,6 +21,12 @@ namespace raybundle {
 /// Where the objects are: now, or before the change that is being corrected.
 enum class Place : unsigned { now = 0, before = 1 };
 
+/// An object and where it is to be, in the scene's own world.
+struct ObjectMove {
+    std::uint32_t object = 0;
+    glm::mat4 world_from_object{1.0F};
+};
+
 /// The scene's geometry and materials on the GPU. "World" on the GPU is the scene's world shifted
 /// by -origin(), so that scenes far from their origin keep their precision.
 class GpuScene {
@@ -31,8 +37,13 @@ class GpuScene {
     GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false);
     [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
 
-    /// Keeps the present place as `before` and puts one object elsewhere. Uploads matrices only.
-    void move_object(std::uint32_t object, const glm::mat4& world_from_object);
+    /// Keeps the present place as `before` and puts MOST_MOVED objects elsewhere, at most. Uploads
+    /// matrices only.
+    void move_objects(std::span<const ObjectMove> moves);
+    /// Those objects until settle(), the rest NO_PATCH.
+    [[nodiscard]] const glm::uvec4& moved_objects() const { return moved_; }
+    /// Boxes that hold them at either place, shifted world.
+    [[nodiscard]] std::vector<Bounds> moved_bounds() const;
     /// Takes over the colours that some materials and their patches have now. Each must be covered
     /// by reflectance(). The unit of radiance stays.
     void update_surfaces(const Scene& scene, const PatchMesh& mesh,
@@ -117,11 +128,13 @@ class GpuScene {
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
     void upload_matrices();
     void place_geometry(Place place) const;
+    void measure();
 
     std::uint32_t patch_count_, triangle_count_, vertex_count_, object_count_;
     glm::vec3 origin_;
     float radiance_unit_ = 1.0F;
     float diameter_ = 1.0F;
+    glm::uvec4 moved_{NO_PATCH};
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool glass_ = false;       // some surfaces let bundles pass
     bool constant_radiance_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights, materials and places that change while the scene is shown.
+#include <algorithm>
+
 #include "solution/gpu_scene.h"
 
 namespace raybundle {
@@ -35,6 +37,31 @@ void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh
                                                i * sizeof(layout::MaterialData));
     }
     upload_surfaces(mesh);
+}
+
+void GpuScene::move_objects(std::span<const ObjectMove> moves) {
+    settle();
+    for (std::size_t i = 0; i < std::min<std::size_t>(moves.size(), MOST_MOVED); ++i) {
+        const ObjectMove& move = moves[i];
+        moved_[static_cast<int>(i)] = move.object;
+        world_from_object_[move.object] =
+            glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
+        if (specular_rays_) {
+            specular_rays_->place(move.object, world_from_object_[move.object]);
+        }
+    }
+    upload_matrices();
+    place_geometry(Place::now);
+    measure();
+}
+
+std::vector<Bounds> GpuScene::moved_bounds() const {
+    std::vector<Bounds> boxes;
+    for (int i = 0; i < MOST_MOVED && moved_[i] != NO_PATCH; ++i) {
+        boxes.push_back(object_bounds(moved_[i], Place::now));
+        boxes.push_back(object_bounds(moved_[i], Place::before));
+    }
+    return boxes;
 }
 
 void GpuScene::set_move(const ShaderProgram& program) const {

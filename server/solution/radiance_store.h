@@ -76,6 +76,8 @@ class RadianceStore {
     void adopt(const RadianceStore& other) const;
     /// Remembers the state before a change.
     void checkpoint() const;
+    /// There has been no change.
+    void forget_checkpoint() const { checkpoint_buffer_.clear(); }
     [[nodiscard]] SolutionStatistics statistics() const;
     /// Sums of a reduction over all patches by statistics_groups groups of 256; see its shader.
     [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const;

@@ -26,7 +26,6 @@ class BundleReceiver {
         float sample_weight = 1.0F;           ///< of the sample in the means
         glm::vec3 constant_irradiance{0.0F};  ///< that the bundle does not carry, of every receiver
         bool special = false;                 ///< signed increments of a special phase
-        std::uint32_t moved_object = NO_PATCH;
         /// Which of plan_differences() the bundle is one of; NO_PATCH: none, anything may change.
         std::uint32_t difference = NO_PATCH;
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
@@ -43,10 +42,10 @@ class BundleReceiver {
     virtual void receive_planes(const Context& context) = 0;
     /// A sample was not taken after all: its bundle had no room for all hits.
     virtual void discard_sample(const Context& context) = 0;
-    /// An object has moved: `Place::before` and `Place::now` differ from here to end_special().
-    virtual void begin_special(std::uint32_t moved_object) = 0;
+    /// Objects have moved: `Place::before` and `Place::now` differ from here to end_special().
+    virtual void begin_special() = 0;
     /// The next pairs of bundles before and after the move, at most MOST_DIFFERENCES: receivers
-    /// whose rays do not pass any of the boxes, which hold the object at both places (shifted
+    /// whose rays do not pass any of the boxes, which hold the objects at both places (shifted
     /// world), receive the same from both and may skip them.
     virtual void plan_differences(std::span<const BundleRays> bundles,
                                   std::span<const Bounds> boxes) = 0;

@@ -136,9 +136,11 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
         phase_->step(receivers);
         if (phase_->done()) {
             special_bundles_ = phase_->bundles();
+            const bool informed = phase_->informed();
             phase_.reset();
             scene_.settle();
             refresh_statistics();
+            statistics_.settled *= informed ? 1.0 : 0.0;
             group_.clear();  // shooters may have moved, and what is bright has changed
         }
         return;

@@ -56,12 +56,15 @@ class Solver {
     /// One iteration, or one slice of a running special phase.
     void step(std::span<BundleReceiver* const> receivers);
 
-    /// Starts the special iteration phase for an object at a new place; step() carries it through.
-    /// Requires !correcting(). world_from_object is in the scene's own world.
+    /// Starts one special iteration phase for MOST_MOVED objects at new places, at most; step()
+    /// carries it through. Requires !correcting().
+    void move_objects(std::span<const ObjectMove> moves,
+                      std::span<BundleReceiver* const> receivers);
+    /// The same for one. world_from_object is in the scene's own world.
     void move_object(std::uint32_t object, const glm::mat4& world_from_object,
                      std::span<BundleReceiver* const> receivers);
-    /// Carries through the move of an object to where it is, before the first iteration: nothing
-    /// changes, but a driver that compiles shaders at their first use has done so.
+    /// Carries through the move of an object to where it is, before any change: nothing changes,
+    /// but a driver that compiles shaders at their first use has done so.
     void rehearse_move(std::uint32_t object, const glm::mat4& world_from_object,
                        std::span<BundleReceiver* const> receivers);
     /// Lights or materials have changed in the scene: gives their patches their colours in the
@@ -132,7 +135,7 @@ class Solver {
     };
     void work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers);
     void note_change();
-    void start_phase(std::optional<std::uint32_t> moved, float most_weight);
+    void start_phase(bool moving, float most_weight);
     [[nodiscard]] bool any_glossy(std::span<const std::uint32_t> materials) const;
     void adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale);
     ChangeStore& change_store();

@@ -60,30 +60,42 @@ void Solver::note_change() {
     ++changes_;
 }
 
-void Solver::start_phase(std::optional<std::uint32_t> moved, float most_weight) {
+void Solver::start_phase(bool moving, float most_weight) {
     SpecialSettings special = settings_.special;
-    special.most_weight = most_weight;
-    phase_.emplace(scene_, store_, change_store(), *coarse_, special, moved,
+    if (moving) {  // each further object half as many more bundles
+        const auto objects = static_cast<unsigned>(scene_.moved_bounds().size() / 2);
+        special.bundles += special.bundles * (std::max(objects, 1U) - 1) / 2;
+    }
+    special.most_weight = std::min(special.most_weight, most_weight);
+    phase_.emplace(scene_, store_, change_store(), *coarse_, special, moving,
                    mix_bits(settings_.seed) + changes_);
 }
 
 void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_object,
                          std::span<BundleReceiver* const> receivers) {
+    const ObjectMove moves[] = {{object, world_from_object}};
+    move_objects(moves, receivers);
+}
+
+void Solver::move_objects(std::span<const ObjectMove> moves,
+                          std::span<BundleReceiver* const> receivers) {
     store_.bind();
     store_.checkpoint();
-    scene_.move_object(object, world_from_object);
-    store_.turn_gloss(object, scene_.now_from_before(object));
+    scene_.move_objects(moves);
+    for (const ObjectMove& move : moves) {
+        store_.turn_gloss(move.object, scene_.now_from_before(move.object));
+    }
     store_.reshoot(first_shot_weight);
     for (BundleReceiver* receiver : receivers) {
-        receiver->begin_special(object);
+        receiver->begin_special();
     }
     note_change();
-    start_phase(object, no_limit);
+    start_phase(true, no_limit);
 }
 
 void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_object,
                            std::span<BundleReceiver* const> receivers) {
-    if (iterations_ > 0 || changes_ > 0) {
+    if (changes_ > 0) {
         return;
     }
     move_object(object, world_from_object, receivers);
@@ -92,6 +104,9 @@ void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_obj
     }
     changes_ = 0;
     special_bundles_ = 0;
+    store_.forget_checkpoint();
+    store_.bind();
+    refresh_statistics();
 }
 
 /// Chooses another unit of radiance where emission is far from the present one. scale: what the
@@ -126,7 +141,7 @@ void Solver::work_in(const SurfaceChange& change, std::span<BundleReceiver* cons
     }
     note_change();
     if (change.transfer) {
-        start_phase(std::nullopt, change.glossy ? glossy_weight : no_limit);
+        start_phase(false, change.glossy ? glossy_weight : no_limit);
         return;
     }
     for (BundleReceiver* receiver : receivers) {

@@ -24,8 +24,14 @@ enum Dimension : unsigned {
 constexpr unsigned second_stage = 64;       // first number of the second stage's bundles
 constexpr unsigned parallel_numbers = 128;  // and of parallel bundles' turns and shifts
 constexpr unsigned shooters_at_once = MOST_DIFFERENCES;
-constexpr float unseen_share = 0.3F;     // of the light that has gone round more than once
-constexpr double relevant_noise = 0.01;  // of increments, relative to the irradiance
+constexpr float unseen_share = 0.3F;  // of the light that has gone round more than once
+/// Of what changed light goes on to change, relative to its reflected share, to reckon with where
+/// that is not carried on, and where it is.
+constexpr float unseen_bounce = 2.0F;
+constexpr float unseen_carried = 1.0F;
+constexpr float much_changed = 0.5F;      // a smaller share mostly cancels: shadows go and come
+constexpr float sample_deviation = 0.4F;  // as in corrected_weight.glsl
+constexpr double relevant_noise = 0.01;   // of increments, relative to the irradiance
 
 /// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
 /// heuristic.
@@ -42,24 +48,23 @@ bool is_layered(unsigned index, unsigned bundles) {
 }  // namespace
 
 SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
-                           Transfer& transfer, const SpecialSettings& settings,
-                           std::optional<std::uint32_t> moved, std::uint64_t seed)
+                           Transfer& transfer, const SpecialSettings& settings, bool moving,
+                           std::uint64_t seed)
     : scene_(scene),
       store_(store),
       change_(change),
       transfer_(transfer),
       settings_(settings),
-      moved_(moved),
+      moving_(moving),
       numbers_(seed),
       bundles_(std::max(settings.bundles, 1U)) {
     settings_.bundles = bundles_;
-    if (moved_) {
-        boxes_ = {scene.object_bounds(*moved_, Place::now),
-                  scene.object_bounds(*moved_, Place::before)};
+    if (moving_) {
+        boxes_ = scene.moved_bounds();
     }
     store_.bind();
     change_.begin();
-    if (moved_) {
+    if (moving_) {
         store_.refresh_power();
     } else {
         change_.send();
@@ -80,7 +85,7 @@ std::vector<glm::vec4> SpecialPhase::shooter_numbers(unsigned first, unsigned co
 void SpecialPhase::choose_source_shooters() {
     const auto numbers = shooter_numbers(next_, shooters_at_once);
     store_.bind();
-    shooters_ = moved_ ? store_.choose_shooters(numbers) : change_.choose_shooters(numbers);
+    shooters_ = moving_ ? store_.choose_shooters(numbers) : change_.choose_shooters(numbers);
 }
 
 /// Tells the receivers of the bundles whose shooters have been chosen.
@@ -107,7 +112,7 @@ void SpecialPhase::plan_differences(std::span<BundleReceiver* const> receivers) 
 }
 
 bool SpecialPhase::carried(const layout::Shooter& shooter) const {
-    return moved_ && shooter.object == *moved_;
+    return moving_ && glm::any(glm::equal(glm::uvec4(shooter.object), scene_.moved_objects()));
 }
 
 TransferSettings SpecialPhase::transfer_settings(Place place) const {
@@ -121,7 +126,6 @@ TransferSettings SpecialPhase::transfer_settings(Place place) const {
     settings.context.place = place;
     settings.context.sample_weight = 0.0F;
     settings.context.special = true;
-    settings.context.moved_object = moved_.value_or(NO_PATCH);
     return settings;
 }
 
@@ -151,13 +155,13 @@ void SpecialPhase::step(std::span<BundleReceiver* const> receivers) {
 void SpecialPhase::step_source(std::span<BundleReceiver* const> receivers) {
     if (next_ % shooters_at_once == 0) {
         choose_source_shooters();
-        if (moved_ && settings_.scissored) {
+        if (moving_ && settings_.scissored) {
             plan_differences(receivers);
         }
     }
     if (is_layered(next_, settings_.bundles)) {
         layered(next_, receivers);
-    } else if (moved_) {
+    } else if (moving_) {
         move_perspective(shooters_[next_ % shooters_at_once], next_, receivers);
     } else {
         perspective(shooters_[next_ % shooters_at_once], next_, receivers);
@@ -214,12 +218,26 @@ void SpecialPhase::step_bounce(std::span<BundleReceiver* const> receivers) {
     }
 }
 
+/// Samples that any mean is worth where part of its light is still that from before: what the
+/// change goes on to change is not carried on, or by few bundles. A carried light changes all of
+/// it, a box next to nothing.
+float SpecialPhase::weight_beside_unseen() const {
+    if (settings_.skipped) {
+        return settings_.most_weight;
+    }
+    const auto share = static_cast<float>(change_.reflected_share());
+    const float unseen =
+        share * share / (share + much_changed) * (bouncing_ ? unseen_carried : unseen_bounce);
+    return sample_deviation * sample_deviation / std::max(unseen * unseen, 1e-12F);
+}
+
 void SpecialPhase::finish(std::span<BundleReceiver* const> receivers) {
     change_.stop_sending();
     const float bundles_noise = 1.0F / static_cast<float>(bundles_);
-    change_.correct(bundles_noise, settings_.most_weight);
+    const float most_weight = std::min(settings_.most_weight, weight_beside_unseen());
+    change_.correct(bundles_noise, most_weight);
     for (BundleReceiver* receiver : receivers) {
-        receiver->end_special(bundles_noise, settings_.most_weight);
+        receiver->end_special(bundles_noise, most_weight);
     }
     done_ = true;
 }
@@ -235,8 +253,8 @@ void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned ind
         BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
         if (carried(shooter) && place == Place::before) {
             const glm::mat4 before_from_now =
-                scene_.world_from_object(*moved_, Place::before) *
-                glm::inverse(scene_.world_from_object(*moved_, Place::now));
+                scene_.world_from_object(shooter.object, Place::before) *
+                glm::inverse(scene_.world_from_object(shooter.object, Place::now));
             const auto rotate = glm::transpose(glm::inverse(glm::mat3(before_from_now)));
             frame = make_frame(glm::vec3(before_from_now * glm::vec4(shooter.position, 1.0F)),
                                glm::normalize(rotate * shooter.normal), angle);
@@ -275,7 +293,7 @@ ParallelWindow SpecialPhase::window_of(unsigned index) const {
 
 void SpecialPhase::layered(unsigned index, std::span<BundleReceiver* const> receivers) {
     const ParallelWindow window = window_of(index);
-    const bool both = moved_ && !bouncing_;
+    const bool both = moving_ && !bouncing_;
     const PixelRectangle rectangle =
         both && settings_.scissored ? window.covering(boxes_) : window.full();
     transfer_.take_overflow();

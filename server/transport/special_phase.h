@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,23 +16,24 @@
 namespace raybundle {
 
 /// The special iteration phase (ch. 7.4),  dL = (Le_new - Le + T_new L - T L) + T_new dL,  in two
-/// stages. The first transfers the source term: of a move, -L with the object at its old place and
-/// +L with it at its new place through one and the same bundle, where lines that meet neither
-/// cancel and only the pixels that can see either are drawn; of changed surfaces, what they send
-/// more than before. The second carries the increments on, T_new dL, each bundle with all that has
-/// come in by then. The averaged increments join the solution at the end.
+/// stages. The first transfers the source term: of a move, -L with the objects at their old places
+/// and +L with them at their new places through one and the same bundle, where lines that meet
+/// neither cancel and only the pixels that can see either are drawn; of changed surfaces, what they
+/// send more than before. The second carries the increments on, T_new dL, each bundle with all that
+/// has come in by then. The averaged increments join the solution at the end.
 class SpecialPhase {
   public:
-    /// moved: the object that is at its new place already (GpuScene::move_object), or nothing where
-    /// surfaces have changed (ChangeStore::set_source). seed: any number, different for every
-    /// change.
+    /// moving: objects are at their new places already (GpuScene::move_objects); otherwise surfaces
+    /// have changed (ChangeStore::set_source). seed: any number, different for every change.
     SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
-                 Transfer& transfer, const SpecialSettings& settings,
-                 std::optional<std::uint32_t> moved, std::uint64_t seed);
+                 Transfer& transfer, const SpecialSettings& settings, bool moving,
+                 std::uint64_t seed);
 
     /// One special iteration. The last one also applies the increments.
     void step(std::span<BundleReceiver* const> receivers);
     [[nodiscard]] bool done() const { return done_; }
+    /// Whether its bundles can tell how much there was to correct: one alone, or none, cannot.
+    [[nodiscard]] bool informed() const { return !settings_.skipped && bundles_ > 1; }
     /// Bundles of the first stage: chosen while it runs.
     [[nodiscard]] unsigned bundles() const { return bundles_; }
 
@@ -44,6 +43,7 @@ class SpecialPhase {
     void step_source(std::span<BundleReceiver* const> receivers);
     void step_bounce(std::span<BundleReceiver* const> receivers);
     void end_source(std::span<BundleReceiver* const> receivers);
+    [[nodiscard]] float weight_beside_unseen() const;
     void finish(std::span<BundleReceiver* const> receivers);
     void move_perspective(const layout::Shooter& shooter, unsigned index,
                           std::span<BundleReceiver* const> receivers);
@@ -51,7 +51,7 @@ class SpecialPhase {
                      std::span<BundleReceiver* const> receivers);
     void layered(unsigned index, std::span<BundleReceiver* const> receivers);
     [[nodiscard]] TransferSettings transfer_settings(Place place) const;
-    /// Of a bundle of the first stage, which is drawn with the moved object at a place.
+    /// Of a bundle of the first stage, which is drawn with the moved objects at a place.
     [[nodiscard]] TransferSettings difference_settings(Place place, unsigned index) const;
     [[nodiscard]] bool carried(const layout::Shooter& shooter) const;
     [[nodiscard]] ParallelWindow window_of(unsigned index) const;
@@ -62,9 +62,9 @@ class SpecialPhase {
     ChangeStore& change_;
     Transfer& transfer_;
     SpecialSettings settings_;
-    std::optional<std::uint32_t> moved_;
+    bool moving_;
     RandomisedHalton numbers_;
-    std::array<Bounds, 2> boxes_;  // of the moved object, now and before, shifted world
+    std::vector<Bounds> boxes_;  // of the moved objects, now and before, shifted world
     std::vector<layout::Shooter> shooters_;
     unsigned bundles_;           // of the first stage
     unsigned next_ = 0;          // bundle of the running stage

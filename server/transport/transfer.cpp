@@ -97,9 +97,9 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
                  static_cast<float>(settings.batch)};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
-    p.moved.x = settings.context.moved_object;
-    if (settings.context.moved_object != NO_PATCH) {
-        p.before_from_now = glm::transpose(scene_.now_from_before(settings.context.moved_object));
+    p.moved = scene_.moved_objects();
+    for (int k = 0; k < MOST_MOVED && p.moved[k] != NO_PATCH; ++k) {
+        p.before_from_now[k] = glm::transpose(scene_.now_from_before(p.moved[k]));
     }
     return p;
 }

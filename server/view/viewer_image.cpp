@@ -264,7 +264,7 @@ bool ViewerImage::smooth_step() {
     return !edges_->complete();
 }
 
-void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object) {
+void ViewerImage::refresh_geometry(float kept_weight) {
     old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
             glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
@@ -291,10 +291,10 @@ void ViewerImage::refresh_geometry(float kept_weight, std::uint32_t moved_object
     if (specular_) {
         specular_->begin();
     }
-    resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
-            : moved_object == NO_PATCH           ? programs_.resolve_reprojected
-                                                 : programs_.resolve_moved,
-            whole_picture(), kept_weight, moved_object);
+    resolve(!has_picture_ || kept_weight <= 0.0F   ? programs_.resolve_new
+            : scene_.moved_objects().x == NO_PATCH ? programs_.resolve_reprojected
+                                                   : programs_.resolve_moved,
+            whole_picture(), kept_weight);
     shoot_first();
     batches_.clear();
     edges_->restart();
@@ -311,7 +311,7 @@ void ViewerImage::bind_old_picture() const {
 
 /// Makes the pixels of a rectangle from the surfaces rasterised there.
 void ViewerImage::resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
-                          float kept_weight, std::uint32_t moved_object) {
+                          float kept_weight) {
     const auto set_common = [&](const ShaderProgram& program) {
         program.set("refreshed",
                     glm::uvec4(rectangle.x0, rectangle.y0, rectangle.x1, rectangle.y1));
@@ -324,7 +324,7 @@ void ViewerImage::resolve(const ViewPrograms::Resolve& programs, const PixelRect
         program.set("kept_weight", kept_weight);
         program.set("old_common_weight", old_.common_weight);
         program.set("old_constant", old_.constant);
-        program.set("moved_object", moved_object);
+        program.set("moved_objects", scene_.moved_objects());
         // Two pixels' width at unit distance.
         program.set("same_distance",
                     4.0F * std::tan(0.5F * camera_.vertical_fov) / static_cast<float>(size_.y));
@@ -376,7 +376,7 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
     const auto set_common = [&](const ShaderProgram& program) {
         program.set("facet_base", scene_.facet_base(context.place));
         program.set("vertex_base", scene_.vertex_base(context.place));
-        program.set("moved_object", context.moved_object);
+        program.set("moved_objects", scene_.moved_objects());
     };
     set_common(programs.all);
     if (gloss_.bytes() > 0) {

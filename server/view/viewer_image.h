@@ -117,7 +117,7 @@ class ViewerImage : public BundleReceiver {
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
     void discard_sample(const Context& context) override;
-    void begin_special(std::uint32_t moved_object) override;
+    void begin_special() override;
     void plan_differences(std::span<const BundleRays> bundles,
                           std::span<const Bounds> boxes) override;
     void begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
@@ -173,13 +173,13 @@ class ViewerImage : public BundleReceiver {
   private:
     void allocate();
     [[nodiscard]] PixelRectangle whole_picture() const;
-    [[nodiscard]] PixelRectangle rectangle_of(std::uint32_t object) const;
+    [[nodiscard]] PixelRectangle rectangle_of_moved() const;
     void bind_old_picture() const;
     void copy_rows(const PixelRectangle& rectangle) const;
     void resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
-                 float kept_weight, std::uint32_t moved_object);
-    void refresh_geometry(float kept_weight, std::uint32_t moved_object = NO_PATCH);
-    void refresh_moved(std::uint32_t moved_object);
+                 float kept_weight);
+    void refresh_geometry(float kept_weight);
+    void refresh_moved();
     void allocate_gloss();
     void allocate_first_shot();
     void shoot_first() const;

@@ -12,22 +12,21 @@ void ViewerImage::clear_increments() const {
     }
 }
 
-void ViewerImage::begin_special(std::uint32_t moved_object) {
+void ViewerImage::begin_special() {
     if (has_picture_ && store_.first_shot() == nullptr) {
-        refresh_moved(moved_object);
+        refresh_moved();
     } else {
-        refresh_geometry(store_.kept_share(parameters_.weights.x), moved_object);
+        refresh_geometry(store_.kept_share(parameters_.weights.x));
     }
     clear_increments();
 }
 
-/// Smallest rectangle that holds an object at both places: with whole work groups of
+/// Smallest rectangle that holds all that has moved at both places: with whole work groups of
 /// view_resolve.comp, and rounding.
-PixelRectangle ViewerImage::rectangle_of(std::uint32_t object) const {
+PixelRectangle ViewerImage::rectangle_of_moved() const {
     glm::vec2 low(1e30F);
     glm::vec2 high(-1e30F);
-    for (const Place place : {Place::now, Place::before}) {
-        const Bounds box = scene_.object_bounds(object, place);
+    for (const Bounds& box : scene_.moved_bounds()) {
         if (box.empty()) {
             continue;
         }
@@ -66,16 +65,16 @@ void ViewerImage::copy_rows(const PixelRectangle& rectangle) const {
     }
 }
 
-/// The camera rests, and an object is elsewhere: only where it is and was the picture differs, and
-/// all other pixels keep what they have to the bit.
-void ViewerImage::refresh_moved(std::uint32_t moved_object) {
+/// The camera rests, and objects are elsewhere: only where they are and were the picture differs,
+/// and all other pixels keep what they have to the bit.
+void ViewerImage::refresh_moved() {
     parameters_.weights.y = 0.0F;
     batches_.clear();
     samples_ = 0;
     if (continued_) {
         continued_->refresh(parameters_, camera_, 1.0F);
     }
-    const PixelRectangle rectangle = rectangle_of(moved_object);
+    const PixelRectangle rectangle = rectangle_of_moved();
     if (rectangle.empty()) {
         return;
     }
@@ -87,7 +86,7 @@ void ViewerImage::refresh_moved(std::uint32_t moved_object) {
     store_.bind();
     bind_pixels();
     bind_old_picture();
-    resolve(programs_.resolve_moved, rectangle, 1.0F, moved_object);
+    resolve(programs_.resolve_moved, rectangle, 1.0F);
     edges_->restart();
 }
 
