@@ -33,8 +33,7 @@ struct Survey {
     std::size_t mirrors = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
     double transmitted_share = 0.0;  // largest share that glass lets pass
-    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0,
-                transmitting = 0;
+    std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0, transmitting = 0;
     double diffused_share = 0.0;  // largest that a material transmits diffusely
     double specular_share = 0.0;  // largest of a material, of what it reflects
 

@@ -12,6 +12,7 @@
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
 #include "scene/patch_colour.h"
+#include "scene/specular_surface.h"
 #include "solution/reflectance_tables.h"
 
 namespace raybundle {
@@ -104,6 +105,9 @@ Scene random_scene(unsigned seed, int materials, bool max_phong) {
             material.metallic = material.specular = 0.0F;
         } else if (i % 10 == 1) {
             material.roughness = 0.0F;
+        }
+        if (specular_kind(material) == SpecularKind::mirror) {  // bundles have a lobe of their own
+            material.roughness = std::nextafter(mirror_roughness, 1.0F);
         }
         scene.materials.push_back(material);
     }

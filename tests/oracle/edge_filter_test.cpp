@@ -34,7 +34,6 @@ struct EdgeView {
     }
 
     void turn(float angle) {
-        Camera camera;
         camera.eye = {0.013F, 0, 5};
         camera.target = {0.013F, 0, 0};
         camera.up = {std::sin(angle), std::cos(angle), 0};
@@ -62,6 +61,7 @@ struct EdgeView {
     std::optional<Solver> solver;
     std::optional<ViewPrograms> programs;
     std::optional<ViewerImage> image;
+    Camera camera;
     float edge_angle = 0.0F;
 };
 
@@ -139,7 +139,7 @@ TEST(EdgeFilter, EndsWhenTheCameraMoves) {
     EXPECT_FALSE(view.image->smoothed());
     view.image->smooth();
     EXPECT_EQ(view.image->read_radiance(), before);  // the same bits
-    view.image->resize({33, 17});
+    view.image->set_view(view.camera, {33, 17});
     EXPECT_FALSE(view.image->smoothed());
     EXPECT_FALSE(view.image->read_radiance().empty());
 }

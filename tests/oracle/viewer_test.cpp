@@ -146,7 +146,7 @@ TEST(ViewerImage, TinyAndOddSizesWork) {
     FurnaceView view(0.5F);
     for (const glm::uvec2 size :
          {glm::uvec2(1, 1), glm::uvec2(3, 1), glm::uvec2(1, 257), glm::uvec2(33, 17)}) {
-        view.image->resize(size);
+        view.image->set_view(view.camera, size);
         view.iterate(2);
         view.image->compose(DisplayMode::photo, -7.0F);
         EXPECT_EQ(view.image->take().size(), std::size_t{size.x} * size.y * 4);
