@@ -29,7 +29,8 @@ struct ReflectanceGrid {
     glm::vec2 low{0.0F}, high{0.0F};  ///< metalness, roughness
 
     [[nodiscard]] std::size_t size() const {
-        return static_cast<std::size_t>(roughness_levels * metallic_levels);
+        return static_cast<std::size_t>(roughness_levels) *
+               static_cast<std::size_t>(metallic_levels);
     }
     /// Roughness varies slowest.
     [[nodiscard]] std::size_t nearest(const glm::vec2& metallic_roughness) const;
