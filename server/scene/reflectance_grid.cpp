@@ -68,9 +68,11 @@ glm::vec4 ReflectanceGrid::parameters() const {
 std::size_t ReflectanceGrid::nearest(const glm::vec2& metallic_roughness) const {
     const glm::vec4 p = parameters();
     const float roughness = std::clamp(metallic_roughness.y, min_roughness, 1.0F);
-    const int r = level_of(std::log(roughness), p.x, p.y, roughness_levels);
-    const int m = level_of(metallic_roughness.x, p.z, p.w, metallic_levels);
-    return static_cast<std::size_t>(r * metallic_levels + m);
+    const auto r =
+        static_cast<std::size_t>(level_of(std::log(roughness), p.x, p.y, roughness_levels));
+    const auto m =
+        static_cast<std::size_t>(level_of(metallic_roughness.x, p.z, p.w, metallic_levels));
+    return r * static_cast<std::size_t>(metallic_levels) + m;
 }
 
 glm::vec2 ReflectanceGrid::at(std::size_t index) const {
