@@ -236,6 +236,13 @@ void define_options(CLI::App& app, Options& options) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");
+            CLI::Option* const sheet =
+                command->add_option("--contact-sheet", options.contact_sheet,
+                                    "PNG of the scene with --effect and without, and its cost");
+            CLI::Option* const effect =
+                command->add_option("--effect", options.effect, "Name of an effect of the plan");
+            sheet->needs(effect);
+            effect->needs(sheet);
         } else {
             command->add_option("--json", options.json_file,
                                 "Also write the results as JSON (bench: plots beside it)");

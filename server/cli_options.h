@@ -113,6 +113,10 @@ struct Options {
     std::size_t repeats = 1;
     bool knobs = false;
 
+    // inspect
+    std::string contact_sheet;  // file
+    std::string effect;
+
     // inspect, bench, selftest
     bool json_to_stdout = false;
     std::string json_file;

@@ -170,4 +170,38 @@ def glass() -> SceneModel:
     ])
 
 
-SCENES = (punctual_lights, ies_profile, overcast_sky, clear_sky, environment, mirror, glass)
+def _ring(inner: float, outer: float, height: float, sides: int, material: str) -> Solid:
+    """A ring on the floor about the y axis; its walls are smooth where the metal curves."""
+    corners, faces = [], []
+    for i in range(sides):
+        turn = 2 * math.pi * i / sides
+        for radius, y in ((inner, 0.0), (inner, height), (outer, height), (outer, 0.0)):
+            corners.append((radius * math.cos(turn), y, radius * math.sin(turn)))
+    for i in range(sides):
+        here, there = 4 * i, 4 * ((i + 1) % sides)
+        for k in range(4):
+            faces.append((here + k, there + k, there + (k + 1) % 4, here + (k + 1) % 4))
+    return Solid(corners, faces, material)
+
+
+def caustics() -> SceneModel:
+    """A spot through a glass ball and red glass, and into a golden ring."""
+    return SceneModel(
+        name="effects/caustics", embed_buffer=True, cameras=[
+            Camera("front", (2.0, 2.2, -1.2), (2.0, 0.3, 1.9), 43.0, 4 / 3)],
+        materials=[*MATERIALS,
+                   Material("crystal", (1.0, 1.0, 1.0), glass=1.5, attenuation=(0.95, 0.97, 0.96)),
+                   Material("ruby", (1.0, 1.0, 1.0), glass=1.55, attenuation=(0.7, 0.01, 0.02)),
+                   Material("gold", (1.0, 0.78, 0.34), mirror=True)],
+        objects=[
+            _room(),
+            SceneObject("ball", [sphere(0.4, 64, 32, "crystal")], (1.2, 0.55, 1.6)),
+            SceneObject("block", [box((-0.25, 0.0, -0.25), (0.25, 0.7, 0.25), "ruby")],
+                        (2.1, 0.001, 2.2), 30.0),
+            SceneObject("ring", [_ring(0.45, 0.5, 0.35, 64, "gold")], (3.0, 0.001, 1.5)),
+        ],
+        lights=[Light("spot", "spot", (3.3, 2.9, 3.2), (-1.2, -2.7, -1.4), 1500.0,
+                      (1.0, 0.95, 0.85), 40.0, 50.0)])
+
+
+SCENES = (punctual_lights, ies_profile, overcast_sky, clear_sky, environment, mirror, glass, caustics)

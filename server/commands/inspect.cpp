@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/command.h"
+#include "commands/contact_sheet.h"
 #include "commands/effect_costs.h"
 #include "gpu/egl_context.h"
 #include "scene/scene_report.h"
@@ -30,10 +31,34 @@ void print_plan(std::ostream& out, const EffectsPlan& plan) {
     }
 }
 
+/// Of one effect, with its picture.
+int inspect_effect(const Options& options, const LoadedScene& loaded) {
+    const EffectCost cost = write_contact_sheet(options, loaded);
+    constexpr double megabyte = 1e-6;
+    const nlohmann::json json = {
+        {"effect", options.effect},
+        {"msPerIteration", {{"with", cost.ms_with}, {"without", cost.ms_without}}},
+        {"megabytes",
+         {{"with", megabyte * static_cast<double>(cost.bytes_with)},
+          {"without", megabyte * static_cast<double>(cost.bytes_without)}}}};
+    std::cout << (options.json_to_stdout
+                      ? json.dump(2)
+                      : fmt::format(
+                            "{}: {:.2f} ms an iteration (without: {:.2f}), {:.1f} MB ({:.1f})",
+                            options.effect, cost.ms_with, cost.ms_without,
+                            megabyte * static_cast<double>(cost.bytes_with),
+                            megabyte * static_cast<double>(cost.bytes_without)))
+              << "\n";
+    return exit_done;
+}
+
 }  // namespace
 
 int run_inspect(const Options& options) {
     const LoadedScene loaded = load_scene(options);
+    if (!options.contact_sheet.empty()) {
+        return inspect_effect(options, loaded);
+    }
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
     EffectsPlan plan = plan_effects(loaded.scene, loaded.mesh.patch_count());
     try {

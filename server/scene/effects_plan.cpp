@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
-constexpr std::size_t first_shot_bytes = 32;    // irradiance, and the radiance that it makes
+constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
+constexpr std::size_t caustic_bytes = 40;     // irradiance, the radiance that it makes, at vertices
 constexpr std::size_t transmission_bytes = 16;  // transmittance and the other side
 
 /// Numbers that several effects ask for.
@@ -135,6 +136,10 @@ std::string count_of(std::size_t count, const char* thing) {
     return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
+std::string count_of(std::size_t count, const char* one, const char* several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
 class Planner {
   public:
     explicit Planner(const Scene& scene) : scene_(scene) {
@@ -200,21 +205,24 @@ class Planner {
                       " of solid glass: view rays are refracted"
                 : "no material in use transmits",
             "L(D|G)*S+E", survey_.transmitted_share, 0);
-        absent("caustics", caustics_reason(), "LS+D(D|G)*E");
+        plan_caustics();
     }
 
-    /// What light that mirrors and glass throw on other surfaces is missing.
-    [[nodiscard]] std::string caustics_reason() const {
-        if (survey_.panes + survey_.bodies > 0) {
-            return fmt::format(
-                "light goes straight through glass: its tint, up to {:.0f} % of it that is "
-                "reflected, and what bodies bend and focus is missing on other surfaces",
-                100.0 * static_cast<double>(pane_shares({SpecularKind::pane}, 1.0F).reflected.g));
+    void plan_caustics() {
+        const std::size_t surfaces = survey_.mirrors + survey_.panes + survey_.bodies;
+        const double lamps =
+            survey_.share(survey_.area_flux + survey_.punctual_flux + survey_.sun_flux);
+        const bool active = surfaces > 0 && lamps > 0.0;
+        std::string reason = surfaces > 0 ? "no lamp shines at the mirrors and the glass"
+                                          : "nothing reflects or refracts like a mirror";
+        if (active) {
+            reason = "light of lamps is followed by single rays to where " +
+                     count_of(surfaces, "mirror or glass", "mirrors and kinds of glass") +
+                     " throw it; light of other surfaces and of skies goes straight through glass, "
+                     "and from mirrors as from a surface of roughness 0.4";
         }
-        return survey_.mirrors > 0
-                   ? "mirrors throw light on other surfaces as a lobe of roughness 0.4 does: "
-                     "in the right amount, but blurred"
-                   : "nothing reflects or refracts like a mirror";
+        add("caustics", active, std::move(reason), "LS+D(D|G)*E",
+            lamps * std::max(survey_.mirrored_share, survey_.transmitted_share), caustic_bytes);
     }
 
     void plan_lights() {

@@ -52,6 +52,8 @@
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
 #define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
+#define BINDING_CAUSTICS 45           // vec4[]: radiance that caustics make of patches, see patch_source.glsl
+#define BINDING_CAUSTIC_IRRADIANCE 46 // vec4[]: of patches, by caustics, radiance units
 #define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
 #define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
 #define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends
@@ -99,6 +101,7 @@
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 #define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
 
+#define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f

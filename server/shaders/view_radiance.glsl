@@ -27,6 +27,9 @@ layout(std430, binding = BINDING_CONTINUED_RADIANCE) readonly buffer ContinuedRa
 #ifdef FIRST_SHOT
 layout(binding = UNIT_PIXEL_FIRST_SHOT) uniform samplerBuffer pixel_first_shot_texels;
 #endif
+#ifdef CAUSTICS
+layout(binding = UNIT_VERTEX_CAUSTICS) uniform samplerBuffer vertex_caustics_texels;
+#endif
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
@@ -43,11 +46,8 @@ PixelSurface load_pixel(uint index) {
     return PixelSurface(uintBitsToFloat(a.xyz), a.w, b.x, b.y, b.z, b.w);
 }
 
-vec3 vertex_irradiance(uint slot) { return texelFetch(vertex_irradiance_texels, int(slot)).rgb; }
-
-/// Irradiance of the object-space solution, interpolated over the vertices (radiance units), on the side that is
-/// seen or on the other.
-vec3 object_space_irradiance(PixelSurface p, bool behind) {
+/// What is known at the vertices, interpolated, on the side that is seen or on the other.
+vec3 from_vertices(samplerBuffer values, PixelSurface p, bool behind) {
     uint triangle = p.patch_id;
     uint side = behind ? 1u : 0u;
 #ifdef DOUBLE_SIDED
@@ -58,7 +58,13 @@ vec3 object_space_irradiance(PixelSurface p, bool behind) {
 #endif
     uvec3 t = 2u * load_triangle(triangle).xyz + side;
     vec2 v = unpackUnorm2x16(p.barycentric);
-    return vertex_irradiance(t.x) * (1.0 - v.x - v.y) + vertex_irradiance(t.y) * v.x + vertex_irradiance(t.z) * v.y;
+    return texelFetch(values, int(t.x)).rgb * (1.0 - v.x - v.y) + texelFetch(values, int(t.y)).rgb * v.x +
+           texelFetch(values, int(t.z)).rgb * v.y;
+}
+
+/// Irradiance of the object-space solution, radiance units.
+vec3 object_space_irradiance(PixelSurface p, bool behind) {
+    return from_vertices(vertex_irradiance_texels, p, behind);
 }
 
 vec3 blended_irradiance(uint index, PixelSurface p) {
@@ -71,6 +77,9 @@ vec3 blended_irradiance(uint index, PixelSurface p) {
     vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(own, view.weights.x), confidence);
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
+#endif
+#ifdef CAUSTICS
+    blended = max(blended + from_vertices(vertex_caustics_texels, p, false), 0.0);
 #endif
     return blended;
 }
@@ -126,6 +135,9 @@ vec3 transmitted_radiance(PixelSurface p) {
     vec3 behind = object_space_irradiance(p, true);
 #ifdef FIRST_SHOT
     behind += first_shot[2u * floatBitsToUint(t.w)].rgb;
+#endif
+#ifdef CAUSTICS
+    behind = max(behind + from_vertices(vertex_caustics_texels, p, true), 0.0);
 #endif
     return t.rgb * behind * inverse_pi;
 }

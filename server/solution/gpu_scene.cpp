@@ -69,13 +69,14 @@ Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance)
+GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance, bool caustics)
     : patch_count_(static_cast<std::uint32_t>(mesh.patch_count())),
       triangle_count_(static_cast<std::uint32_t>(mesh.triangle_count())),
       vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
       origin_(scene.bounds.centre()),
       radiance_unit_(unit_for(largest_emission(scene, mesh))),
+      trace_caustics_(caustics),
       constant_radiance_(constant_radiance),
       has_sky_(raybundle::has_sky(scene)),
       uniform_sky_(scene.sky_radiance),
@@ -311,6 +312,11 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(specular_rays_ != nullptr, "MIRRORS");
     glass_ = has_glass(scene);
     define_if(glass_, "GLASS");
+    const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
+    caustics_ = trace_caustics_ && specular_rays_ != nullptr &&
+                (!scene.punctual_lights.empty() ||
+                 !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
+    define_if(caustics_, "CAUSTICS");
     const std::vector<std::string>& lobes = reflectance_.defines();
     defines_.insert(defines_.end(), lobes.begin(), lobes.end());
 }

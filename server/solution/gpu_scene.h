@@ -34,7 +34,9 @@ class GpuScene {
     /// constant_radiance: bundles shall carry what radiance is beyond a constant (ch. 5.5). Only
     /// where nothing is glossy, since what a glossy surface reflects of a constant depends on the
     /// direction.
-    GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false);
+    /// caustics: those of lamps are traced, where the scene may have any.
+    GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false,
+             bool caustics = true);
     [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
 
     /// Keeps the present place as `before` and puts MOST_MOVED objects elsewhere, at most. Uploads
@@ -70,8 +72,8 @@ class GpuScene {
     /// GLOSSY (some radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES
     /// (some with profiles), TRANSMISSION (some patches send light that arrives on their other
     /// side), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view
-    /// rays go on from some surfaces), GLASS (bundles pass some). What is absent is
-    /// not even compiled.
+    /// rays go on from some surfaces), GLASS (bundles pass some), CAUSTICS (lamps shine on such
+    /// surfaces). What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
@@ -99,6 +101,8 @@ class GpuScene {
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// What deflects view rays, at the present places; null where nothing does.
     [[nodiscard]] const SpecularRays* specular_rays() const { return specular_rays_.get(); }
+    /// Whether lamps may shine on mirrors or glass, so that there are caustics.
+    [[nodiscard]] bool caustics() const { return caustics_; }
     /// Whether a material as it is in the scene now needs no macro that is not among defines().
     [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
     /// Of an object, shifted world, at a place.
@@ -136,7 +140,9 @@ class GpuScene {
     float diameter_ = 1.0F;
     glm::uvec4 moved_{NO_PATCH};
     bool thin_walls_ = false;  // fronts and backs may coincide
-    bool glass_ = false;       // some surfaces let bundles pass
+    bool caustics_ = false;
+    bool glass_ = false;  // some surfaces let bundles pass
+    bool trace_caustics_;
     bool constant_radiance_;
     bool has_sky_ = false;
     glm::vec3 uniform_sky_{0.0F};  // cd/m²

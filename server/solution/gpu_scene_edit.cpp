@@ -26,7 +26,9 @@ bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const bool followed =
         specular_rays_ || specular_kind(scene.materials[material]) == SpecularKind::none;
     const bool passed = glass_ || !is_glass(scene.materials[material]);
-    return followed && passed && reflectance_.covers(scene, material);
+    const bool lit = caustics_ || !trace_caustics_ || !specular_rays_ ||
+                     scene.materials[material].emission == glm::vec3(0.0F);
+    return followed && passed && lit && reflectance_.covers(scene, material);
 }
 
 void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {

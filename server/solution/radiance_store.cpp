@@ -12,7 +12,7 @@ constexpr std::size_t statistics_groups = 64;
 constexpr float relevant_change = 0.01F;  // smaller relative changes are taken for noise
 }  // namespace
 
-RadianceStore::RadianceStore(const GpuScene& scene)
+RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
     : scene_(scene),
       patch_count_(scene.patch_count()),
       block_count_((scene.patch_count() + POWER_BLOCK - 1) / POWER_BLOCK),
@@ -28,6 +28,7 @@ RadianceStore::RadianceStore(const GpuScene& scene)
       shooters_("shooters", max_shooters * sizeof(layout::Shooter)),
       checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec4)),
       statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
+      caustics_(caustics),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
       update_({"solution_update.comp"}, scene.defines()),
@@ -68,6 +69,10 @@ RadianceStore::RadianceStore(const GpuScene& scene)
     if (first_shot_) {
         first_shot_->update();
     }
+    if (caustics_ != nullptr) {
+        caustics_->restart();
+        bind();
+    }
     refresh_power();
 }
 
@@ -88,6 +93,9 @@ void RadianceStore::bind() const {
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
     if (first_shot_) {
         first_shot_->bind();
+    }
+    if (caustics_ != nullptr) {
+        caustics_->bind();
     }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_GLOSS);
@@ -266,6 +274,11 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
         const std::vector<glm::vec3> first = first_shot_->read_irradiance();
         for (std::size_t i = 0; i < values.size(); ++i) {
             values[i] += glm::vec4(first[i] * scene_.radiance_unit(), 0.0F);
+        }
+    }
+    if (caustics_ != nullptr) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] += glm::vec4(caustics_->irradiance(i), 0.0F);
         }
     }
     return values;

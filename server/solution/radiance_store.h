@@ -10,6 +10,7 @@
 #include "gpu/layouts.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
+#include "solution/caustics.h"
 #include "solution/first_shot.h"
 #include "solution/gpu_scene.h"
 
@@ -38,7 +39,8 @@ struct BundleUpdate {
 /// probabilities that follow from them.
 class RadianceStore {
   public:
-    explicit RadianceStore(const GpuScene& scene);
+    /// caustics: where the scene has any; must outlive this.
+    explicit RadianceStore(const GpuScene& scene, Caustics* caustics = nullptr);
 
     void bind() const;
     /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
@@ -106,6 +108,7 @@ class RadianceStore {
     bool shoots_only_ = false;
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
+    Caustics* caustics_;                   // null where the scene has none
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
     const Buffer* other_ = nullptr;
     const Texture2D* other_texture_ = nullptr;

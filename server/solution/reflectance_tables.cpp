@@ -23,18 +23,7 @@ static_assert(sizeof(ReflectanceNode) == sizeof(glm::vec4));
 
 constexpr std::size_t texels_per_record = sizeof(layout::Reflectance) / sizeof(glm::vec4);
 
-/// A random bundle seldom meets the one direction in which a mirror throws light, and then far too
-/// much: between surfaces mirrors reflect into a lobe of this roughness.
 constexpr float transported_roughness = 0.4F;
-
-ReflectanceModel transported_model(const Material& material) {
-    if (specular_kind(material) != SpecularKind::mirror) {
-        return reflectance_model(material);
-    }
-    Material rough = material;
-    rough.roughness = transported_roughness;
-    return reflectance_model(rough);
-}
 
 /// What a material's table is made for. All Lambert surfaces share one. Of a grid, its sharpest
 /// lobe.
@@ -75,6 +64,15 @@ layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_t
 }
 
 }  // namespace
+
+ReflectanceModel transported_model(const Material& material) {
+    if (specular_kind(material) != SpecularKind::mirror) {
+        return reflectance_model(material);
+    }
+    Material rough = material;
+    rough.roughness = transported_roughness;
+    return reflectance_model(rough);
+}
 
 ReflectanceTables::ReflectanceTables(const Scene& scene) {
     bool max_phong = false;

@@ -14,6 +14,10 @@
 
 namespace raybundle {
 
+/// A material's reflectance between surfaces: a mirror's is a wide lobe, since a random bundle
+/// seldom meets the one direction in which it throws light, and then far too much.
+ReflectanceModel transported_model(const Material& material);
+
 /// The reflectance of a scene's materials for brdf.glsl: a record per material, one for each place
 /// in the grid of a material whose roughness or metalness is textured (ReflectanceGrid), and a
 /// table per distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them,

@@ -56,6 +56,7 @@ SpecularRays::SpecularRays(const Scene& scene, const PatchMesh& mesh,
                            std::span<const glm::mat4> world_from_object)
     : positions_(mesh.positions),
       normals_(mesh.normals),
+      vertex_object_(mesh.vertex_object),
       facets_(mesh.facets.empty() ? mesh.triangles : mesh.facets),
       materials_(mesh.facets.empty() ? mesh.triangle_material : mesh.facet_material),
       surfaces_(scene.materials.size()),
@@ -227,6 +228,28 @@ std::optional<SpecularRays::Hit> SpecularRays::meet(const glm::vec3& origin,
     const bool coincides =
         std::abs(glm::dot(hit.geometric, front.position - hit.position)) <= offset_;
     return coincides ? front : hit;
+}
+
+std::array<glm::vec3, 3> SpecularRays::corners(const glm::uvec3& vertices) const {
+    const glm::mat4& world = objects_[vertex_object_[vertices.x]].world_from_object;
+    std::array<glm::vec3, 3> result;
+    for (int k = 0; k < 3; ++k) {
+        result[static_cast<std::size_t>(k)] =
+            glm::vec3(world * glm::vec4(positions_[vertices[k]], 1.0F));
+    }
+    return result;
+}
+
+glm::vec3 SpecularRays::weights(std::uint32_t facet, const glm::vec3& position) const {
+    const auto [a, b, c] = corners(facets_[facet]);
+    const glm::vec3 e1 = b - a;
+    const glm::vec3 e2 = c - a;
+    const glm::vec3 across = glm::cross(e1, e2);
+    const float square = std::max(glm::dot(across, across), std::numeric_limits<float>::min());
+    const glm::vec3 p = position - a;
+    const float w1 = glm::dot(glm::cross(p, e2), across) / square;
+    const float w2 = glm::dot(glm::cross(e1, p), across) / square;
+    return {1.0F - w1 - w2, w1, w2};
 }
 
 std::vector<Bounds> SpecularRays::boxes() const {

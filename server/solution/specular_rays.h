@@ -64,15 +64,33 @@ class SpecularRays {
     [[nodiscard]] std::vector<Bounds> boxes() const;
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
-  private:
+    /// Where a ray meets a facet.
     struct Hit {
         glm::vec3 position{0.0F};
-        glm::vec3 normal{0.0F};     // interpolated, unit, towards where the ray comes from
-        glm::vec3 geometric{0.0F};  // the facet's, likewise
+        glm::vec3 normal{0.0F};     ///< interpolated, unit, towards where the ray comes from
+        glm::vec3 geometric{0.0F};  ///< the facet's, likewise
         std::uint32_t facet = 0;
         bool front = true;
-        float distance = 0.0F;
+        float distance = 0.0F;  ///< m
     };
+    /// The nearest facet on the way of a ray.
+    [[nodiscard]] std::optional<Hit> meet(const glm::vec3& origin,
+                                          const glm::vec3& direction) const;
+    [[nodiscard]] const SpecularSurface& surface(const Hit& hit) const {
+        return surfaces_[materials_[hit.facet]];
+    }
+    /// Whether that side of a facet takes light and sends none.
+    [[nodiscard]] bool absorbs(std::uint32_t facet, bool front) const {
+        return !front && !two_sided_[materials_[facet]];
+    }
+    /// m: so far in front of a surface rays start.
+    [[nodiscard]] float offset() const { return offset_; }
+    /// Places of three vertices of one object, shifted world.
+    [[nodiscard]] std::array<glm::vec3, 3> corners(const glm::uvec3& vertices) const;
+    /// Barycentric weights of a facet's corners at a point on it.
+    [[nodiscard]] glm::vec3 weights(std::uint32_t facet, const glm::vec3& position) const;
+
+  private:
     struct Object {
         std::vector<std::uint32_t> facets;  // in the order of its hierarchy
         glm::mat4 world_from_object{1.0F};
@@ -85,19 +103,12 @@ class SpecularRays {
 
     void build(Object& object);
     void classify(const Scene& scene, std::size_t material);
-    [[nodiscard]] std::optional<Hit> meet(const glm::vec3& origin,
-                                          const glm::vec3& direction) const;
     [[nodiscard]] Hit hit_of(std::uint32_t object, std::uint32_t primitive, float u, float v,
                              float distance, const glm::vec3& direction) const;
-    [[nodiscard]] const SpecularSurface& surface(const Hit& hit) const {
-        return surfaces_[materials_[hit.facet]];
-    }
-    [[nodiscard]] bool absorbs(std::uint32_t facet, bool front) const {
-        return !front && !two_sided_[materials_[facet]];
-    }
     static void reject_absorbing(const RTCFilterFunctionNArguments* arguments);
 
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, object space
+    std::vector<std::uint32_t> vertex_object_;
     std::vector<glm::uvec3> facets_;
     std::vector<std::uint32_t> materials_;   // of the facets
     std::vector<SpecularSurface> surfaces_;  // of the materials

@@ -55,8 +55,10 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
     : settings_(settings),
       mix_(choose_mix(settings, scene)),
       probabilities_(mix_.at(0)),
-      scene_(scene, mesh, settings.constant_radiance),
-      store_(scene_),
+      scene_(scene, mesh, settings.constant_radiance, settings.caustics),
+      caustics_(scene_.caustics() ? std::make_unique<Caustics>(scene, mesh, scene_, settings.seed)
+                                  : nullptr),
+      store_(scene_, caustics_.get()),
       schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
                 settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
@@ -72,7 +74,7 @@ std::uint64_t Solver::non_finite() const {
 
 std::size_t Solver::bytes() const {
     return scene_.bytes() + store_.bytes() + coarse_->bytes() + (fine_ ? fine_->bytes() : 0) +
-           (change_store_ ? change_store_->bytes() : 0);
+           (change_store_ ? change_store_->bytes() : 0) + (caustics_ ? caustics_->bytes() : 0);
 }
 
 double Solver::noise() const {
@@ -117,6 +119,10 @@ void Solver::plan_group() {
         numbers.emplace_back(0.0F);  // brings the constant
     }
     store_.bind();
+    if (caustics_) {
+        caustics_->refine();
+        store_.bind();
+    }
     store_.refresh_power();
     const auto shooters = store_.choose_shooters(numbers);
     if (!shooters.empty()) {

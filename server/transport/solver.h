@@ -39,6 +39,8 @@ struct SolverSettings {
     /// Bundles carry what radiance is beyond the mean radiance (ch. 5.5), where GpuScene allows it.
     /// With perspective bundles alone only closed scenes have what nothing is missing from.
     bool constant_radiance = false;
+    /// Caustics of lamps are traced (effects plan: `caustics`); false: to measure what they cost.
+    bool caustics = true;
     /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
     bool random_faces = false;
     bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
@@ -121,6 +123,7 @@ class Solver {
 
     void plan_group();
     void refine();
+    void restart_caustics();
     [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
     void finish_group(std::span<BundleReceiver* const> receivers);
@@ -152,6 +155,7 @@ class Solver {
     StrategyProbabilities probabilities_;  // of the running group
     glm::vec3 constant_{0.0F};             // constant radiance term of the running group
     GpuScene scene_;
+    std::unique_ptr<Caustics> caustics_;  // only where the scene has any
     RadianceStore store_;
     IterationSchedule schedule_;
     std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on

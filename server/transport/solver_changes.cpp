@@ -86,11 +86,20 @@ void Solver::move_objects(std::span<const ObjectMove> moves,
         store_.turn_gloss(move.object, scene_.now_from_before(move.object));
     }
     store_.reshoot(first_shot_weight);
+    restart_caustics();
     for (BundleReceiver* receiver : receivers) {
         receiver->begin_special();
     }
     note_change();
     start_phase(true, no_limit);
+}
+
+/// Lamps, or what they shine through, have changed.
+void Solver::restart_caustics() {
+    if (caustics_) {
+        caustics_->restart();
+        store_.bind();
+    }
 }
 
 void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_object,
@@ -136,6 +145,7 @@ void Solver::work_in(const SurfaceChange& change, std::span<BundleReceiver* cons
         change_store().scale(change.scale);
     }
     change_store().set_source(change.scale, change.reflecting);
+    restart_caustics();
     for (BundleReceiver* receiver : receivers) {
         receiver->begin_surfaces(change.scale, change.reflecting, change.redraw);
     }
@@ -172,6 +182,10 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     }
     change.glossy = change.glossy || any_glossy(reflecting);
     adapt_unit(scene, mesh, change.scale);
+    if (caustics_) {
+        caustics_->update(scene, materials, mesh.emission);
+        caustics_->scale(change.scale);
+    }
     work_in(change, receivers);
 }
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solution/caustic_rays.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/facet_walk.h"
+#include "scene/patch_colour.h"
+#include "solution/reflectance_tables.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t chunk_rays = 128;
+constexpr int most_bundle_surfaces = 64;
+constexpr int certain_surfaces = 4;  // before Russian roulette
+
+/// SplitMix64's finaliser (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t value) {
+    value += 0x9e3779b97f4a7c15ULL;
+    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
+    return value ^ (value >> 31U);
+}
+
+float unit(std::uint64_t bits) {
+    return static_cast<float>(bits >> 40U) * 0x1.0p-24F;
+}
+
+/// Numbers of one ray: the additive recurrence of Roberts 2018 ("The Unreasonable Effectiveness of
+/// Quasirandom Sequences") in 64-bit fixed point, shifted by the seed.
+CausticLights::Numbers numbers_of(std::uint64_t seed, std::uint64_t index) {
+    constexpr double root = 1.1347241384015194;  // of x^7 = x + 1
+    CausticLights::Numbers numbers{};
+    double step = 1.0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        step /= root;
+        const auto fixed = static_cast<std::uint64_t>(step * 0x1.0p63) << 1U;
+        numbers[i] = unit(mixed(seed + i) + index * fixed);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+/// What chance decides on the way of one ray.
+class CausticRays::Random {
+  public:
+    Random(std::uint64_t seed, std::uint64_t index) : state_(mixed(mixed(~seed) + index)) {}
+    float next() {
+        state_ += 0x9e3779b97f4a7c15ULL;
+        return unit(mixed(state_));
+    }
+    std::uint32_t bits() { return static_cast<std::uint32_t>(mixed(++state_) >> 32U); }
+
+  private:
+    std::uint64_t state_;
+};
+
+CausticRays::CausticRays(const Scene& scene, const PatchMesh& mesh, const SpecularRays& rays)
+    : rays_(rays),
+      lobes_(scene.materials.size()),
+      facet_material_(mesh.facets.empty() ? mesh.triangle_material : mesh.facet_material),
+      back_patch_(mesh.back_patch),
+      triangles_(mesh.triangles),
+      facet_roots_(mesh.facets.empty() ? std::vector<FacetNode>{} : mesh.facet_roots),
+      facet_tree_(mesh.facet_tree) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        update(scene, i);
+    }
+}
+
+void CausticRays::update(const Scene& scene, std::size_t material) {
+    const Material& m = scene.materials[material];
+    if (specular_kind(m) == SpecularKind::mirror) {
+        lobes_[material] = make_brdf(transported_model(m), mean_base_colour(scene, m));
+    }
+}
+
+std::uint32_t CausticRays::triangle_of(std::uint32_t facet, const glm::vec3& position) const {
+    return facet_roots_.empty()
+               ? facet
+               : triangle_at(facet_roots_[facet], facet_tree_, rays_.weights(facet, position));
+}
+
+std::uint32_t CausticRays::patch_at(std::uint32_t facet, bool front,
+                                    const glm::vec3& position) const {
+    const std::uint32_t triangle = triangle_of(facet, position);
+    return front ? triangle : back_patch_[triangle];
+}
+
+/// As light goes.
+void CausticRays::follow(const LightRay& ray, Random& random,
+                         std::vector<CausticDeposit>& deposits) const {
+    std::array<ContinuedRay, SpecularRays::most_ends> ends;
+    const std::size_t count = rays_.follow(ray.origin, ray.direction, random.bits(), ends);
+    for (std::size_t i = 0; i < count; ++i) {
+        const ContinuedRay& end = ends[i];
+        if (end.surface == ContinuedRay::sky) {
+            continue;
+        }
+        const std::uint32_t patch =
+            patch_at(end.surface >> 1U, (end.surface & 1U) == 0, end.position);
+        if (patch != PatchMesh::no_patch) {
+            deposits.push_back({patch, ray.flux * end.throughput});
+        }
+    }
+    if (count > 0) {
+        follow_as_bundles(ray, random, deposits);
+    }
+}
+
+/// Evenly on the patch that has been met, in front of it.
+glm::vec3 CausticRays::random_point(const SpecularRays::Hit& hit, Random& random) const {
+    const std::array<glm::vec3, 3> corners =
+        rays_.corners(triangles_[triangle_of(hit.facet, hit.position)]);
+    const float root = std::sqrt(random.next());
+    const float along = root * random.next();
+    return corners[0] + (root - along) * (corners[1] - corners[0]) +
+           along * (corners[2] - corners[0]) + rays_.offset() * hit.geometric;
+}
+
+/// A mirror as bundles know it: all of a patch sends what has come in on it, each of its points
+/// about the mirrored direction to where that came from. False where the ray ends.
+bool CausticRays::scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& random) const {
+    const glm::mat3 world = frame_about(hit.geometric);
+    const glm::vec3 point = random_point(hit, random);
+    const glm::vec3 towards = glm::normalize(ray.origin - point) * world;  // its transpose
+    const Brdf& lobe = lobes_[facet_material_[hit.facet]];
+    const glm::vec2 u(random.next(), random.next());
+    const BrdfSample drawn = sample(lobe, towards, u, random.next());
+    if (!(drawn.pdf > 0.0F) || drawn.w_in.z <= 0.0F) {
+        return false;
+    }
+    // Reciprocal: what is drawn as coming in is where the light goes.
+    ray.flux *= evaluate(lobe, towards, drawn.w_in) * (drawn.w_in.z / drawn.pdf);
+    ray.direction = glm::normalize(world * drawn.w_in);
+    ray.origin = point;
+    return ray.flux != glm::vec3(0.0F);
+}
+
+/// As bundles go; what arrives is taken away.
+void CausticRays::follow_as_bundles(LightRay ray, Random& random,
+                                    std::vector<CausticDeposit>& deposits) const {
+    glm::vec3 from = ray.origin;  // straight through glass: behind the last of it
+    for (int i = 0; i < most_bundle_surfaces; ++i) {
+        const std::optional<SpecularRays::Hit> hit = rays_.meet(from, ray.direction);
+        if (!hit || rays_.absorbs(hit->facet, hit->front)) {
+            return;
+        }
+        const SpecularKind kind = rays_.surface(*hit).kind;
+        if (kind == SpecularKind::none) {
+            const std::uint32_t patch = patch_at(hit->facet, hit->front, hit->position);
+            if (patch != PatchMesh::no_patch) {
+                deposits.push_back({patch, -ray.flux});
+            }
+            return;
+        }
+        if (kind != SpecularKind::mirror) {
+            from = hit->position - rays_.offset() * hit->geometric;
+            continue;
+        }
+        const float before = luminance(ray.flux);
+        if (!scatter(ray, *hit, random)) {
+            return;
+        }
+        from = ray.origin;
+        const float chance = std::clamp(luminance(ray.flux) / before, 0.05F, 1.0F);
+        if (i >= certain_surfaces) {
+            if (random.next() >= chance) {
+                return;
+            }
+            ray.flux /= chance;
+        }
+    }
+}
+
+std::vector<CausticDeposit> CausticRays::trace(const CausticLights& lights, std::uint64_t seed,
+                                               std::uint64_t first, std::uint32_t count) const {
+    const std::uint32_t chunks = (count + chunk_rays - 1) / chunk_rays;
+    std::vector<std::vector<CausticDeposit>> of_chunk(chunks);
+    tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t chunk) {
+        const std::uint32_t end = std::min((chunk + 1) * chunk_rays, count);
+        for (std::uint32_t i = chunk * chunk_rays; i < end; ++i) {
+            if (const auto ray = lights.ray(numbers_of(seed, first + i))) {
+                Random random(seed, first + i);
+                follow(*ray, random, of_chunk[chunk]);
+            }
+        }
+    });
+    std::vector<CausticDeposit> deposits;
+    for (const auto& part : of_chunk) {
+        deposits.insert(deposits.end(), part.begin(), part.end());
+    }
+    return deposits;
+}
+
+}  // namespace raybundle
