@@ -33,7 +33,7 @@ float unit(std::uint64_t bits) {
 /// Numbers of one ray: the additive recurrence of Roberts 2018 ("The Unreasonable Effectiveness of
 /// Quasirandom Sequences") in 64-bit fixed point, shifted by the seed.
 CausticLights::Numbers numbers_of(std::uint64_t seed, std::uint64_t index) {
-    constexpr double root = 1.1347241384015194;  // of x^7 = x + 1
+    constexpr double root = 1.1127756842787055;  // of x^7 = x + 1
     CausticLights::Numbers numbers{};
     double step = 1.0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
