@@ -25,7 +25,6 @@ constexpr double pressed_solver_share = 0.33;
 constexpr double solver_burst_ms = 50.0;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
-constexpr const char* no_memory = "the server has no memory for a picture of this size";
 /// llvmpipe compiles a shader again for textures whose sizes are powers of two, and for buffer
 /// textures whose size in bytes is a multiple of 65 536 (Mesa 22.3 takes a part of it for a number
 /// of levels): 800x800 is drawn as 24x24 is, 640x480 as 192x192, 512x512 as 64x64. The first time

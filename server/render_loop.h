@@ -66,6 +66,7 @@ class RenderLoop {
 
   private:
     using Clock = std::chrono::steady_clock;
+    static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
     void rehearse(const glm::uvec2& size);
     void handle(const ClientEvent& event);

@@ -21,7 +21,6 @@ constexpr double forget_limit_ms = 60e3;     // and after this its picture is fo
 /// the time that frames take; and while nobody does, so that who begins to does not wait long.
 constexpr double least_receive_ms = 40.0;
 constexpr double resting_receive_ms = 100.0;
-constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)

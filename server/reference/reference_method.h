@@ -46,7 +46,8 @@ class ReferenceMethod {
 };
 
 /// The picture's own part of a method's input, and what it is made from; the ray scene must outlive
-/// the method. Throws std::runtime_error where a method other than `path` is asked for glass.
+/// the method. Throws std::runtime_error where a method other than `path` is asked for glass
+/// or for diffuse transmission.
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed);

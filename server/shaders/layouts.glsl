@@ -210,6 +210,10 @@ struct MaterialDetails {
 };
 #define MATERIAL_DETAILS_TEXELS 9
 
+#define MIN_ROUGHNESS 0.045  // smallest that is told apart, see scene/ggx_albedo.h
+#define LEAST_VIEW_COSINE 0.02  // between a mapped normal and the view, see scene/normal_map.h
+#define LEAST_MAP_HEIGHT 1e-3  // z of a normal map's normal at least
+#define UNLIT_WHITE 80.0  // cd/m^2, see scene/scene.h
 #define MAX_ALBEDO 0.999  // of a base colour: the iteration contracts
 #define REFLECTANCE_NODES 80
 #define LOBE_NONE 0

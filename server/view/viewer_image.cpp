@@ -264,7 +264,8 @@ bool ViewerImage::smooth_step() {
     return !edges_->complete();
 }
 
-void ViewerImage::refresh_geometry(float kept_weight) {
+/// moved: objects have just moved, and the picture still shows them at their old places.
+void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
             glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
@@ -291,9 +292,9 @@ void ViewerImage::refresh_geometry(float kept_weight) {
     if (specular_) {
         specular_->begin();
     }
-    resolve(!has_picture_ || kept_weight <= 0.0F   ? programs_.resolve_new
-            : scene_.moved_objects().x == NO_PATCH ? programs_.resolve_reprojected
-                                                   : programs_.resolve_moved,
+    resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
+            : moved                              ? programs_.resolve_moved
+                                                 : programs_.resolve_reprojected,
             whole_picture(), kept_weight);
     shoot_first();
     batches_.clear();

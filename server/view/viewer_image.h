@@ -178,7 +178,7 @@ class ViewerImage : public BundleReceiver {
     void copy_rows(const PixelRectangle& rectangle) const;
     void resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
                  float kept_weight);
-    void refresh_geometry(float kept_weight);
+    void refresh_geometry(float kept_weight, bool moved = false);
     void refresh_moved();
     void allocate_gloss();
     void allocate_first_shot();

@@ -16,7 +16,7 @@ void ViewerImage::begin_special() {
     if (has_picture_ && store_.first_shot() == nullptr) {
         refresh_moved();
     } else {
-        refresh_geometry(store_.kept_share(parameters_.weights.x));
+        refresh_geometry(store_.kept_share(parameters_.weights.x), true);
     }
     clear_increments();
 }
