@@ -66,6 +66,8 @@
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 
+#define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
+#define SHOOTER_LIFT 1e-6  // of it: how far shooters stand above their patches, see solution_shooters.comp
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed

@@ -13,6 +13,7 @@ layout(std430, binding = BINDING_SHOOTERS) writeonly buffer ShooterBuffer { Shoo
 uniform uint patch_count;
 uniform uint block_count;
 uniform uint shooter_count;
+uniform float diameter;  // of the scene, m
 /// Per shooter: x, y = leading and trailing 24 bits of the number that chooses the patch; z, w = point.
 uniform vec4 random_numbers[16];
 
@@ -80,7 +81,9 @@ void main() {
     vec3 position = world[v.x].xyz * (1.0 - root) + world[v.y].xyz * (root * (1.0 - u.w)) +
                     world[v.z].xyz * (root * u.w);
     Shooter s;
-    s.position = position;
+    // Beyond the rounding of positions: a shooter that came out below its own plane, or its neighbours', would
+    // not see what lies near the horizon.
+    s.position = position + SHOOTER_LIFT * diameter * patches[id].normal;
     s.patch_id = id;
     s.normal = patches[id].normal;
     s.density = radiance[id].w;

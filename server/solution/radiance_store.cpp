@@ -200,6 +200,7 @@ std::vector<layout::Shooter> RadianceStore::choose_shooters(std::span<const glm:
     }
     choose_.set("patch_count", patch_count_);
     choose_.set("block_count", block_count_);
+    choose_.set("diameter", scene_.diameter());
     choose_.set("shooter_count", static_cast<unsigned>(count));
     choose_.set("random_numbers", numbers.first(count));
     choose_.dispatch(count);
