@@ -15,9 +15,11 @@ namespace {
 
 constexpr int encoder_threads = 1;
 constexpr double solution_interval_s = 0.25;
-/// Of the time: of first frames while others move; of statistics; of the solver where frames of
-/// those who move leave none. In ms: what each may take at once.
+/// Of the time: of first frames while others move, for those who answer and those who do not; of
+/// statistics; of the solver where frames of those who move leave none. In ms: what each may take
+/// at once.
 constexpr double greeting_share = 0.1;
+constexpr double silent_greeting_share = 0.03;
 constexpr double greeting_burst_ms = 250.0;
 constexpr double statistics_share = 0.1;
 constexpr double statistics_burst_ms = 20.0;
@@ -60,6 +62,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
       solver_(std::make_unique<Solver>(scene_, mesh_, settings.solver)),
       programs_(std::make_unique<ViewPrograms>(solver_->scene())),
       greeting_(greeting_share, greeting_burst_ms),
+      silent_greeting_(silent_greeting_share, greeting_burst_ms),
       statistics_(statistics_share, statistics_burst_ms),
       solving_(pressed_solver_share, solver_burst_ms),
       encoder_(encoder_threads,

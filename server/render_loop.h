@@ -111,6 +111,8 @@ class RenderLoop {
     void send_frame(const Wanted& wanted);
     void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
+    bool greet(const DueFrames& due, bool anybody_moves);
+    bool greet_within(TimeBudget& budget, std::span<const Wanted> newcomers);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
     [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
@@ -142,7 +144,7 @@ class RenderLoop {
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
     ReceiverRota rota_;
-    TimeBudget greeting_, statistics_, solving_;
+    TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
     LoopMetrics metrics_;
