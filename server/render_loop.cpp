@@ -72,6 +72,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
                    server_.inbox().interrupt();
                }),
       review_(log, solver_->scene().patch_count()),
+      targets_(log),
       snapshots_(server) {
     epoch_ = log_.epoch();
 }
@@ -172,6 +173,9 @@ void RenderLoop::join(const ClientEvent& event) {
     }
     sessions_[event.viewer] =
         std::make_unique<ViewerSession>(event.viewer, hello, scene_.cameras.front());
+    if (const v1::SetTarget* const target = targets_.of(hello.name())) {
+        sessions_[event.viewer]->set_target(*target);
+    }
     v1::ServerMessage message;
     v1::Welcome* welcome = message.mutable_welcome();
     welcome->set_protocol("1.0");
@@ -214,7 +218,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 session.set_display(message.set_display());
                 break;
             case v1::ClientMessage::kSetTarget:
-                session.set_target(message.set_target());
+                if (!set_target(session, event)) {
+                    return;
+                }
                 break;
             case v1::ClientMessage::kMoveObject:
             case v1::ClientMessage::kSetLight:

@@ -132,6 +132,17 @@ bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) 
     return true;
 }
 
+/// False where it has been refused and answered.
+bool RenderLoop::set_target(ViewerSession& session, const ClientEvent& event) {
+    const v1::SetTarget& target = event.message.set_target();
+    if (!targets_.keep(session.name(), target)) {
+        server_.reply_error(event, v1::Error::INTERNAL, "the target could not be saved");
+        return false;
+    }
+    session.set_target(target);
+    return true;
+}
+
 void RenderLoop::request_scenes(const ViewerSession& session, const ClientEvent& event) {
     if (settings_.scene_requests) {
         settings_.scene_requests(event, session.name());
