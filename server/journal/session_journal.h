@@ -18,7 +18,7 @@ class JournalError : public std::runtime_error {
 };
 
 /// What viewers leave in a session besides changes; the numbers are stored.
-enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2 };
+enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3 };
 
 struct JournalSettings {
     std::string file;
