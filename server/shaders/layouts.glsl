@@ -14,7 +14,7 @@
 #define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch
 #define BINDING_BACK_PATCH 5       // uint[]: patch of a triangle's back side or NO_PATCH
 #define BINDING_SURFACES 6         // PatchSurface[]
-#define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j, 1/m^2
+#define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j of the larger of a patch's two places, 1/m^2
 #define BINDING_IRRADIANCE 8       // vec4[]: mean irradiance (radiance units), w = weight
 #define BINDING_ACCUMULATOR 9      // uint[6 * patches]: fixed-point sums, see accumulator.glsl
 #define BINDING_POWER 10           // vec4[]: see solution_power.comp
@@ -35,7 +35,7 @@
 #define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
 #define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
-#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see solution_checkpoint.comp
+#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see checkpoint.glsl
 #define BINDING_PICK 29            // PickResult[]
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
 #define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
@@ -146,13 +146,17 @@ struct Shooter {
     vec3 position;   // world space
     uint patch_id;
     vec3 normal;     // world space, unit
-    float density;   // p_j / A_j, 1/m^2
+    float density;   // p_j / A_j, 1/m^2; 0: the patch has no area
     uint object;
     uint glossy;     // 1: its radiance depends on direction
     float probability;  // p_j
     uint emitter;    // 1: it sends light of its own
     vec4 constant_radiance;  // rgb: see Balance
     vec4 lobe;       // world space: where most of the accepted light is reflected to; w: share of the power
+    vec3 position_before;  // the same point at place 1
+    float density_before;
+    vec3 normal_before;
+    uint pad0;
 };
 
 struct Counters {

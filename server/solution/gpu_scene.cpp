@@ -309,6 +309,7 @@ void GpuScene::place_geometry(Place place) const {
 
 void GpuScene::settle() {
     moved_ = glm::uvec4(NO_PATCH);
+    rescaled_ = false;
     const auto half = world_from_object_.begin() + object_count_;
     std::copy(world_from_object_.begin(), half, half);
     upload_matrices();
