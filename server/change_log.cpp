@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "scene_messages.h"
@@ -53,11 +55,41 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     if (surfaces) {
         refresh_surfaces(scene, materials, mesh);
     }
-    history_ = SceneHistory(epoch_);
+    restore_history(scene);
     spdlog::info("the session goes on at epoch {}", epoch_);
 }
 
-bool ChangeLog::record(v1::SceneChanged& change) {
+/// What can be gone back to in this session. scene: at its present state.
+void ChangeLog::restore_history(const Scene& scene) {
+    history_ = SceneHistory(epoch_);
+    std::vector<v1::SceneChanged> past;
+    try {
+        past = journal_->past();
+    } catch (const JournalError& error) {
+        spdlog::error("changes before the restart cannot be undone: {}", error.what());
+    }
+    const bool fits = std::all_of(past.begin(), past.end(), [&scene](const auto& before) {
+        return problem_of(scene, before).code() == v1::Error::CODE_UNSPECIFIED;
+    });
+    if (past.empty() || !fits) {
+        return;
+    }
+    // After a change its subject is what it is before its next one.
+    std::vector<v1::SceneChanged> after(past.size());
+    std::map<ChangeSubject, v1::SceneChanged> later;
+    for (std::size_t i = past.size(); i-- > 0;) {
+        const auto known = later.find(subject_of(past[i]));
+        after[i] = known != later.end() ? known->second : state_of(scene, past[i]);
+        after[i].set_epoch(past[i].epoch());
+        later[subject_of(past[i])] = past[i];
+    }
+    history_ = SceneHistory(past.front().epoch() - 1);
+    for (std::size_t i = 0; i < past.size(); ++i) {
+        history_.note(past[i], after[i]);
+    }
+}
+
+bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before) {
     change.set_epoch(epoch_ + 1);
     if (required_ && !journal_) {
         ++failures_;
@@ -65,7 +97,7 @@ bool ChangeLog::record(v1::SceneChanged& change) {
     }
     try {
         if (journal_) {
-            journal_->append(change);
+            journal_->append(change, before);
         }
     } catch (const JournalError& error) {
         ++failures_;

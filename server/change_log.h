@@ -35,8 +35,9 @@ class ChangeLog {
     /// Brings a scene as read from its file to the state of the journal.
     void restore(Scene& scene, PatchMesh& mesh);
 
-    /// Numbers the change and stores it. False: it could not be stored and must not be made.
-    [[nodiscard]] bool record(v1::SceneChanged& change);
+    /// Numbers the change and stores it, with what its subject is like before it. False: it could
+    /// not be stored and must not be made.
+    [[nodiscard]] bool record(v1::SceneChanged& change, const v1::SceneChanged& before);
 
     /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
     /// be stored.
@@ -58,6 +59,7 @@ class ChangeLog {
 
   private:
     void open();
+    void restore_history(const Scene& scene);
 
     JournalSettings settings_;
     bool required_ = false;

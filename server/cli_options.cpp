@@ -151,7 +151,8 @@ void add_render(CLI::App& app, Options& o) {
     app.add_option("--error", o.error, "Stop when the estimated relative error is below, e.g. 0.02")
         ->check(CLI::PositiveNumber);
     app.add_option("--method", o.method,
-                   "On the GPU combined, parallel-layered, perspective; on the CPU, as references, "
+                   "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
+                   "CPU, as references, "
                    "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
                    "metropolis, photon-map")
         ->capture_default_str();

@@ -15,9 +15,11 @@ namespace {
 
 constexpr int encoder_threads = 1;
 constexpr double solution_interval_s = 0.25;
-/// Of the time: of first frames while others move; of statistics; of the solver where frames of
-/// those who move leave none. In ms: what each may take at once.
+/// Of the time: of first frames while others move, for those who answer and those who do not; of
+/// statistics; of the solver where frames of those who move leave none. In ms: what each may take
+/// at once.
 constexpr double greeting_share = 0.1;
+constexpr double silent_greeting_share = 0.03;
 constexpr double greeting_burst_ms = 250.0;
 constexpr double statistics_share = 0.1;
 constexpr double statistics_burst_ms = 20.0;
@@ -25,7 +27,6 @@ constexpr double pressed_solver_share = 0.33;
 constexpr double solver_burst_ms = 50.0;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
-constexpr const char* no_memory = "the server has no memory for a picture of this size";
 /// llvmpipe compiles a shader again for textures whose sizes are powers of two, and for buffer
 /// textures whose size in bytes is a multiple of 65 536 (Mesa 22.3 takes a part of it for a number
 /// of levels): 800x800 is drawn as 24x24 is, 640x480 as 192x192, 512x512 as 64x64. The first time
@@ -60,6 +61,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
       solver_(std::make_unique<Solver>(scene_, mesh_, settings.solver)),
       programs_(std::make_unique<ViewPrograms>(solver_->scene())),
       greeting_(greeting_share, greeting_burst_ms),
+      silent_greeting_(silent_greeting_share, greeting_burst_ms),
       statistics_(statistics_share, statistics_burst_ms),
       solving_(pressed_solver_share, solver_burst_ms),
       encoder_(encoder_threads,
@@ -69,6 +71,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
                    server_.inbox().interrupt();
                }),
       review_(log, solver_->scene().patch_count()),
+      targets_(log),
       snapshots_(server) {
     epoch_ = log_.epoch();
 }
@@ -169,6 +172,9 @@ void RenderLoop::join(const ClientEvent& event) {
     }
     sessions_[event.viewer] =
         std::make_unique<ViewerSession>(event.viewer, hello, scene_.cameras.front());
+    if (const v1::SetTarget* const target = targets_.of(hello.name())) {
+        sessions_[event.viewer]->set_target(*target);
+    }
     v1::ServerMessage message;
     v1::Welcome* welcome = message.mutable_welcome();
     welcome->set_protocol("1.0");
@@ -211,7 +217,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 session.set_display(message.set_display());
                 break;
             case v1::ClientMessage::kSetTarget:
-                session.set_target(message.set_target());
+                if (!set_target(session, event)) {
+                    return;
+                }
                 break;
             case v1::ClientMessage::kMoveObject:
             case v1::ClientMessage::kSetLight:

@@ -23,6 +23,7 @@
 #include "stream/frame_scheduler.h"
 #include "stream/receiver_rota.h"
 #include "stream/time_budget.h"
+#include "target_book.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 #include "viewer_session.h"
@@ -66,6 +67,7 @@ class RenderLoop {
 
   private:
     using Clock = std::chrono::steady_clock;
+    static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
     void rehearse(const glm::uvec2& size);
     void handle(const ClientEvent& event);
@@ -83,6 +85,7 @@ class RenderLoop {
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
     void follow(ViewerSession& session, const ClientEvent& event);
@@ -109,6 +112,8 @@ class RenderLoop {
     [[nodiscard]] DueFrames due_frames(Clock::time_point now);
     bool send_frames();
     void send_frame(const Wanted& wanted);
+    bool greet(const DueFrames& due, bool anybody_moves);
+    bool greet_within(TimeBudget& budget, std::span<const Wanted> newcomers);
     void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
@@ -142,12 +147,13 @@ class RenderLoop {
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
     ReceiverRota rota_;
-    TimeBudget greeting_, statistics_, solving_;
+    TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
     LoopMetrics metrics_;
     FrameEncoder encoder_;
     ReviewBoard review_;
+    TargetBook targets_;
     SnapshotDesk snapshots_;
     bool presence_changed_ = false;
     Clock::time_point last_presence_;

@@ -78,7 +78,7 @@ bool RenderLoop::record(PendingChange& pending) {
     if (!pending.requests.empty()) {
         pending.change.set_by(pending.requests.back().viewer);
     }
-    if (!log_.record(pending.change)) {
+    if (!log_.record(pending.change, before)) {
         undo_failed_ = true;
         for (const ClientEvent& request : pending.requests) {
             server_.reply_error(request, v1::Error::INTERNAL, not_saved);

@@ -21,7 +21,6 @@ constexpr double forget_limit_ms = 60e3;     // and after this its picture is fo
 /// the time that frames take; and while nobody does, so that who begins to does not wait long.
 constexpr double least_receive_ms = 40.0;
 constexpr double resting_receive_ms = 100.0;
-constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -132,6 +131,17 @@ bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) 
     return true;
 }
 
+/// False where it has been refused and answered.
+bool RenderLoop::set_target(ViewerSession& session, const ClientEvent& event) {
+    const v1::SetTarget& target = event.message.set_target();
+    if (!targets_.keep(session.name(), target)) {
+        server_.reply_error(event, v1::Error::INTERNAL, "the target could not be saved");
+        return false;
+    }
+    session.set_target(target);
+    return true;
+}
+
 void RenderLoop::request_scenes(const ViewerSession& session, const ClientEvent& event) {
     if (settings_.scene_requests) {
         settings_.scene_requests(event, session.name());
@@ -189,7 +199,8 @@ void RenderLoop::refuse_picture(ViewerSession& session, const std::string& reaso
 struct RenderLoop::DueFrames {
     std::vector<FrameRequest> requests;
     std::map<ViewerId, FrameAdvice> advices;
-    std::vector<Wanted> newcomers;  ///< have never acknowledged a frame
+    std::vector<Wanted> newcomers;  ///< have never acknowledged a frame, but answered a ping
+    std::vector<Wanted> silent;     ///< have never answered anything
     bool moving = false;            ///< one of the requests is of somebody who moves
 };
 
@@ -217,7 +228,7 @@ RenderLoop::DueFrames RenderLoop::due_frames(Clock::time_point now) {
             due.advices[id] = advice;
             due.moving = due.moving || session->moving(now);
         } else {
-            due.newcomers.push_back({id, advice});
+            (server_.answers(id) ? due.newcomers : due.silent).push_back({id, advice});
         }
     }
     return due;
@@ -238,16 +249,29 @@ bool RenderLoop::send_frames() {
         send_frame({viewer, due.advices.at(viewer)});
         std::erase_if(due.requests, [&](const FrameRequest& r) { return r.viewer == viewer; });
     }
-    const auto start = Clock::now();
-    if (moving_ms <= 0.0) {
-        send_first_frames(due.newcomers, frame_slice_ms);
-    } else if (!due.newcomers.empty() && greeting_.may(Server::now_ms())) {
-        send_first_frames(due.newcomers, 0.0);
-        greeting_.charge(milliseconds_since(start));
-    } else {
-        return any;
+    return greet(due, moving_ms > 0.0) || any;
+}
+
+/// First frames: as many as a slice has time for; while somebody moves, one at a time within a
+/// budget. Connections that nobody reads do not delay who answers. True if there were any.
+bool RenderLoop::greet(const DueFrames& due, bool anybody_moves) {
+    if (anybody_moves) {
+        const bool answering = greet_within(greeting_, due.newcomers);
+        return greet_within(silent_greeting_, due.silent) || answering;
     }
-    return any || !due.newcomers.empty();
+    const std::vector<Wanted>& first = due.newcomers.empty() ? due.silent : due.newcomers;
+    send_first_frames(first, frame_slice_ms);
+    return !first.empty();
+}
+
+bool RenderLoop::greet_within(TimeBudget& budget, std::span<const Wanted> newcomers) {
+    if (newcomers.empty() || !budget.may(Server::now_ms())) {
+        return false;
+    }
+    const auto start = Clock::now();
+    send_first_frames(newcomers, 0.0);
+    budget.charge(milliseconds_since(start));
+    return true;
 }
 
 void RenderLoop::send_frame(const Wanted& wanted) {

@@ -100,8 +100,8 @@ bool SnapshotDesk::done() {
     const ImageStatistics& statistics = image_->statistics();
     const auto wanted = static_cast<double>(request.event.message.snapshot().relative_error());
     return Clock::now() - request.since > most_time ||
-           (image_->samples() >= least_samples && statistics.known &&
-            statistics.error_high <= wanted);
+           (image_->samples() >= least_samples && statistics.samples >= least_samples &&
+            statistics.meets(wanted));
 }
 
 ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceStore& store,

@@ -15,6 +15,7 @@ namespace {
 constexpr double moving_s = 0.4;             // after the last change a viewer counts as moving
 constexpr double moving_interval_s = 0.016;  // between frames while moving
 constexpr double statistics_interval_s = 0.15;
+constexpr std::uint64_t target_samples = 32;  // before an error is believed
 constexpr glm::uvec2 default_size(800, 600);
 
 double seconds(ViewerSession::Clock::duration d) {
@@ -170,7 +171,7 @@ bool ViewerSession::target_met() {
     }
     if (target_error_ > 0.0) {
         const ImageStatistics& statistics = image_->statistics();
-        return statistics.known && statistics.error_high <= target_error_;
+        return statistics.samples >= target_samples && statistics.meets(target_error_);
     }
     return target_seconds_ > 0.0 && since_change_s(Clock::now()) >= target_seconds_;
 }
@@ -275,15 +276,20 @@ void ViewerSession::fill_solution(v1::Solution* solution) {
     solution->set_relative_error(static_cast<float>(statistics.relative_error));
     solution->set_error_low(static_cast<float>(statistics.error_low));
     solution->set_error_high(static_cast<float>(statistics.error_high));
-    const double elapsed = since_change_s(Clock::now());
+    const auto rate = static_cast<double>(solution->iterations_per_second());
     if (target_error_ > 0.0) {
-        // The error falls like 1/sqrt(time).
-        const double ratio = statistics.error_high / target_error_;
-        solution->set_seconds_to_target(
-            static_cast<float>(std::max(0.0, elapsed * (ratio * ratio - 1.0))));
+        const double more = image_->samples_factor_to(target_error_) - 1.0;
+        const double samples = more * static_cast<double>(image_->samples());
+        if (target_met()) {
+            if (statistics.error_high <= target_error_) {
+                solution->set_seconds_to_target(0.0F);
+            }
+        } else if (std::isfinite(more) && rate > 0.0) {
+            solution->set_seconds_to_target(static_cast<float>(samples / rate));
+        }
     } else if (target_seconds_ > 0.0) {
         solution->set_seconds_to_target(
-            static_cast<float>(std::max(0.0, target_seconds_ - elapsed)));
+            static_cast<float>(std::max(0.0, target_seconds_ - since_change_s(Clock::now()))));
     }
 }
 

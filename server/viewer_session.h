@@ -76,7 +76,7 @@ class ViewerSession {
     [[nodiscard]] Clock::time_point last_statistics() const { return last_statistics_; }
     /// Queues new ones. Requires has_image().
     void refresh_statistics(Clock::time_point now);
-    /// Error, interval and prediction for a `solution` message.
+    /// Error, interval and prediction for a `solution` message that has its iterationsPerSecond.
     void fill_solution(v1::Solution* solution);
 
     /// Nobody seems to look: frames stay unacknowledged.

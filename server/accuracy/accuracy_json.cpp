@@ -58,7 +58,7 @@ Json json_of(const ErrorCurve& curve) {
     Json json = {{"method", curve.method},
                  {"name", curve.name},
                  {"knob", curve.knob.empty() ? Json(nullptr) : Json(curve.knob)},
-                 {"pixelFilter", filter_name(curve.filter)},
+                 {"pixelFilter", filter_name(PixelFilter::box)},
                  {"settings", curve.settings},
                  {"secondsToError", json_of_times(curve)},
                  {"points", Json::array()}};

@@ -190,8 +190,8 @@ std::string settings_text(const ErrorCurve& curve) {
 
 std::string reference_text(const ReferenceReport& reference) {
     const std::string pixels = reference.filter == PixelFilter::centre
-                                   ? "pixel centres, as ray-bundle pictures"
-                                   : "pixel areas, as pictures of the CPU methods";
+                                   ? "pixel centres"
+                                   : "means over pixels, as all pictures";
     if (!reference.noise) {
         return reference.file + ", accuracy unknown";
     }

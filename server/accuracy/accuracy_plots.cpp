@@ -67,16 +67,15 @@ NamedPlot comparison(const AccuracyReport& report, Abscissa abscissa) {
         fmt::format("{}, {}×{}: error over {}", report.scene, report.size.x, report.size.y,
                     abscissa == Abscissa::seconds ? "time" : "iterations"),
         abscissa);
-    const bool bundles =
-        std::any_of(report.curves.begin(), report.curves.end(),
-                    [](const ErrorCurve& c) { return c.filter == PixelFilter::centre; });
+    const bool bundles = std::any_of(report.curves.begin(), report.curves.end(),
+                                     [](const ErrorCurve& c) { return c.by_bundles; });
     std::size_t style = 0;
     for (const ErrorCurve& curve : report.curves) {
         if (!curve.knob.empty()) {
             continue;
         }
         // What a CPU method calls an iteration is something else.
-        if (abscissa == Abscissa::seconds || !bundles || curve.filter == PixelFilter::centre) {
+        if (abscissa == Abscissa::seconds || !bundles || curve.by_bundles) {
             plot.series.push_back(series_of(curve, style, abscissa));
         }
         ++style;

@@ -36,10 +36,10 @@ struct CurvePoint {
 
 /// Errors of one method with one choice of settings, over time.
 struct ErrorCurve {
-    std::string method;  ///< of --method
-    std::string name;    ///< in plots: the method, or what was changed in it
-    std::string knob;    ///< which setting was varied; empty: none
-    PixelFilter filter = PixelFilter::centre;
+    std::string method;       ///< of --method
+    std::string name;         ///< in plots: the method, or what was changed in it
+    std::string knob;         ///< which setting was varied; empty: none
+    bool by_bundles = false;  ///< else by a method on the CPU
     nlohmann::ordered_json settings = nlohmann::ordered_json::object();
     std::vector<CurvePoint> points;
 };

@@ -26,13 +26,6 @@ double radical_inverse(unsigned base, std::uint64_t index) {
     return result;
 }
 
-std::uint64_t mix_bits(std::uint64_t value) {
-    value += 0x9e3779b97f4a7c15ULL;
-    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
-    return value ^ (value >> 31U);
-}
-
 double RandomisedHalton::shift(unsigned dimension) const {
     return static_cast<double>(mix_bits(key_ * 131 + dimension) >> 11U) * 0x1.0p-53;
 }

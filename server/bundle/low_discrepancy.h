@@ -3,14 +3,12 @@
 
 #include <cstdint>
 
+#include "scene/mix_bits.h"
+
 namespace raybundle {
 
 /// Radical inverse of an index in a prime base (van der Corput): in [0, 1).
 double radical_inverse(unsigned base, std::uint64_t index);
-
-/// 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom Number
-/// Generators"): decorrelates small integers.
-std::uint64_t mix_bits(std::uint64_t value);
 
 /// One dimension of a Halton sequence, randomised by a Cranley-Patterson rotation (1976) that
 /// depends on the seed and the dimension.

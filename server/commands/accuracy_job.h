@@ -24,10 +24,6 @@ struct PlannedCurve {
     [[nodiscard]] bool uses_bundles() const {
         return std::holds_alternative<StrategyProbabilities>(how);
     }
-    /// What its pixels show: ray-bundle pictures have one sample, in the centre.
-    [[nodiscard]] PixelFilter filter() const {
-        return uses_bundles() ? PixelFilter::centre : PixelFilter::box;
-    }
 };
 
 struct AccuracyJob {

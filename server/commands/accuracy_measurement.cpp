@@ -75,14 +75,31 @@ AccuracyMeasurement::AccuracyMeasurement(const Options& options, const AccuracyJ
       rays_(ray_scene_, camera_, job.size),
       measured_(measured_pixels(ray_scene_, rays_)),
       pictures_(std::size_t{job.size.x} * job.size.y) {
+    leave_out_unable();
     if (std::find(measured_.begin(), measured_.end(), true) == measured_.end()) {
         throw std::runtime_error("every pixel sees a lamp or the sky: nothing to measure");
     }
 }
 
+/// Of the methods that nobody has named, those go that cannot follow all of the scene's light.
+/// Throws std::runtime_error for others.
+void AccuracyMeasurement::leave_out_unable() {
+    std::erase_if(job_.curves, [this](const PlannedCurve& curve) {
+        const auto* kind = std::get_if<ReferenceKind>(&curve.how);
+        const std::string reason = kind ? reason_against(*kind, ray_scene_) : "";
+        if (!reason.empty() && !options_.methods.empty()) {
+            throw std::runtime_error("--methods: " + curve.method + ": " + reason);
+        }
+        if (!reason.empty()) {
+            spdlog::warn("{} is left out: {}", curve.method, reason);
+        }
+        return !reason.empty();
+    });
+}
+
 void AccuracyMeasurement::run() {
     run_methods();
-    make_references();
+    make_reference();
 }
 
 void AccuracyMeasurement::run_methods() {
@@ -113,68 +130,53 @@ MethodRun AccuracyMeasurement::run_once(const PlannedCurve& plan, std::uint64_t 
                : run_on_cpu(around, ray_scene_, std::get<ReferenceKind>(plan.how), seed);
 }
 
-ReferenceKey AccuracyMeasurement::key(PixelFilter filter) const {
+/// All pictures are means over the pixels' areas, and so is what they are compared with.
+ReferenceKey AccuracyMeasurement::key() const {
     return {scene_fingerprint(options_.scene, reading_options(options_)), camera_, job_.size,
-            filter};
+            PixelFilter::box};
 }
 
-std::string AccuracyMeasurement::reference_file(PixelFilter filter) const {
-    return (fs::path(options_.output) /
-            (filter == PixelFilter::centre ? "reference.exr" : "reference_area.exr"))
-        .string();
+std::string AccuracyMeasurement::own_reference_file() const {
+    return (fs::path(options_.output) / "reference_area.exr").string();
 }
 
 void AccuracyMeasurement::take_named_reference() {
-    ReferencePicture reference = load_named_reference(options_.reference, key(PixelFilter::centre));
-    one_for_all_ = !reference.noise.has_value();
-    if (one_for_all_) {
+    reference_ = load_named_reference(options_.reference, key());
+    reference_file_ = options_.reference;
+    if (!reference_.noise) {
         spdlog::warn("{}: has no .json file of ours beside it, so its own noise is taken for 0",
                      options_.reference);
+    } else if (reference_.filter != PixelFilter::box) {
+        throw std::runtime_error(options_.reference +
+                                 ": shows pixel centres, but pictures show means over pixels");
     }
-    reference_files_[reference.filter] = options_.reference;
-    references_.emplace(reference.filter, std::move(reference));
 }
 
-void AccuracyMeasurement::make_references() {
+void AccuracyMeasurement::make_reference() {
     if (!options_.reference.empty()) {
         take_named_reference();
+        return;
     }
-    for (const PixelFilter filter : {PixelFilter::centre, PixelFilter::box}) {
-        const bool wanted =
-            std::any_of(job_.curves.begin(), job_.curves.end(),
-                        [&](const PlannedCurve& curve) { return curve.filter() == filter; });
-        if (!wanted || one_for_all_ || references_.count(filter) > 0) {
-            continue;
-        }
-        reference_files_[filter] = reference_file(filter);
-        const ReferenceJob job{ray_scene_,
-                               lights_,
-                               rays_,
-                               measured_,
-                               key(filter),
-                               reference_files_[filter],
-                               mixed_bits(options_.seed ^ 0x7265666572656e63ULL),
-                               job_.reference_seconds,
-                               [this](const ReferencePicture& r) { return best_error(r); }};
-        references_.emplace(filter, make_reference(job, progress_));
-    }
-}
-
-const ReferencePicture& AccuracyMeasurement::reference_for(PixelFilter filter) const {
-    return one_for_all_ ? references_.begin()->second : references_.at(filter);
+    reference_file_ = own_reference_file();
+    const ReferenceJob job{ray_scene_,
+                           lights_,
+                           rays_,
+                           measured_,
+                           key(),
+                           reference_file_,
+                           mixed_bits(options_.seed ^ 0x7265666572656e63ULL),
+                           job_.reference_seconds,
+                           [this](const ReferencePicture& r) { return best_error(r); }};
+    reference_ = raybundle::make_reference(job, progress_);
 }
 
 ImageMetrics AccuracyMeasurement::metrics(std::size_t picture, const ReferencePicture& r) const {
     return compare_images(pictures_.picture(picture), r.radiance, measured_);
 }
 
-/// Every picture of the reference's filter counts.
 double AccuracyMeasurement::best_error(const ReferencePicture& reference) const {
     double best = std::numeric_limits<double>::infinity();
     for (const CurveRuns& curve : curves_) {
-        if (curve.plan->filter() != reference.filter) {
-            continue;
-        }
         for (const MethodRun& run : curve.runs) {
             for (const RunCheckpoint& checkpoint : run.checkpoints) {
                 CurvePoint point;
@@ -187,15 +189,14 @@ double AccuracyMeasurement::best_error(const ReferencePicture& reference) const 
 }
 
 ErrorCurve AccuracyMeasurement::measured_curve(const CurveRuns& curve) const {
-    const ReferencePicture& reference = reference_for(curve.plan->filter());
     std::vector<ErrorCurve> runs;
     for (const MethodRun& run : curve.runs) {
-        ErrorCurve measured{curve.plan->method,   curve.plan->name, curve.plan->knob,
-                            curve.plan->filter(), run.settings,     {}};
+        ErrorCurve measured{curve.plan->method,         curve.plan->name, curve.plan->knob,
+                            curve.plan->uses_bundles(), run.settings,     {}};
         for (const RunCheckpoint& checkpoint : run.checkpoints) {
             measured.points.push_back(checkpoint.point);
-            set_measured(measured.points.back(), metrics(checkpoint.picture, reference),
-                         reference.noise.value_or(ReferenceNoise{}));
+            set_measured(measured.points.back(), metrics(checkpoint.picture, reference_),
+                         reference_.noise.value_or(ReferenceNoise{}));
         }
         runs.push_back(std::move(measured));
     }
@@ -223,30 +224,28 @@ std::vector<ErrorCurve> AccuracyMeasurement::curves() const {
 }
 
 void AccuracyMeasurement::add_pictures(AccuracyReport& report) const {
-    const ReferencePicture& first = reference_for(curves_.front().plan->filter());
-    const double factor = automatic_display_factor(first.radiance, measured_);
+    const double factor = automatic_display_factor(reference_.radiance, measured_);
     report.pictures.push_back(
-        {"reference", 0.0, 0.0, png_of(tone_mapped(first.radiance, factor), job_.size), ""});
+        {"reference", 0.0, 0.0, png_of(tone_mapped(reference_.radiance, factor), job_.size), ""});
     double p95 = 1.0;
     for (const CurveRuns& curve : curves_) {
         const auto& last = curve.runs.front().checkpoints.back();
-        p95 = std::min(p95, metrics(last.picture, reference_for(curve.plan->filter())).p95);
+        p95 = std::min(p95, metrics(last.picture, reference_).p95);
     }
     report.map_scale = error_map_scale(p95);
     for (const CurveRuns& curve : curves_) {
         if (!curve.plan->knob.empty()) {
             continue;
         }
-        const ReferencePicture& reference = reference_for(curve.plan->filter());
         const auto& last = curve.runs.front().checkpoints.back();
         const std::vector<glm::dvec3> picture = pictures_.picture(last.picture);
         CurvePoint point;
-        set_measured(point, metrics(last.picture, reference),
-                     reference.noise.value_or(ReferenceNoise{}));
+        set_measured(point, metrics(last.picture, reference_),
+                     reference_.noise.value_or(ReferenceNoise{}));
         report.pictures.push_back(
             {curve.plan->name, last.point.seconds, point.relative_rmse,
              png_of(tone_mapped(picture, factor), job_.size),
-             png_of(error_map(picture, reference.radiance, measured_, report.map_scale),
+             png_of(error_map(picture, reference_.radiance, measured_, report.map_scale),
                     job_.size)});
     }
 }
@@ -262,17 +261,11 @@ AccuracyReport AccuracyMeasurement::report(const std::string& device) const {
     report.seconds = job_.seconds;
     report.seed = options_.seed;
     report.repeats = job_.repeats;
-    for (const auto& [filter, reference] : references_) {
-        // In the report's own folder a name is enough, and stays right where that is moved.
-        const fs::path file = reference_files_.at(filter);
-        const bool beside = file == fs::path(reference_file(filter));
-        report.references.push_back({filter, (beside ? file.filename() : file).string(),
-                                     reference.noise, reference.samples, reference.seconds});
-    }
-    std::stable_sort(report.references.begin(), report.references.end(),
-                     [](const ReferenceReport& a, const ReferenceReport&) {
-                         return a.filter == PixelFilter::centre;
-                     });
+    // In the report's own folder a name is enough, and stays right where that is moved.
+    const fs::path file = reference_file_;
+    const bool beside = file == fs::path(own_reference_file());
+    report.references.push_back({reference_.filter, (beside ? file.filename() : file).string(),
+                                 reference_.noise, reference_.samples, reference_.seconds});
     report.curves = curves();
     add_pictures(report);
     return report;

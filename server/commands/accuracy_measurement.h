@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,7 @@ struct CurveRuns {
     std::vector<MethodRun> runs;
 };
 
-/// Runs every planned curve of a job, makes the references that they need, and measures all. A job
+/// Runs every planned curve of a job, makes the reference that they need, and measures all. A job
 /// with ray bundles needs a GL context. Options, job and scene must outlive it.
 class AccuracyMeasurement {
   public:
@@ -32,13 +31,13 @@ class AccuracyMeasurement {
     [[nodiscard]] AccuracyReport report(const std::string& device) const;
 
   private:
+    void leave_out_unable();
     void run_methods();
     MethodRun run_once(const PlannedCurve& plan, std::uint64_t seed, double seconds_after);
-    void make_references();
+    void make_reference();
     void take_named_reference();
-    [[nodiscard]] ReferenceKey key(PixelFilter filter) const;
-    [[nodiscard]] std::string reference_file(PixelFilter filter) const;
-    [[nodiscard]] const ReferencePicture& reference_for(PixelFilter filter) const;
+    [[nodiscard]] ReferenceKey key() const;
+    [[nodiscard]] std::string own_reference_file() const;
     [[nodiscard]] ImageMetrics metrics(std::size_t picture, const ReferencePicture& r) const;
     [[nodiscard]] double best_error(const ReferencePicture& reference) const;
     [[nodiscard]] ErrorCurve measured_curve(const CurveRuns& curve) const;
@@ -46,7 +45,7 @@ class AccuracyMeasurement {
     void add_pictures(AccuracyReport& report) const;
 
     const Options& options_;
-    const AccuracyJob& job_;
+    AccuracyJob job_;
     const LoadedScene& loaded_;
     Camera camera_;
     RayScene ray_scene_;
@@ -56,9 +55,8 @@ class AccuracyMeasurement {
     PictureStore pictures_;
     AccuracyProgress progress_;
     std::vector<CurveRuns> curves_;
-    std::map<PixelFilter, ReferencePicture> references_;
-    std::map<PixelFilter, std::string> reference_files_;
-    bool one_for_all_ = false;  // a reference of unknown making stands for both filters
+    ReferencePicture reference_;
+    std::string reference_file_;
 };
 
 }  // namespace raybundle

@@ -108,6 +108,7 @@ MethodRun run_bundles(const RunSurroundings& around, const PlannedCurve& curve,
     BundleReceiver* const receivers[] = {&image};
     glFinish();
     const auto step = [&] {
+        image.smooth();  // within the time, as `render` does
         solver.step(receivers);
         glFinish();
     };

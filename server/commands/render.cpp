@@ -29,6 +29,8 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
     const Stopwatch stopwatch;
     image.smooth();
     constexpr std::uint64_t statistics_interval = 16;
+    constexpr std::uint64_t believed_samples = 32;
+    constexpr double unknown = 1e9;
     while (true) {
         solver.step(receivers);
         outcome.seconds = stopwatch.seconds();
@@ -37,8 +39,12 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
             glFinish();
             outcome.statistics = image.statistics();
         }
-        const double progress =
-            rule.progress(outcome.seconds, solver.iterations(), outcome.statistics.error_high);
+        // An error is believed from some samples on; finer than its pixels no picture can be.
+        const ImageStatistics& found = outcome.statistics;
+        const double estimate = found.samples < believed_samples ? unknown
+                                : found.at_floor()               ? 0.0
+                                                                 : found.error_high;
+        const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
         bar.show(progress, solver.iterations(), outcome.statistics.relative_error);
         if (progress >= 1.0) {
             break;
@@ -47,6 +53,10 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
     image.request_statistics();
     glFinish();
     outcome.statistics = image.statistics();
+    if (options.error && outcome.statistics.error_high > *options.error) {
+        spdlog::warn("--error {}: not reached; {:.2f} % come from what is finer than the pixels",
+                     *options.error, 100.0 * outcome.statistics.discretisation);
+    }
     return outcome;
 }
 
@@ -82,6 +92,8 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"relativeError", outcome.statistics.relative_error},
         {"errorLow", outcome.statistics.error_low},
         {"errorHigh", outcome.statistics.error_high},
+        {"errorNoise", outcome.statistics.noise},
+        {"errorDiscretisation", outcome.statistics.discretisation},
         {"biased", options.bias_for_noise > 0},
         {"constantRadiance", solver.scene().constant_radiance()},
         {"perspectiveBundles", solver.shots().all},

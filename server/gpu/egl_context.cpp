@@ -83,8 +83,7 @@ void enable_debug_output(bool synchronous) {
     glDebugMessageCallback(log_gl_message, nullptr);
 }
 
-/// Opens a display and makes a context current on it; nullptr and a reason where that fails.
-/// One that says when it has been reset, where the driver can tell.
+/// A context that says when it has been reset, where the driver can tell.
 EGLContext create_context(EGLDisplay display) {
     constexpr std::size_t notification = 6;  // where it begins
     std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
@@ -104,6 +103,7 @@ EGLContext create_context(EGLDisplay display) {
     return telling != EGL_NO_CONTEXT ? telling : create();
 }
 
+/// Opens a display and makes a context current on it; nullptr and a reason where that fails.
 std::unique_ptr<EglContext::Impl> open(EGLenum platform, void* native, std::string& reason) {
     // Without any vendor's library epoxy would abort at the first call.
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {

@@ -3,6 +3,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -64,11 +65,14 @@ void SessionJournal::open(const JournalSettings& settings) {
         throw SqliteError("the database is damaged", true);
     }
     create_tables();
-    // An addition that servers of the same version can do without.
+    // Additions that servers of the same version can do without.
     database_->execute(
         "CREATE TABLE IF NOT EXISTS note(session INTEGER NOT NULL REFERENCES session(id),"
         " kind INTEGER NOT NULL, number INTEGER NOT NULL, body BLOB NOT NULL,"
         " PRIMARY KEY(session, kind, number)) WITHOUT ROWID");
+    database_->execute(
+        "CREATE TABLE IF NOT EXISTS past(session INTEGER NOT NULL REFERENCES session(id),"
+        " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID");
     database_->execute(
         "CREATE TABLE IF NOT EXISTS shown(started_with TEXT PRIMARY KEY, scene TEXT NOT NULL)");
     find_session(settings);
@@ -145,7 +149,42 @@ v1::SceneChanged SessionJournal::take_earlier(const v1::SceneChanged& change,
     return earlier;
 }
 
-void SessionJournal::append(const v1::SceneChanged& change) {
+void SessionJournal::keep_past(std::uint32_t epoch, const v1::SceneChanged& before) {
+    if (before.change_case() != v1::SceneChanged::CHANGE_NOT_SET) {
+        auto insert = database_->prepare("INSERT OR REPLACE INTO past VALUES(?, ?, ?)");
+        insert.bind(1, session_);
+        insert.bind(2, std::int64_t{epoch});
+        insert.bind_blob(3, before.SerializeAsString());
+        insert.run();
+    }
+    auto forget = database_->prepare("DELETE FROM past WHERE session=? AND epoch<=?");
+    forget.bind(1, session_);
+    forget.bind(2, std::int64_t{epoch} - std::int64_t{most_past});
+    forget.run();
+}
+
+std::vector<v1::SceneChanged> SessionJournal::past() {
+    std::vector<v1::SceneChanged> result;
+    try {
+        auto select =
+            database_->prepare("SELECT epoch, body FROM past WHERE session=? ORDER BY epoch DESC");
+        select.bind(1, session_);
+        for (std::uint32_t epoch = epoch_; select.step() && select.integer(0) == epoch; --epoch) {
+            v1::SceneChanged before;
+            if (!before.ParseFromString(select.bytes(1))) {
+                break;
+            }
+            before.set_epoch(epoch);
+            result.push_back(before);
+        }
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
+}
+
+void SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChanged& before) {
     try {
         const std::int64_t subject = subject_of(change).second;
         SqliteTransaction transaction(*database_);
@@ -162,6 +201,7 @@ void SessionJournal::append(const v1::SceneChanged& change) {
         update.bind(1, std::int64_t{change.epoch()});
         update.bind(2, session_);
         update.run();
+        keep_past(change.epoch(), before);
         transaction.commit();
         epoch_ = change.epoch();
     } catch (const SqliteError& error) {

@@ -18,7 +18,7 @@ class JournalError : public std::runtime_error {
 };
 
 /// What viewers leave in a session besides changes; the numbers are stored.
-enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2 };
+enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3 };
 
 struct JournalSettings {
     std::string file;
@@ -29,10 +29,13 @@ struct JournalSettings {
 
 /// The session's scene changes on disk, so that a server that is killed goes on where it was. A
 /// change that append() has returned from survives the process and the machine (SQLite, WAL,
-/// synchronous=FULL). Of the changes to one object, light or material only the sum is kept, so the
-/// file does not grow with time. One thread only.
+/// synchronous=FULL). Of the changes to one object, light or material only the sum is kept, and of
+/// what was before them as many states as are kept for undo, so the file does not grow with time.
+/// One thread only.
 class SessionJournal {
   public:
+    static constexpr std::uint32_t most_past = 16384;
+
     /// Opens the journal, or begins one. A damaged file is set aside under another name, which
     /// set_aside() gives, and a new journal begins. Throws JournalError where that fails: a folder
     /// that is missing, a file of a newer version, a journal in use by another server.
@@ -44,9 +47,14 @@ class SessionJournal {
     /// What brings the scene file to the state of this session, in order of epochs.
     [[nodiscard]] std::vector<v1::SceneChanged> changes();
 
-    /// Writes a change, whose epoch must be epoch() + 1. Throws JournalError: nothing is written
-    /// then, and a later attempt may succeed.
-    void append(const v1::SceneChanged& change);
+    /// Writes a change, whose epoch must be epoch() + 1, and what its subject was like before, for
+    /// undo; where that is empty nobody can go back beyond this change after a restart. Throws
+    /// JournalError: nothing is written then, and a later attempt may succeed.
+    void append(const v1::SceneChanged& change, const v1::SceneChanged& before = {});
+    /// What the subjects of the last changes were like before them, most_past at most, in order and
+    /// each with the epoch of its change; without gaps up to epoch(), so maybe none. Throws
+    /// JournalError.
+    [[nodiscard]] std::vector<v1::SceneChanged> past();
 
     /// Keeps a note, in place of an earlier one of its number. Survives as a change does. Throws
     /// JournalError: nothing is written then.
@@ -69,6 +77,7 @@ class SessionJournal {
     void open(const JournalSettings& settings);
     void create_tables();
     void find_session(const JournalSettings& settings);
+    void keep_past(std::uint32_t epoch, const v1::SceneChanged& before);
     v1::SceneChanged take_earlier(const v1::SceneChanged& change, std::int64_t subject);
 
     std::string file_;

@@ -119,6 +119,11 @@ bool Server::acknowledged(ViewerId viewer) const {
     return link && link->acknowledged();
 }
 
+bool Server::answers(ViewerId viewer) const {
+    const auto link = impl_->state.viewers.find(viewer);
+    return link && link->answers();
+}
+
 void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,
                         const std::vector<std::uint8_t>& image) {
     const auto link = impl_->state.viewers.find(viewer);

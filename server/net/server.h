@@ -69,6 +69,9 @@ class Server {
     /// Whether this viewer has ever acknowledged a frame.
     [[nodiscard]] bool acknowledged(ViewerId viewer) const;
 
+    /// Whether this viewer has answered the ping after its welcome, or acknowledged a frame.
+    [[nodiscard]] bool answers(ViewerId viewer) const;
+
     /// Sends a frame. One frame waits at most: a newer one replaces it.
     void send_frame(ViewerId viewer, const v1::FrameHeader& header,
                     const std::vector<std::uint8_t>& image);

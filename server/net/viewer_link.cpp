@@ -9,6 +9,8 @@
 namespace raybundle {
 namespace {
 
+constexpr std::string_view kGreeting = "welcome";  ///< payload of the ping after it
+
 std::vector<std::uint8_t> with_headroom(std::string_view payload) {
     std::vector<std::uint8_t> bytes(Outgoing::kHeadroom + payload.size());
     std::copy(payload.begin(), payload.end(), bytes.begin() + Outgoing::kHeadroom);
@@ -67,6 +69,7 @@ FrameAdvice ViewerLink::advise(const FrameDemand& demand, double now_ms) {
 
 void ViewerLink::on_ack(const v1::Ack& ack, double now_ms) {
     const std::lock_guard lock(mutex_);
+    answers_ = true;
     congestion_.on_ack(ack.frame(), ack.decode_ms(), now_ms);
 }
 
@@ -85,8 +88,14 @@ bool ViewerLink::acknowledged() const {
     return congestion_.acknowledged();
 }
 
+bool ViewerLink::answers() const {
+    const std::lock_guard lock(mutex_);
+    return answers_;
+}
+
 void ViewerLink::on_pong(std::string_view payload, double now_ms) {
     const std::lock_guard lock(mutex_);
+    answers_ = answers_ || payload == kGreeting;
     if (payload == std::to_string(pings_)) {
         congestion_.on_probe_answered(now_ms);
     }
@@ -107,7 +116,7 @@ bool ViewerLink::closing() const {
 
 bool ViewerLink::has_output() const {
     const std::lock_guard lock(mutex_);
-    return !messages_.empty() || frame_ || close_;
+    return !messages_.empty() || (welcomed_ && !greeted_) || frame_ || close_;
 }
 
 std::optional<Outgoing> ViewerLink::take(double now_ms) {
@@ -117,6 +126,10 @@ std::optional<Outgoing> ViewerLink::take(double now_ms) {
         messages_.pop_front();
         queued_bytes_ -= message.bytes.size() - Outgoing::kHeadroom;
         return message;
+    }
+    if (welcomed_ && !greeted_ && !close_) {
+        greeted_ = true;
+        return Outgoing{Outgoing::Kind::ping, with_headroom(kGreeting)};
     }
     if (frame_ && congestion_.wants_probe(now_ms)) {
         congestion_.on_probe_sent(now_ms);

@@ -70,6 +70,9 @@ class ViewerLink {
     /// Whether any frame has ever been acknowledged.
     [[nodiscard]] bool acknowledged() const;
 
+    /// Whether it has answered anything since the welcome: a connection that nobody reads has not.
+    [[nodiscard]] bool answers() const;
+
     /// A WebSocket pong has come; `payload` tells whether it answers take()'s last ping.
     void on_pong(std::string_view payload, double now_ms);
 
@@ -80,8 +83,8 @@ class ViewerLink {
     [[nodiscard]] bool closing() const;
     [[nodiscard]] bool has_output() const;
 
-    /// Takes the next message to write: text, then a ping that measures the round trip where one is
-    /// due, then the frame.
+    /// Takes the next message to write: text, then a ping after the welcome, which shows whether
+    /// anybody is there, or one that measures the round trip where that is due, then the frame.
     std::optional<Outgoing> take(double now_ms);
 
     /// The close request once nothing is left to be written before it.
@@ -104,9 +107,11 @@ class ViewerLink {
     std::size_t queued_bytes_ = 0;
     std::optional<Frame> frame_;
     CongestionWindow congestion_;
-    std::uint32_t pings_ = 0;  ///< sent so far; its number is a ping's payload
+    std::uint32_t pings_ = 0;  ///< sent so far to measure; its number is a ping's payload
     std::optional<CloseRequest> close_;
     bool welcomed_ = false;
+    bool greeted_ = false;  ///< the ping after the welcome is sent
+    bool answers_ = false;
 };
 
 }  // namespace raybundle

@@ -46,9 +46,12 @@ double furnace_worst(float albedo, const OracleSettings& settings);
 /// Indirect illuminance, lx, in a 4 m cube lit by 10 000 lm: Phi albedo / (S (1 - albedo)) in the
 /// mean.
 double enclosure_indirect(float albedo, const OracleSettings& settings);
-/// Form factor between the emitting face z = 0 of the unit cube and the opposite (true) or an
-/// adjacent face.
-double cube_form_factor(bool opposite, const OracleSettings& settings);
+/// Form factors between the emitting face z = 0 of the unit cube and its others.
+struct CubeFormFactors {
+    double opposite = 0.0;
+    double adjacent = 0.0;  ///< mean of four
+};
+CubeFormFactors cube_form_factors(const OracleSettings& settings);
 /// Form factor between facing unit squares at a distance.
 double squares_form_factor(float distance, const OracleSettings& settings);
 /// Mean illuminance, lx, of a small square at distance h under a disc of radius a and flux Phi,

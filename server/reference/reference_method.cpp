@@ -170,17 +170,26 @@ class SingleRayMethod : public ReferenceMethod {
 
 }  // namespace
 
+std::string reason_against(ReferenceKind kind, const RayScene& scene) {
+    if (kind == ReferenceKind::path) {
+        return {};
+    }
+    if (has_glass(scene.scene())) {
+        return "of the comparison methods only 'path' knows glass, which " + scene.scene().name +
+               " has";
+    }
+    if (scene.transmitting()) {
+        return "the scene transmits light diffusely, which of the methods on the CPU only path "
+               "follows";
+    }
+    return {};
+}
+
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed) {
-    if (kind != ReferenceKind::path && has_glass(scene.scene())) {
-        throw std::runtime_error("of the comparison methods only 'path' knows glass, which " +
-                                 scene.scene().name + " has");
-    }
-    if (scene.transmitting() && kind != ReferenceKind::path) {
-        throw std::runtime_error(
-            "the scene transmits light diffusely, which of the methods on the CPU only path "
-            "follows");
+    if (const std::string reason = reason_against(kind, scene); !reason.empty()) {
+        throw std::runtime_error(reason);
     }
     switch (kind) {
         case ReferenceKind::single_ray:

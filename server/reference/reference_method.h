@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "reference/image_estimate.h"
@@ -45,8 +46,12 @@ class ReferenceMethod {
     [[nodiscard]] virtual std::size_t bytes() const = 0;  ///< without the scene
 };
 
+/// Why a method cannot follow all light of a scene; empty where it can. Only `path` knows glass and
+/// diffuse transmission.
+std::string reason_against(ReferenceKind kind, const RayScene& scene);
+
 /// The picture's own part of a method's input, and what it is made from; the ray scene must outlive
-/// the method. Throws std::runtime_error where a method other than `path` is asked for glass.
+/// the method. Throws std::runtime_error where there is a reason_against() it.
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed);

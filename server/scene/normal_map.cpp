@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace raybundle {
-namespace {
-
-/// z of a map's normal at least: maps know no overhangs.
-constexpr double least_height = 1e-3;
-
-}  // namespace
 
 glm::dvec3 mapped_normal(const TangentEdges& triangle, const glm::dvec3& normal,
                          const glm::dvec3& texel, double scale) {
@@ -33,7 +27,7 @@ glm::dvec3 mapped_normal(const TangentEdges& triangle, const glm::dvec3& normal,
     }
     const glm::dvec3 local = texel * 2.0 - 1.0;
     return glm::normalize(scale * (local.x * tangent + local.y * bitangent) +
-                          std::max(local.z, least_height) * normal);
+                          std::max(local.z, least_map_height) * normal);
 }
 
 glm::dvec3 facing_normal(const glm::dvec3& normal, const glm::dvec3& to_eye) {

@@ -15,6 +15,9 @@ namespace raybundle {
 /// surface reflects is not defined, so they are turned back to here.
 constexpr double least_view_cosine = 0.02;
 
+/// z of a map's normal at least: maps know no overhangs.
+constexpr double least_map_height = 1e-3;
+
 /// One triangle: edges from corner 0 to 1 and 2, and how uv (after the slot's transform) changes
 /// along them.
 struct TangentEdges {

@@ -7,14 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-namespace raybundle {
+#include "scene/mix_bits.h"
 
-/// 64-bit mix of splitmix64 (Steele, Lea, Flood 2014): spreads keys over hash buckets.
-inline std::uint64_t mix_bits(std::uint64_t x) {
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31U);
-}
+namespace raybundle {
 
 /// Numbers distinct positions in the order of their first use. Two positions are the same if they
 /// are equal bit for bit, -0 counting as 0: what a modeller meant to touch, exporters write equal.

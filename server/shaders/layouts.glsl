@@ -14,7 +14,7 @@
 #define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch
 #define BINDING_BACK_PATCH 5       // uint[]: patch of a triangle's back side or NO_PATCH
 #define BINDING_SURFACES 6         // PatchSurface[]
-#define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j, 1/m^2
+#define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j of the larger of a patch's two places, 1/m^2
 #define BINDING_IRRADIANCE 8       // vec4[]: mean irradiance (radiance units), w = weight
 #define BINDING_ACCUMULATOR 9      // uint[6 * patches]: fixed-point sums, see accumulator.glsl
 #define BINDING_POWER 10           // vec4[]: see solution_power.comp
@@ -35,7 +35,7 @@
 #define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
 #define BINDING_SOURCE 27          // vec4[]: irradiance iterate that is transferred
-#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see solution_checkpoint.comp
+#define BINDING_CHECKPOINT 28      // vec4[]: state at the last change, see checkpoint.glsl
 #define BINDING_PICK 29            // PickResult[]
 #define BINDING_CDF 30             // float[]: cumulative p within blocks of POWER_BLOCK patches
 #define BINDING_FACETS 31         // FacetGeometry[2 * facets]: place 0, then place 1
@@ -68,6 +68,8 @@
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 
+#define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
+#define SHOOTER_LIFT 1e-6  // of it: how far shooters stand above their patches, see solution_shooters.comp
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
@@ -147,13 +149,17 @@ struct Shooter {
     vec3 position;   // world space
     uint patch_id;
     vec3 normal;     // world space, unit
-    float density;   // p_j / A_j, 1/m^2
+    float density;   // p_j / A_j, 1/m^2; 0: the patch has no area
     uint object;
     uint glossy;     // 1: its radiance depends on direction
     float probability;  // p_j
     uint emitter;    // 1: it sends light of its own
     vec4 constant_radiance;  // rgb: see Balance
     vec4 lobe;       // world space: where most of the accepted light is reflected to; w: share of the power
+    vec3 position_before;  // the same point at place 1
+    float density_before;
+    vec3 normal_before;
+    uint pad0;
 };
 
 struct Counters {
@@ -213,6 +219,10 @@ struct MaterialDetails {
 };
 #define MATERIAL_DETAILS_TEXELS 9
 
+#define MIN_ROUGHNESS 0.045  // smallest that is told apart, see scene/ggx_albedo.h
+#define LEAST_VIEW_COSINE 0.02  // between a mapped normal and the view, see scene/normal_map.h
+#define LEAST_MAP_HEIGHT 1e-3  // z of a normal map's normal at least
+#define UNLIT_WHITE 80.0  // cd/m^2, see scene/scene.h
 #define MAX_ALBEDO 0.999  // of a base colour: the iteration contracts
 #define REFLECTANCE_NODES 80
 #define LOBE_NONE 0

@@ -29,8 +29,7 @@ uint reflectance_place(uint material, vec2 mesh_uv) {
     vec2 factors = details_of(material, 0).xy;
     vec4 grid = details_of(material, 1);
     vec3 texel = texture_data(material, 3, floatBitsToUint(details_of(material, 5)), mesh_uv);
-    const float min_roughness = 0.045;
-    float roughness = clamp(factors.y * texel.g, min_roughness, 1.0);
+    float roughness = clamp(factors.y * texel.g, MIN_ROUGHNESS, 1.0);
     vec2 place = floor(vec2(log(roughness) - grid.x, factors.x * texel.b - grid.z) * grid.yw + 0.5);
     uvec2 at = uvec2(clamp(place, vec2(0.0), vec2(levels.xy - 1u)));
     return at.x * levels.y + at.y;
@@ -61,17 +60,15 @@ vec3 mapped_normal(uint material, vec2 mesh_uv, vec2 uv1, vec2 uv2, vec3 e1, vec
         bitangent = dot(bitangent, along_v) > 0.0 ? -bitangent : bitangent;
         vec3 local = texture_data(material, 6, info, mesh_uv) * 2.0 - 1.0;
         local.xy *= details_of(material, 0).z;
-        const float least_height = 1e-3;
-        shaded = normalize(local.x * tangent + local.y * bitangent + max(local.z, least_height) * normal);
+        shaded = normalize(local.x * tangent + local.y * bitangent + max(local.z, LEAST_MAP_HEIGHT) * normal);
         shaded = back ? -shaded : shaded;
     }
     // Turned back towards the viewer where it faces away.
-    const float least_cosine = 0.02;
     float cosine = dot(shaded, to_eye);
-    if (cosine >= least_cosine) {
+    if (cosine >= LEAST_VIEW_COSINE) {
         return shaded;
     }
     vec3 across = shaded - cosine * to_eye;
-    return least_cosine * to_eye + sqrt(1.0 - least_cosine * least_cosine) * across / max(length(across), 1e-20);
+    return LEAST_VIEW_COSINE * to_eye + sqrt(1.0 - LEAST_VIEW_COSINE * LEAST_VIEW_COSINE) * across / max(length(across), 1e-20);
 }
 #endif

@@ -24,10 +24,23 @@ const float defensive_share = 0.1;
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
+/// Where a patch is larger: at the present place or, in a special phase, before. What shrinks to nothing still
+/// has its old light to take back.
+uint larger_place(uint i) {
+    uint before = uint(patches.length()) / 2u + i;
+    return patches[before].area > patches[i].area ? before : i;
+}
+
+/// p_j / A_j at a place (index: patch + base of the place) of a patch of this density where it is larger.
+float density_at(uint index, uint larger, float density) {
+    bool same = patches[index].area == patches[larger].area;
+    return same ? density : density * patches[larger].area * patches[index].inverse_area;
+}
+
 /// Power (luminance, radiance units * m^2), area and emitting area (m^2) of a patch.
 vec3 patch_power(uint i) {
     float emitting = luminance(patch_source(i)) > 0.0 ? 1.0 : 0.0;
-    float area = patches[i].area;
+    float area = patches[larger_place(i)].area;
 #ifdef CHANGE
     return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitting * area);
 #else

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remembers the state before a change: x = luminance of the mean irradiance, y = its weight. The phase then
-// sets z = variance of its increment over the square of that, 0: nothing has come in, and w = two halves: the error
-// that is left, relative to the mean, and the weight that it keeps (solution_correct.comp).
+// Remembers the state before a change. Where the last one is not settled (`unsettled`), the two are one: the
+// state before that stays, and the error that it has left is the first part of what this one leaves.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
-layout(std430, binding = BINDING_CHECKPOINT) writeonly buffer CheckpointBuffer { vec4 checkpoint[]; };
+layout(std430, binding = BINDING_CHECKPOINT) buffer CheckpointBuffer { vec4 checkpoint[]; };
+#include "checkpoint.glsl"
 uniform uint patch_count;
+uniform bool unsettled;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < patch_count) {
-        float before = dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722));
-        checkpoint[i] = vec4(before, irradiance[i].w, 0.0, 0.0);
+    if (i >= patch_count) {
+        return;
     }
+    float now = luminance_of(irradiance[i].rgb);
+    float weight = irradiance[i].w;
+    vec4 c = checkpoint[i];
+    if (!unsettled || weight <= 0.0) {
+        checkpoint[i] = vec4(now, pack_pair(vec2(weight, 0.0)), 0.0, 0.0);
+        return;
+    }
+    float error = sqrt(correction_left(c, now, weight)) / max(now, 1e-20);
+    vec2 before = vec2(unpack_pair(c.y).x, correction_size(c, now));
+    checkpoint[i] = vec4(c.x, pack_pair(before), 0.0, pack_left(error, weight));
 }

@@ -6,6 +6,7 @@
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "corrected_weight.glsl"
+#include "checkpoint.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
@@ -34,8 +35,10 @@ void main() {
     if (i >= patch_count) {
         return;
     }
+    vec2 earlier = unpackHalf2x16(floatBitsToUint(checkpoint[i].w));  // of changes that are not settled
     if (irradiance[i].w > most_weight) {
         irradiance[i].w = most_weight;
+        checkpoint[i].w = pack_left(earlier.x, most_weight);
     }
     float moved = moved_error(i, luminance(irradiance[i].rgb));
     if (increments[i].rgb == vec3(0.0) && moved <= 0.0) {
@@ -55,8 +58,9 @@ void main() {
     // What the phase leaves, as it is to be expected: few bundles differ by less than they are wrong, and a weight is
     // more careful about what is not seen.
     float unseen = likely_unseen * sample_deviation * sample_deviation * after * after / most_weight;
-    float left = sqrt(wrong * error + unseen) / max(after, 1e-20);
-    checkpoint[i].w = uintBitsToFloat(packHalf2x16(min(vec2(left, mean.w), 6e4)));
+    float before_this = earlier.x * before;
+    float left = sqrt(wrong * error + unseen + before_this * before_this) / max(after, 1e-20);
+    checkpoint[i].w = pack_left(left, mean.w);
     irradiance[i] = mean;
     vec4 iterate = source[i];
     iterate.rgb = max(iterate.rgb + increment, 0.0);

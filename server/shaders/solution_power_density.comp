@@ -15,7 +15,7 @@ void main() {
     float p = 0.0;
     if (i < patch_count) {
         p = selection_probability(patch_power(i), total);
-        radiance[i].w = p * patches[i].inverse_area;
+        radiance[i].w = p * patches[larger_place(i)].inverse_area;
     }
     sums[lane] = p;
     for (uint stride = 1u; stride < POWER_BLOCK; stride *= 2u) {

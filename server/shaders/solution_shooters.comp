@@ -13,6 +13,7 @@ layout(std430, binding = BINDING_SHOOTERS) writeonly buffer ShooterBuffer { Shoo
 uniform uint patch_count;
 uniform uint block_count;
 uniform uint shooter_count;
+uniform float diameter;  // of the scene, m
 /// Per shooter: x, y = leading and trailing 24 bits of the number that chooses the patch; z, w = point.
 uniform vec4 random_numbers[16];
 
@@ -60,6 +61,12 @@ uint find_patch(uint first, uint last, float u) {
     return first;
 }
 
+/// Uniform on a triangle.
+vec3 point_on(uvec3 v, vec2 u) {
+    float root = sqrt(u.x);
+    return world[v.x].xyz * (1.0 - root) + world[v.y].xyz * (root * (1.0 - u.y)) + world[v.z].xyz * (root * u.y);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= shooter_count) {
@@ -72,18 +79,24 @@ void main() {
     // Within the block the trailing bits keep the choice fine-grained however small its share is.
     float rest = min((u.x - blocks[block].w) + u.y * 5.9604645e-8, cdf[last] * 0.9999999);
     uint id = find_patch(first, last, rest);
-    while (patches[id].area <= 0.0 && id < last) {
+    while (patches[larger_place(id)].area <= 0.0 && id < last) {
         ++id;
     }
     uvec3 v = triangles[patches[id].triangle].xyz;
-    float root = sqrt(u.z);
-    vec3 position = world[v.x].xyz * (1.0 - root) + world[v.y].xyz * (root * (1.0 - u.w)) +
-                    world[v.z].xyz * (root * u.w);
+    uint larger = larger_place(id);
+    uint before = uint(patches.length()) / 2u + id;
+    vec3 position = point_on(v, u.zw);
     Shooter s;
-    s.position = position;
+    // Beyond the rounding of positions: a shooter that came out below its own plane, or its neighbours', would
+    // not see what lies near the horizon.
+    s.position = position + SHOOTER_LIFT * diameter * patches[id].normal;
     s.patch_id = id;
     s.normal = patches[id].normal;
-    s.density = radiance[id].w;
+    s.density = density_at(id, larger, radiance[id].w);
+    s.position_before = point_on(v + uint(world.length()) / 2u, u.zw);
+    s.normal_before = patches[before].normal;
+    s.density_before = density_at(before, larger, radiance[id].w);
+    s.pad0 = 0u;
     s.object = patches[id].object;
 #ifdef GLOSSY
     s.glossy = is_glossy(id) ? 1u : 0u;
@@ -92,7 +105,7 @@ void main() {
     s.glossy = 0u;
     s.lobe = vec4(0.0);
 #endif
-    s.probability = s.density * patches[id].area;
+    s.probability = radiance[id].w * patches[larger].area;
     s.emitter = luminance(patch_source(id)) > 0.0 ? 1u : 0u;
     s.constant_radiance = balance.constant;
     shooters[i] = s;

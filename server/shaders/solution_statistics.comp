@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the
-// correction since the last change (since loading: of everything), y = its squared error that is left. A mean
-// E of weight w consists of what a special phase has left, of weight k and error e E, and of samples since:
-//   error^2 = (k e E / w)^2 + (s E)^2 ((w - k) / w^2 - 1/w0),
-// where what the mean had before the change, with the weight w0, is no part of the correction.
+// Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the correction
+// since the last settled state (since loading: of everything), y = its squared error that is left (checkpoint.glsl).
 // And the squared irradiance (z), with the squared distance of the iterate from the mean (w): how noisy
 // samples are.
 #include "layouts.glsl"
@@ -16,7 +13,7 @@ layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 sou
 uniform uint patch_count;
 uniform float relevance;         // changes below this share of the value count as noise
 
-const float sample_deviation = 0.7;  // s: of patches, relative to the mean
+#include "checkpoint.glsl"
 
 shared vec4 sums[256];
 
@@ -25,22 +22,16 @@ void main() {
     vec4 sum = vec4(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;
     for (uint i = gl_GlobalInvocationID.x; i < patch_count; i += stride) {
-        float now = dot(irradiance[i].rgb, vec3(0.2126, 0.7152, 0.0722));
-        float correction = now - checkpoint[i].x;
+        float now = luminance_of(irradiance[i].rgb);
         float weight = irradiance[i].w;
-        float astray = dot(source[i].rgb, vec3(0.2126, 0.7152, 0.0722)) - now;
+        float astray = luminance_of(source[i].rgb) - now;
         sum.z += patches[i].area * now * now;
         sum.w += patches[i].area * astray * astray;
-        if (weight > 0.0 && abs(correction) > relevance * max(now, checkpoint[i].x)) {
-            float deviation = sample_deviation * now;
-            float before = checkpoint[i].y > 0.0 ? 1.0 / checkpoint[i].y : 0.0;
-            vec2 left = unpackHalf2x16(floatBitsToUint(checkpoint[i].w));
-            float kept = min(left.y / weight, 1.0);
-            float error = deviation * deviation * max((1.0 - kept) / weight - before, 0.0);
-            error += kept * kept * left.x * left.x * now * now;
-            error = min(error, correction * correction);  // not worse than having done nothing
+        vec4 c = checkpoint[i];
+        float correction = correction_size(c, now);
+        if (weight > 0.0 && correction > relevance * max(now, c.x)) {
             sum.x += patches[i].area * correction * correction;
-            sum.y += patches[i].area * error;
+            sum.y += patches[i].area * correction_left(c, now, weight);
         }
     }
     sums[lane] = sum;

@@ -65,7 +65,7 @@ Run start_run(uint surface, vec3 d, vec3 d_step) {
     float height = facet.plane.w - dot(facet.plane.xyz, o);
     // A shooter in the receiver's own plane sends it nothing; only rounding could say otherwise, and it
     // would leak through a wall without thickness.
-    if (blocked || ((surface & 1u) != 0u ? height : -height) <= bundle.sky.w) {
+    if (blocked || ((surface & 1u) != 0u ? height : -height) <= bundle.origin.w) {
         return run;
     }
     vec3 row = facet.plane.xyz / height;
@@ -153,7 +153,7 @@ void main() {
     vec3 d_step = world_from_bundle * hemicube_face(face)[0] * (2.0 / n);
     float d_z = in_bundle.z;
     float d_z_step = hemicube_face(face)[0].z * (2.0 / n);
-    float farthest = 1e6 * bundle.origin.w;  // the scene's diameter
+    float farthest = bundle.origin.w / NEAR_SHARE;  // the scene's diameter
     float escaped = 0.0;
 #ifdef SHOOTER_GLOSSY
     pixel_area *= face_weight(face);

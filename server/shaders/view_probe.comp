@@ -8,6 +8,8 @@ layout(local_size_x = 1) in;
 layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
 layout(std430, binding = BINDING_PICK) buffer PickBuffer { PickResult picks[]; };
 
+uniform float variance_of_mean;  // as in view_statistics.comp
+
 /// Standard error of the nearest probe pixel's mean irradiance, relative; negative where unknown.
 float relative_error(uint pixel_index) {
     uvec2 at = uvec2(pixel_index % view.size.x, pixel_index / view.size.x) / 4u;
@@ -27,7 +29,7 @@ float relative_error(uint pixel_index) {
 #ifdef CONSTANT_RADIANCE
     mean += luminance(view.constant.rgb) / view.weights.x;
 #endif
-    return mean > 0.0 ? sqrt(variance / float(BATCHES - 1)) / mean : -1.0;
+    return mean > 0.0 ? sqrt(variance * variance_of_mean) / mean : -1.0;
 }
 
 void main() {

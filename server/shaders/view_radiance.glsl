@@ -35,9 +35,6 @@ layout(binding = UNIT_VERTEX_CAUSTICS) uniform samplerBuffer vertex_caustics_tex
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 uniform uint triangle_count;
 
-#ifdef UNLIT
-const float unlit_white = 80.0;  // cd/m^2, see scene/scene.h
-#endif
 const float inverse_pi = 0.31830988618;
 
 PixelSurface load_pixel(uint index) {
@@ -155,7 +152,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
     }
 #ifdef UNLIT
     if ((p.facet & PIXEL_UNLIT) != 0u) {
-        return pixel_albedo(p) * (unlit_white / view.display.x);
+        return pixel_albedo(p) * (UNLIT_WHITE / view.display.x);
     }
 #endif
     vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);

@@ -202,7 +202,7 @@ void main() {
 #ifdef NORMAL_MAPS
     vec2 uv0 = vertex_uv(triangle.x);
     shaded = mapped_normal(triangle.w & MATERIAL_MASK, mesh_uv, vertex_uv(triangle.y) - uv0, vertex_uv(triangle.z) - uv0,
-                           e1, e2, shaded, (surface & 1u) != 0u, normalize(view.eye.xyz - position));
+                           e1, e2, shaded, (surface & 1u) != 0u, normalize(-direction));
 #endif
 #ifdef REFLECTANCE_TEXTURED
     place = float(reflectance_place(triangle.w & MATERIAL_MASK, mesh_uv)) / 255.0;

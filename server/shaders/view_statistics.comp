@@ -10,15 +10,9 @@ layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer {
 #include "false_colour.glsl"
 uniform float logarithm_floor;   // radiance units
 uniform float unsampled_error;   // relative error to assume where no batches exist yet
+uniform float variance_of_mean;  // of all batches over the mean square deviation of single ones: view/error_interval.h
 uniform float fresh_share;       // batches with less than this share of the weight say nothing
 shared vec4 sums[64];
-
-/// Variance of the mean of all batches over the mean square deviation of single ones. Batches are dealt out of one
-/// low-discrepancy sequence: the error falls like n^-a, so that with m batches it is m^-2a / (1 - m^-2a); 1/(m - 1)
-/// for independent ones, a = 1/2. Measured against path tracing, Cornell box, 1 to 20 s: a = 0.8; 0.75 is cautious.
-const float convergence = 0.75;
-const float whole_over_batch = pow(float(BATCHES), -2.0 * convergence);
-const float variance_of_mean = whole_over_batch / (1.0 - whole_over_batch);
 
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;

@@ -13,22 +13,11 @@
 #include <glm/packing.hpp>
 #include <numeric>
 
+#include "gpu/octahedral.h"
+
 namespace raybundle {
 
 namespace {
-
-glm::vec2 octahedral_from_vector(const glm::vec3& n) {
-    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    if (sum <= 0.0F) {
-        return {0.0F, 0.0F};
-    }
-    const glm::vec2 p = glm::vec2(n) / sum;
-    if (n.z >= 0.0F) {
-        return p;
-    }
-    return {(1.0F - std::abs(p.y)) * (p.x >= 0.0F ? 1.0F : -1.0F),
-            (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F)};
-}
 
 /// Whether a triangle's vertex normals bend away from its plane.
 bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
@@ -182,21 +171,6 @@ void GpuScene::upload_surfaces(const PatchMesh& mesh) {
     }
 }
 
-layout::MaterialData GpuScene::material_data(const Material& material) const {
-    layout::MaterialData data{};
-    data.base_colour = glm::vec4(is_glass(material) ? glm::vec3(0.0F) : material.base_colour, 0.0F);
-    data.emission = glm::vec4(material.emission / radiance_unit_, is_glass(material) ? 1.0F : 0.0F);
-    const TextureSlot& slot = material.base_colour_texture;
-    if (slot.texture >= 0) {
-        const glm::mat3& m = slot.uv_from_mesh_uv;
-        data.uv_row0 = glm::vec4(m[0][0], m[1][0], m[2][0], 0.0F);
-        data.uv_row1 = glm::vec4(m[0][1], m[1][1], m[2][1], 0.0F);
-        data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
-        data.texture_info = texture_info_[static_cast<std::size_t>(slot.texture)];
-    }
-    return data;
-}
-
 void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     upload_surfaces(mesh);
     std::vector<std::uint32_t> texels;
@@ -341,6 +315,7 @@ void GpuScene::place_geometry(Place place) const {
 
 void GpuScene::settle() {
     moved_ = glm::uvec4(NO_PATCH);
+    rescaled_ = false;
     const auto half = world_from_object_.begin() + object_count_;
     std::copy(world_from_object_.begin(), half, half);
     upload_matrices();

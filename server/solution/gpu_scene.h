@@ -44,6 +44,8 @@ class GpuScene {
     void move_objects(std::span<const ObjectMove> moves);
     /// Those objects until settle(), the rest NO_PATCH.
     [[nodiscard]] const glm::uvec4& moved_objects() const { return moved_; }
+    /// Whether some of them are of another size or shape than before: patches have another area.
+    [[nodiscard]] bool rescaled() const { return rescaled_; }
     /// Boxes that hold them at either place, shifted world.
     [[nodiscard]] std::vector<Bounds> moved_bounds() const;
     /// Takes over the colours that some materials and their patches have now. Each must be covered
@@ -139,6 +141,7 @@ class GpuScene {
     float radiance_unit_ = 1.0F;
     float diameter_ = 1.0F;
     glm::uvec4 moved_{NO_PATCH};
+    bool rescaled_ = false;
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool caustics_ = false;
     bool glass_ = false;  // some surfaces let bundles pass

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What textures besides the base colour do to a surface, and materials that are not lit.
+// Materials: base colour and emission, what other textures do, and what is not lit or is
+// transmitted.
 #include <algorithm>
 #include <array>
 #include <bit>
 
+#include "scene/ggx_albedo.h"
+#include "scene/normal_map.h"
+#include "scene/patch_colour.h"
 #include "solution/gpu_scene.h"
 
 namespace raybundle {
 namespace {
+
+// One fact, two languages.
+static_assert(min_roughness == static_cast<float>(MIN_ROUGHNESS));
+static_assert(least_view_cosine == LEAST_VIEW_COSINE && least_map_height == LEAST_MAP_HEIGHT);
+static_assert(unlit_white == static_cast<float>(UNLIT_WHITE));
 
 bool has_details(const Material& material) {
     return has_reflectance_grid(material) || material.normal_texture.texture >= 0 || material.unlit;
@@ -20,6 +29,21 @@ std::array<glm::vec4, 2> uv_rows(const TextureSlot& slot) {
 }
 
 }  // namespace
+
+layout::MaterialData GpuScene::material_data(const Material& material) const {
+    layout::MaterialData data{};
+    data.base_colour = glm::vec4(is_glass(material) ? glm::vec3(0.0F) : material.base_colour, 0.0F);
+    data.emission = glm::vec4(material.emission / radiance_unit_, is_glass(material) ? 1.0F : 0.0F);
+    const TextureSlot& slot = material.base_colour_texture;
+    if (slot.texture >= 0) {
+        const auto rows = uv_rows(slot);
+        data.uv_row0 = rows[0];
+        data.uv_row1 = rows[1];
+        data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
+        data.texture_info = texture_info_[static_cast<std::size_t>(slot.texture)];
+    }
+    return data;
+}
 
 layout::MaterialDetails GpuScene::material_details(const Scene& scene, std::size_t material) const {
     const Material& source = scene.materials[material];

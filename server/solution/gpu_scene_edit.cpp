@@ -1,10 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights, materials and places that change while the scene is shown.
 #include <algorithm>
+#include <cmath>
 
 #include "solution/gpu_scene.h"
 
 namespace raybundle {
+
+namespace {
+
+/// Whether two maps differ by more than a rigid motion: lengths and angles of the axes' images.
+bool differ_in_size(const glm::mat4& a, const glm::mat4& b) {
+    constexpr float rounding = 1e-4F;
+    const glm::mat3 ga = glm::transpose(glm::mat3(a)) * glm::mat3(a);
+    const glm::mat3 gb = glm::transpose(glm::mat3(b)) * glm::mat3(b);
+    float difference = 0.0F;
+    float size = 0.0F;
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            difference = std::max(difference, std::abs(ga[i][k] - gb[i][k]));
+            size = std::max(size, std::max(std::abs(ga[i][k]), std::abs(gb[i][k])));
+        }
+    }
+    return difference > rounding * size;
+}
+
+}  // namespace
 
 void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
                                std::span<const std::uint32_t> materials) {
@@ -48,6 +69,8 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
         moved_[static_cast<int>(i)] = move.object;
         world_from_object_[move.object] =
             glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
+        rescaled_ = rescaled_ || differ_in_size(world_from_object(move.object, Place::now),
+                                                world_from_object(move.object, Place::before));
         if (specular_rays_) {
             specular_rays_->place(move.object, world_from_object_[move.object]);
         }

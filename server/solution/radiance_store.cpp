@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace raybundle {
 
@@ -147,15 +148,31 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
 }
 
 void RadianceStore::send_along_bundle(Place place) const {
-    if (sent_.bytes() == 0 || other_ != nullptr) {
+    if (sent_.bytes() > 0 && other_ == nullptr) {
+        sent_.bind_storage(BINDING_SENT);
+        send_.set("patch_count", patch_count_);
+        send_.set("patch_base", scene_.patch_base(place));
+        send_.set("vertex_base", scene_.vertex_base(place));
+        send_.dispatch(patch_count_);
+        glBindTextureUnit(UNIT_RADIANCE, sent_texture_.get());
+    }
+    if (placed_ && scene_.rescaled()) {
+        placed_->radiance.bind_storage(BINDING_SENT);
+        placed_->program.set("patch_count", patch_count_);
+        placed_->program.set("patch_base", scene_.patch_base(place));
+        placed_->program.dispatch(patch_count_);
+        glBindTextureUnit(UNIT_RADIANCE, placed_->texture.get());
+    }
+}
+
+void RadianceStore::follow_sizes() {
+    if (placed_ || !scene_.rescaled()) {
         return;
     }
-    sent_.bind_storage(BINDING_SENT);
-    send_.set("patch_count", patch_count_);
-    send_.set("patch_base", scene_.patch_base(place));
-    send_.set("vertex_base", scene_.vertex_base(place));
-    send_.dispatch(patch_count_);
-    glBindTextureUnit(UNIT_RADIANCE, sent_texture_.get());
+    Buffer radiance("placed radiance", radiance_.bytes());
+    Texture2D texture = create_buffer_texture("placed radiance", GL_RGBA32F, radiance);
+    placed_.emplace(Placed{std::move(radiance), std::move(texture),
+                           ShaderProgram({"transport_placed_radiance.comp"})});
 }
 
 void RadianceStore::turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const {
@@ -208,6 +225,7 @@ std::vector<layout::Shooter> RadianceStore::choose_shooters(std::span<const glm:
     }
     choose_.set("patch_count", patch_count_);
     choose_.set("block_count", block_count_);
+    choose_.set("diameter", scene_.diameter());
     choose_.set("shooter_count", static_cast<unsigned>(count));
     choose_.set("random_numbers", numbers.first(count));
     choose_.dispatch(count);
@@ -224,9 +242,11 @@ void RadianceStore::adopt(const RadianceStore& other) const {
     copy(other.irradiance_, irradiance_);
     copy(other.source_, source_);
     copy(other.balance_, balance_);
+    copy(other.checkpoint_buffer_, checkpoint_buffer_);
 }
 
-void RadianceStore::checkpoint() const {
+void RadianceStore::checkpoint(bool unsettled) const {
+    checkpoint_.set("unsettled", unsettled ? 1 : 0);
     checkpoint_.set("patch_count", patch_count_);
     checkpoint_.dispatch(patch_count_);
 }
@@ -306,7 +326,8 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 }
 
 std::size_t RadianceStore::bytes() const {
-    std::size_t sum = first_shot_ ? first_shot_->bytes() : 0;
+    std::size_t sum =
+        (first_shot_ ? first_shot_->bytes() : 0) + (placed_ ? placed_->radiance.bytes() : 0);
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
                                  &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
         sum += buffer->bytes();

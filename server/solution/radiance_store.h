@@ -48,9 +48,12 @@ class RadianceStore {
     void update(const BundleUpdate& bundle) const;
     /// Whether only perspective bundles are drawn, which never find what lines meet nothing.
     void set_shoots_only(bool shoots_only) { shoots_only_ = shoots_only; }
-    /// In glossy scenes: what all patches send along the parallel bundle whose parameters are bound
-    /// takes the place of the radiance, UNIT_RADIANCE, until the next bind().
+    /// What all patches send along the parallel bundle whose parameters are bound takes the place
+    /// of the radiance, UNIT_RADIANCE, until the next bind(): in glossy scenes, and where objects
+    /// have another size at the other place.
     void send_along_bundle(Place place) const;
+    /// Objects have moved: makes ready for those that have another size now.
+    void follow_sizes();
     /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
     /// the means lose weight by how much of all light that is. phase_weight: as for correct().
     void reshoot(float phase_weight);
@@ -74,10 +77,12 @@ class RadianceStore {
     /// solution_shooters.comp; at most 16.
     std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
 
-    /// Copies the solution of a store for the same patches; glossy parts stay as they are.
+    /// Copies the solution of a store for the same patches, with what is left of its last change;
+    /// glossy parts stay as they are.
     void adopt(const RadianceStore& other) const;
-    /// Remembers the state before a change.
-    void checkpoint() const;
+    /// Remembers the state before a change. unsettled: the last one is still being worked in, and
+    /// both are one for statistics().
+    void checkpoint(bool unsettled) const;
     /// There has been no change.
     void forget_checkpoint() const { checkpoint_buffer_.clear(); }
     [[nodiscard]] SolutionStatistics statistics() const;
@@ -110,6 +115,13 @@ class RadianceStore {
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Caustics* caustics_;                   // null where the scene has none
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
+    /// Radiance with the densities of one place; exists from the first change of a size on.
+    struct Placed {
+        Buffer radiance;
+        Texture2D texture;
+        ShaderProgram program;
+    };
+    std::optional<Placed> placed_;
     const Buffer* other_ = nullptr;
     const Texture2D* other_texture_ = nullptr;
     Readback shooter_readback_;

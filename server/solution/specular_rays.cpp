@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/mix_bits.h"
 #include "scene/patch_colour.h"
 
 namespace raybundle {
@@ -385,16 +386,14 @@ class SpecularRays::Walk {
                                                       : glm::reflect(direction, hit.geometric);
     }
 
-    /// Uniform in [0, 1): PCG hash (Jarzynski, Olano 2020, "Hash Functions for GPU Rendering").
+    /// Uniform in [0, 1).
     float random() {
-        state_ = state_ * 747796405U + 2891336453U;
-        std::uint32_t word = ((state_ >> ((state_ >> 28U) + 4U)) ^ state_) * 277803737U;
-        word = (word >> 22U) ^ word;
-        return static_cast<float>(word >> 8U) * 0x1.0p-24F;
+        state_ = mix_bits(state_);
+        return static_cast<float>(state_ >> 40U) * 0x1.0p-24F;
     }
 
     const SpecularRays& rays_;
-    std::uint32_t state_;
+    std::uint64_t state_;
     std::span<ContinuedRay, most_ends> ends_;
     std::size_t count_ = 0;
     std::array<Branch, most_ends> open_{};

@@ -22,6 +22,10 @@ constexpr std::uint64_t statistics_interval = 16;
 /// low-discrepancy means gain by n^-1.5 in variance, so that what is kept must lose its share like
 /// n^-1.5, too.
 constexpr float change_ramp = 1024.0F;
+/// Where a change has left less than so many samples of all means, a carried lamp of the only
+/// light, they begin as after loading: what comes early is still reflected from the old light.
+constexpr float as_good_as_nothing = 0.3F;
+constexpr float least_iterate_age = 3.0F;  // after a change, in samples
 
 /// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
 float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
@@ -143,6 +147,8 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
         if (phase_->done()) {
             special_bundles_ = phase_->bundles();
             const bool informed = phase_->informed();
+            kept_weight_ = phase_->most_weight();
+            limit_iterate_age(std::max(kept_weight_, least_iterate_age));
             phase_.reset();
             scene_.settle();
             refresh_statistics();
@@ -164,11 +170,20 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
 /// Weight of a sample in the means: rises at first, so that the dark beginning fades like 1/n^2.
 float Solver::sample_weight() const {
     const float age = std::min(static_cast<float>(iterations_ + 1), transient_) / transient_;
-    const float ramp =
-        changes_ == 0
-            ? 1.0F
-            : std::sqrt(std::min(static_cast<float>(since_change_ + 1) / change_ramp, 1.0F));
+    const auto since = static_cast<float>(since_change_ + 1);
+    float ramp = 1.0F;
+    if (changes_ > 0) {
+        ramp = kept_weight_ < as_good_as_nothing ? std::min(since / transient_, 1.0F)
+                                                 : std::sqrt(std::min(since / change_ramp, 1.0F));
+    }
     return age * ramp * (is_fine() ? fine_sample_weight : 1.0F);
+}
+
+/// A change has left the iterate as good as so many samples, at most.
+void Solver::limit_iterate_age(float samples) {
+    if (static_cast<float>(iterate_age_) > samples) {
+        iterate_age_ = static_cast<std::uint64_t>(samples);
+    }
 }
 
 /// Step of the transferred iterate, see solution_update.comp.
@@ -181,9 +196,7 @@ float Solver::iterate_step() const {
     const bool balanced = !scene_.has_sky() && probabilities_.perspective > 0.0F;
     const float exponent = balanced ? 0.8F : 0.66F;
     constexpr float smallest = 1.0F / 2048.0F;
-    const auto age = static_cast<float>(
-        changes_ == 0 ? iterations_ + 1 : std::min(iterations_ + 1, since_change_ + 32));
-    return std::max(std::pow(age, -exponent), smallest);
+    return std::max(std::pow(static_cast<float>(iterate_age_ + 1), -exponent), smallest);
 }
 
 void Solver::run(const Planned& planned, unsigned slot,
@@ -246,6 +259,7 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
             if ((mask >> slot & 1U) != 0) {
                 --iterations_;
                 --since_change_;
+                --iterate_age_;
                 for (BundleReceiver* receiver : receivers) {
                     receiver->discard_sample({.sample_weight = sample_weight(),
                                               .constant_irradiance = glm::pi<float>() * constant_});
@@ -259,6 +273,7 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
 void Solver::after_iteration() {
     ++iterations_;
     ++since_change_;
+    ++iterate_age_;
     if (since_change_ % statistics_interval == 0) {
         refresh_statistics();
     }

@@ -138,6 +138,7 @@ class Solver {
     };
     void work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers);
     void note_change();
+    [[nodiscard]] bool unsettled() const;
     void start_phase(bool moving, float most_weight);
     [[nodiscard]] bool any_glossy(std::span<const std::uint32_t> materials) const;
     void adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale);
@@ -148,6 +149,7 @@ class Solver {
     }
     [[nodiscard]] Transfer& transfer() { return is_fine() ? *fine_ : *coarse_; }
     [[nodiscard]] float sample_weight() const;
+    void limit_iterate_age(float samples);
     [[nodiscard]] float iterate_step() const;
 
     SolverSettings settings_;
@@ -170,6 +172,8 @@ class Solver {
     std::uint64_t iterations_ = 0;
     Shots shots_;
     std::uint64_t since_change_ = 0;
+    float kept_weight_ = 1e30F;  // samples that any mean was worth at most after the last change
+    std::uint64_t iterate_age_ = 0;  // samples that the iterate is worth
     std::uint64_t changes_ = 0;
     SolutionStatistics statistics_;
 };

@@ -20,6 +20,10 @@ constexpr float unit_range = 64.0F;
 /// Samples that what punctual lights bring anew is worth, against those taken with their light
 /// before.
 constexpr float first_shot_weight = 1.0F;
+/// A change that is settled to less than this is still being worked in when the next one comes.
+constexpr double settled_enough = 0.95;
+/// Samples that the iterate is worth after any change, so that its steps are large again.
+constexpr float iterate_age_after_change = 31.0F;
 constexpr float rounding = 1e-6F;  // of a product of two floats, relative
 
 /// Whether an emitter has come or gone among the patches.
@@ -52,10 +56,17 @@ ChangeStore& Solver::change_store() {
     return *change_store_;
 }
 
+/// Whether another change comes before the last one is worked in.
+bool Solver::unsettled() const {
+    return changes_ > 0 && statistics_.settled < settled_enough;
+}
+
 void Solver::note_change() {
     group_.clear();
     group_next_ = 0;
     since_change_ = 0;
+    kept_weight_ = no_limit;
+    limit_iterate_age(iterate_age_after_change);
     statistics_.settled = 0.0;
     ++changes_;
 }
@@ -80,11 +91,12 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
 void Solver::move_objects(std::span<const ObjectMove> moves,
                           std::span<BundleReceiver* const> receivers) {
     store_.bind();
-    store_.checkpoint();
+    store_.checkpoint(unsettled());
     scene_.move_objects(moves);
     for (const ObjectMove& move : moves) {
         store_.turn_gloss(move.object, scene_.now_from_before(move.object));
     }
+    store_.follow_sizes();
     store_.reshoot(first_shot_weight);
     restart_caustics();
     for (BundleReceiver* receiver : receivers) {
@@ -173,7 +185,7 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     change.transfer = !reflecting.empty() || anything_left(before, mesh.emission, change.scale);
     change.redraw = !reflecting.empty() || emitters_differ(before, mesh.emission);
     store_.bind();
-    store_.checkpoint();
+    store_.checkpoint(unsettled());
     change_store().remember_surfaces(scene_);
     change.glossy = any_glossy(reflecting);
     scene_.update_surfaces(scene, mesh, materials);
@@ -192,10 +204,12 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
 void Solver::take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
                        std::span<BundleReceiver* const> receivers) {
     iterations_ = other.iterations_;
+    iterate_age_ = other.iterate_age_;
     changes_ = other.changes_;
+    statistics_ = other.statistics_;
     store_.adopt(other.store_);
     store_.bind();
-    store_.checkpoint();
+    store_.checkpoint(unsettled());
     change_store().remember_surfaces(other.scene_);
     SurfaceChange change;
     change.scale = glm::vec3(other.scene_.radiance_unit() / scene_.radiance_unit());

@@ -45,6 +45,17 @@ bool is_layered(unsigned index, unsigned bundles) {
     return (i + 1) * layered_of(bundles) / bundles > i * layered_of(bundles) / bundles;
 }
 
+/// A shooter that moves with its object.
+layout::Shooter shooter_at(const layout::Shooter& shooter, Place place) {
+    layout::Shooter placed = shooter;
+    if (place == Place::before) {
+        placed.position = shooter.position_before;
+        placed.normal = shooter.normal_before;
+        placed.density = shooter.density_before;
+    }
+    return placed;
+}
+
 }  // namespace
 
 SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
@@ -234,10 +245,10 @@ float SpecialPhase::weight_beside_unseen() const {
 void SpecialPhase::finish(std::span<BundleReceiver* const> receivers) {
     change_.stop_sending();
     const float bundles_noise = 1.0F / static_cast<float>(bundles_);
-    const float most_weight = std::min(settings_.most_weight, weight_beside_unseen());
-    change_.correct(bundles_noise, most_weight);
+    most_weight_ = std::min(settings_.most_weight, weight_beside_unseen());
+    change_.correct(bundles_noise, most_weight_);
     for (BundleReceiver* receiver : receivers) {
-        receiver->end_special(bundles_noise, most_weight);
+        receiver->end_special(bundles_noise, most_weight_);
     }
     done_ = true;
 }
@@ -250,21 +261,17 @@ void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned ind
     const glm::vec2 pixel_shift(numbers_.sample(shift_x, n) - 0.5,
                                 numbers_.sample(shift_y, n) - 0.5);
     for (const Place place : {Place::before, Place::now}) {
-        BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);
-        if (carried(shooter) && place == Place::before) {
-            const glm::mat4 before_from_now =
-                scene_.world_from_object(shooter.object, Place::before) *
-                glm::inverse(scene_.world_from_object(shooter.object, Place::now));
-            const auto rotate = glm::transpose(glm::inverse(glm::mat3(before_from_now)));
-            frame = make_frame(glm::vec3(before_from_now * glm::vec4(shooter.position, 1.0F)),
-                               glm::normalize(rotate * shooter.normal), angle);
+        const layout::Shooter placed = shooter_at(shooter, place);
+        if (placed.density <= 0.0F) {
+            continue;  // an object without a size sends nothing
         }
+        BundleFrame frame = make_frame(placed.position, placed.normal, angle);
         frame.pixel_shift = pixel_shift;
         // A shooter on the object moves with it: everything that it sees changes.
         const auto rectangles = carried(shooter) || !settings_.scissored
                                     ? transfer_.hemicube().full()
                                     : transfer_.hemicube().covering(frame, boxes_);
-        transfer_.perspective(frame, shooter, rectangles, difference_settings(place, index),
+        transfer_.perspective(frame, placed, rectangles, difference_settings(place, index),
                               receivers);
     }
 }

@@ -34,6 +34,8 @@ class SpecialPhase {
     [[nodiscard]] bool done() const { return done_; }
     /// Whether its bundles can tell how much there was to correct: one alone, or none, cannot.
     [[nodiscard]] bool informed() const { return !settings_.skipped && bundles_ > 1; }
+    /// Samples that the phase has left any mean worth; see weight_beside_unseen(). Once done().
+    [[nodiscard]] float most_weight() const { return most_weight_; }
     /// Bundles of the first stage: chosen while it runs.
     [[nodiscard]] unsigned bundles() const { return bundles_; }
 
@@ -66,7 +68,8 @@ class SpecialPhase {
     RandomisedHalton numbers_;
     std::vector<Bounds> boxes_;  // of the moved objects, now and before, shifted world
     std::vector<layout::Shooter> shooters_;
-    unsigned bundles_;           // of the first stage
+    unsigned bundles_;  // of the first stage
+    float most_weight_ = 1e30F;
     unsigned next_ = 0;          // bundle of the running stage
     unsigned first_number_ = 0;  // of the running stage in the sequences
     bool bouncing_ = false;      // the second stage runs

@@ -30,7 +30,6 @@ ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, u
 /// special phase sample more.
 constexpr unsigned row_stride = 4;
 constexpr unsigned special_row_stride = 2;
-constexpr float near_share = 1e-6F;  // of the scene's diameter: nearer surfaces are not seen
 constexpr float tie_share = 4e-6F;   // of the scene's diameter: closer surfaces coincide
 
 glm::ivec4 to_vector(const PixelRectangle& r) {
@@ -80,7 +79,7 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                                                      const TransferSettings& settings) const {
     constexpr float two_pi = glm::two_pi<float>();
     layout::BundleParameters p{};
-    p.origin = glm::vec4(frame.origin, near_share * scene_.diameter());
+    p.origin = glm::vec4(frame.origin, static_cast<float>(NEAR_SHARE) * scene_.diameter());
     p.axis_x = glm::vec4(frame.x, 0.0F);
     p.axis_y = glm::vec4(frame.y, 0.0F);
     p.axis_z = glm::vec4(frame.z, 0.0F);

@@ -9,22 +9,13 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/octahedral.h"
 #include "solution/facet_raster.h"
 
 namespace raybundle {
 namespace {
 
 constexpr std::size_t tile_pixels = VIEW_TILE * VIEW_TILE;
-
-/// Octahedral unit vectors, as shaders/octahedral.glsl has them.
-std::uint32_t packed_direction(const glm::vec3& n) {
-    glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    if (n.z < 0.0F) {
-        p = {(1.0F - std::abs(p.y)) * (p.x >= 0.0F ? 1.0F : -1.0F),
-             (1.0F - std::abs(p.x)) * (p.y >= 0.0F ? 1.0F : -1.0F)};
-    }
-    return glm::packSnorm2x16(p);
-}
 
 layout::ContinuedPixel unused() {
     layout::ContinuedPixel pixel{};
@@ -38,7 +29,7 @@ layout::ContinuedPixel pixel_of(const ContinuedRay& ray, std::size_t branch) {
     pixel.position = ray.position;
     pixel.surface = ray.surface;
     pixel.throughput = ray.throughput;
-    pixel.towards = packed_direction(ray.towards);
+    pixel.towards = glm::packSnorm2x16(octahedral_from_vector(ray.towards));
     pixel.branch = static_cast<std::uint32_t>(branch);
     return pixel;
 }

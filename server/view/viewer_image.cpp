@@ -84,6 +84,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
       vertex_irradiance({"view_vertex_irradiance.comp"}),
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
+      detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
       hemicube_pixels(make_receive_hemicube(scene, variant)),
       hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
@@ -114,7 +115,8 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
       view_("view parameters", sizeof(layout::ViewParameters)),
       vertex_irradiance_("vertex irradiance",
                          2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
-      statistics_buffer_("view statistics", statistics_groups * sizeof(glm::vec4)) {
+      statistics_buffer_("view statistics", 2 * statistics_groups * sizeof(glm::vec4)) {
+    statistics_buffer_.clear();
     statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
     vertex_irradiance_texture_ =
         create_buffer_texture("vertex irradiance", GL_RGBA16F, vertex_irradiance_);
@@ -264,7 +266,8 @@ bool ViewerImage::smooth_step() {
     return !edges_->complete();
 }
 
-void ViewerImage::refresh_geometry(float kept_weight) {
+/// moved: objects have just moved, and the picture still shows them at their old places.
+void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
             glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
@@ -291,15 +294,25 @@ void ViewerImage::refresh_geometry(float kept_weight) {
     if (specular_) {
         specular_->begin();
     }
-    resolve(!has_picture_ || kept_weight <= 0.0F   ? programs_.resolve_new
-            : scene_.moved_objects().x == NO_PATCH ? programs_.resolve_reprojected
-                                                   : programs_.resolve_moved,
+    resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
+            : moved                              ? programs_.resolve_moved
+                                                 : programs_.resolve_reprojected,
             whole_picture(), kept_weight);
     shoot_first();
-    batches_.clear();
+    restart_batches();
     edges_->restart();
     samples_ = 0;
     has_picture_ = true;
+}
+
+/// What the pixels show is another thing from now on, or of other accuracy.
+void ViewerImage::restart_batches() {
+    batches_.clear();
+    parameters_.weights.y = 0.0F;
+    batch_samples_ = 0;
+    detail_samples_ = 0;
+    requested_samples_ = 0;
+    statistics_.samples = 0;
 }
 
 void ViewerImage::bind_old_picture() const {
@@ -391,6 +404,7 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
         specular_->dispatch(programs.glossy);
     }
     ++samples_;
+    ++batch_samples_;
     parameters_.weights.x += context.sample_weight;
     parameters_.weights.y += context.sample_weight / BATCHES;
     parameters_.constant += glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
@@ -424,6 +438,7 @@ void ViewerImage::discard_sample(const Context& context) {
         continued()->discard_sample(context);
     }
     --samples_;
+    --batch_samples_;
     parameters_.weights.x -= context.sample_weight;
     parameters_.weights.y -= context.sample_weight / BATCHES;
     parameters_.constant -= glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
@@ -522,6 +537,8 @@ std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::u
     auto buffer = Buffer::from<layout::PickResult>("probes", picks);
     buffer.bind_storage(BINDING_PICK);
     programs_.probe.set("triangle_count", scene_.triangle_count());
+    programs_.probe.set("variance_of_mean",
+                        static_cast<float>(variance_of_mean(batch_samples_, sample_order())));
     programs_.probe.dispatch(pixels.size());
     buffer.read<layout::PickResult>(picks);
     std::vector<std::optional<PixelProbe>> found(pixels.size());
@@ -568,18 +585,47 @@ void ViewerImage::request_statistics() {
     programs_.statistics.set("triangle_count", scene_.triangle_count());
     programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
     programs_.statistics.set("unsampled_error",
-                             static_cast<float>(std::min(statistics_.relative_error, 1.0)));
-    programs_.statistics.set("fresh_share", samples_ < BATCHES ? 2.0F : 0.02F);
+                             static_cast<float>(std::min(statistics_.noise, 1.0)));
+    programs_.statistics.set("variance_of_mean",
+                             static_cast<float>(variance_of_mean(batch_samples_, sample_order())));
+    programs_.statistics.set("fresh_share", batch_samples_ < BATCHES ? 2.0F : 0.02F);
     programs_.statistics.dispatch(statistics_groups * 64);
+    if (ends_ == nullptr &&
+        batch_samples_ >= std::max<std::uint64_t>(2 * detail_samples_, 2 * BATCHES)) {
+        measure_detail();
+    }
     statistics_readback_->request(statistics_buffer_, statistics_buffer_.bytes());
+    requested_samples_ = batch_samples_;
 }
 
-glm::dvec4 ViewerImage::statistics_sums() {
-    glm::dvec4 sum(0.0);
-    for (const glm::vec4& p : statistics_readback_->take_as<glm::vec4>()) {
-        sum += glm::dvec4(p);
+SampleOrder ViewerImage::sample_order() const {
+    return scene_.reflectance().any_glossy() ? SampleOrder::shuffled : SampleOrder::low_discrepancy;
+}
+
+/// What is finer than the pixels changes little: measured when there are twice as many samples.
+void ViewerImage::measure_detail() {
+    Buffer centres("centres of pixels", pixel_count(size_) * sizeof(glm::vec4));
+    centres.bind_storage(BINDING_FRAME);
+    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
+    programs_.compose_linear.set("frame_width", size_.x);
+    programs_.compose_linear.set("frame_height", size_.y);
+    programs_.compose_linear.dispatch(pixel_count(size_));
+    const Buffer smoothed =
+        edges_->complete() ? edges_->average_linear(programs_.edges, centres) : Buffer();
+    centres.bind_storage(BINDING_FRAME);
+    (edges_->complete() ? smoothed : centres).bind_storage(BINDING_SMOOTHED);
+    programs_.detail.dispatch(statistics_groups * 64);
+    detail_samples_ = batch_samples_;
+}
+
+ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
+    StatisticsSums sums;
+    const auto parts = statistics_readback_->take_as<glm::vec4>();
+    for (std::size_t i = 0; i < statistics_groups; ++i) {
+        sums.light += glm::dvec4(parts[i]);
+        sums.detail += glm::dvec4(parts[statistics_groups + i]);
     }
-    return sum;
+    return sums;
 }
 
 const ImageStatistics& ViewerImage::statistics() {
@@ -590,21 +636,26 @@ const ImageStatistics& ViewerImage::statistics() {
 }
 
 void ViewerImage::finish_statistics() {
-    const glm::dvec4 own = statistics_sums();
-    evaluate(own + (continued() != nullptr ? continued()->statistics_sums() : glm::dvec4(0.0)));
+    const StatisticsSums own = statistics_sums();
+    evaluate(own.light +
+                 (continued() != nullptr ? continued()->statistics_sums().light : glm::dvec4(0.0)),
+             own.detail);
 }
 
-void ViewerImage::evaluate(const glm::dvec4& sum) {
+void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
     if (sum.w <= 0.0) {
         return;
     }
-    statistics_.known = statistics_.known || samples_ >= 2 * BATCHES;
+    statistics_.samples = requested_samples_;
+    statistics_.known = statistics_.known || requested_samples_ >= 2 * BATCHES;
     const double unit = scene_.radiance_unit();
-    statistics_.relative_error = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
-    // 8 batch means: chi-square with 7 degrees of freedom if all pixels erred together (the
-    // cautious end), 2.5 % and 97.5 % quantiles 1.690 and 16.01.
-    statistics_.error_low = statistics_.relative_error * std::sqrt(7.0 / 16.01);
-    statistics_.error_high = statistics_.relative_error * std::sqrt(7.0 / 1.690);
+    statistics_.noise = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
+    statistics_.discretisation =
+        detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) : 0.0;
+    const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation);
+    statistics_.relative_error = interval.error;
+    statistics_.error_low = interval.low;
+    statistics_.error_high = interval.high;
     statistics_.mean_log_luminance = sum.z / sum.w + std::log(unit);
     statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
 }

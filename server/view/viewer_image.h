@@ -17,6 +17,7 @@
 #include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
 #include "view/edge_filter.h"
+#include "view/error_interval.h"
 #include "view/specular_groups.h"
 
 namespace raybundle {
@@ -33,12 +34,22 @@ struct ColourScale {
 
 /// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).
 struct ImageStatistics {
-    bool known = false;           ///< enough samples for an estimate
+    bool known = false;  ///< enough samples for an estimate
+    /// Taken since camera or scene changed when this was requested; 0: it is of before that.
+    std::uint64_t samples = 0;
     double relative_error = 1.0;  ///< estimated relRMSE of luminance
     double error_low = 1.0;       ///< 95 % interval
     double error_high = 1.0;
+    double noise = 1.0;  ///< of it what more samples take away, and what they do not
+    double discretisation = 0.0;
     double mean_log_luminance = 0.0;  ///< mean of ln(luminance / (cd/m²))
     double rms_luminance = 0.0;       ///< cd/m²
+
+    /// The noise is but half of what the pixels cannot resolve anyway: more samples bring next to
+    /// nothing.
+    [[nodiscard]] bool at_floor() const { return noise <= 0.5 * discretisation; }
+    /// The interval ends below a target, or at_floor().
+    [[nodiscard]] bool meets(double target) const { return error_high <= target || at_floor(); }
 };
 
 /// What a pixel of a viewer shows.
@@ -67,7 +78,7 @@ struct ViewPrograms {
     Resolve resolve_new, resolve_reprojected, resolve_moved;
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
-    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, probe;
+    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
@@ -91,6 +102,12 @@ class ViewerImage : public BundleReceiver {
                 glm::uvec2 size);
     ~ViewerImage() override;
 
+    /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
+    /// where none do.
+    [[nodiscard]] double samples_factor_to(double target) const {
+        return samples_factor(statistics_.noise, statistics_.discretisation, target,
+                              sample_order());
+    }
     /// Changes what is seen; accumulated irradiance follows its surface points.
     void set_camera(const Camera& camera);
     /// The same with another size, where nothing is kept.
@@ -162,8 +179,11 @@ class ViewerImage : public BundleReceiver {
     void refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight);
     /// Writes the radiance (vec4, radiance units) that each pixel shows, in their own order.
     void shade_continued(const Buffer& radiance);
-    /// The sums of view_statistics.comp as last requested; waits for them.
-    glm::dvec4 statistics_sums();
+    /// The sums of view_statistics.comp and view_detail.comp as last requested; waits for them.
+    struct StatisticsSums {
+        glm::dvec4 light{0.0}, detail{0.0};
+    };
+    StatisticsSums statistics_sums();
 
     /// Factor from radiance (cd/m²) to the tone curve's input for an exposure in stops.
     static float display_factor(float exposure);
@@ -178,7 +198,7 @@ class ViewerImage : public BundleReceiver {
     void copy_rows(const PixelRectangle& rectangle) const;
     void resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
                  float kept_weight);
-    void refresh_geometry(float kept_weight);
+    void refresh_geometry(float kept_weight, bool moved = false);
     void refresh_moved();
     void allocate_gloss();
     void allocate_first_shot();
@@ -190,8 +210,11 @@ class ViewerImage : public BundleReceiver {
     void receive(const ViewPrograms::Receive& programs, const Context& context);
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
+    void restart_batches();
     void interpolate_vertices();
-    void evaluate(const glm::dvec4& sum);
+    void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
+    void measure_detail();
+    [[nodiscard]] SampleOrder sample_order() const;
     [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 
@@ -210,6 +233,9 @@ class ViewerImage : public BundleReceiver {
     std::size_t frame_bytes_ = 0;
     bool has_picture_ = false;  // accumulators that can be reprojected
     std::uint64_t samples_ = 0;
+    std::uint64_t batch_samples_ = 0;      // since the batches began
+    std::uint64_t detail_samples_ = 0;     // of them when the detail was measured last
+    std::uint64_t requested_samples_ = 0;  // of them when statistics were requested last
     ImageStatistics statistics_;
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;

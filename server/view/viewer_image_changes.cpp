@@ -16,7 +16,7 @@ void ViewerImage::begin_special() {
     if (has_picture_ && store_.first_shot() == nullptr) {
         refresh_moved();
     } else {
-        refresh_geometry(store_.kept_share(parameters_.weights.x));
+        refresh_geometry(store_.kept_share(parameters_.weights.x), true);
     }
     clear_increments();
 }
@@ -68,8 +68,7 @@ void ViewerImage::copy_rows(const PixelRectangle& rectangle) const {
 /// The camera rests, and objects are elsewhere: only where they are and were the picture differs,
 /// and all other pixels keep what they have to the bit.
 void ViewerImage::refresh_moved() {
-    parameters_.weights.y = 0.0F;
-    batches_.clear();
+    restart_batches();
     samples_ = 0;
     if (continued_) {
         continued_->refresh(parameters_, camera_, 1.0F);
@@ -161,8 +160,7 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
     upload_view();
     store_.bind();
     bind_pixels();
-    batches_.clear();
-    parameters_.weights.y = 0.0F;
+    restart_batches();
     scene_.set_move(programs_.correct);
     programs_.correct.set("bundles_noise", bundles_noise);
     programs_.correct.set("most_weight", most_weight);

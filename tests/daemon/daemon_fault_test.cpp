@@ -91,6 +91,36 @@ TEST_F(DaemonTest, KilledItGoesOnWhereItWas) {
     }
 }
 
+/// A restart is no end of the session: what was before it can still be gone back to.
+TEST_F(DaemonTest, AnyEarlierEpochCanBeGoneBackToAfterARestart) {
+    const std::vector<std::string> options{"--journal", path("session.db")};
+    double first = 0.0;
+    {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        first = x_of_box(viewer.join());
+        move(viewer, 2.0);
+        move(viewer, 2.3);
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    {
+        Daemon daemon(cornell_box(), options);
+        JsonViewer viewer(daemon.port());
+        viewer.join();
+        move(viewer, 2.6);
+        EXPECT_TRUE(viewer.request({{"undo", {{"epoch", 1}}}}).contains("ok"));
+        JsonViewer other(daemon.port());
+        EXPECT_NEAR(x_of_box(other.join()), 2.0, 1e-6);
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    Daemon daemon(cornell_box(), options);
+    JsonViewer viewer(daemon.port());
+    EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 4);
+    EXPECT_TRUE(viewer.request({{"undo", {{"epoch", 0}}}}).contains("ok"));
+    JsonViewer other(daemon.port());
+    EXPECT_NEAR(x_of_box(other.join()), first, 1e-6);
+}
+
 TEST_F(DaemonTest, KilledWhileItIsWrittenToItLosesNothingAcknowledged) {
     const std::vector<std::string> options{"--journal", path("session.db")};
     std::uint32_t acknowledged = 0;

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "../oracle/fresh_solves.h"
 #include "../oracle/moved_box.h"
 
 namespace raybundle {
@@ -15,14 +16,6 @@ namespace {
 
 SolverSettings quick(std::uint64_t seed) {
     return quick_settings(seed, {96, 150});
-}
-
-std::vector<double> luminances(const Solver& solver) {
-    std::vector<double> result;
-    for (const glm::vec4& e : solver.store().read_irradiance()) {
-        result.push_back(static_cast<double>(luminance(glm::vec3(e))));
-    }
-    return result;
 }
 
 std::vector<double> converged(const glm::vec3& place, std::uint64_t seed) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -26,7 +28,7 @@ TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
     EXPECT_FALSE(json["device"].get<std::string>().empty());
     ASSERT_EQ(json["curves"].size(), 2U);
     EXPECT_EQ(json["curves"][0]["method"], "combined");
-    EXPECT_EQ(json["curves"][0]["pixelFilter"], "centre");
+    EXPECT_EQ(json["curves"][0]["pixelFilter"], "area");
     EXPECT_EQ(json["curves"][1]["pixelFilter"], "area");
     const auto& points = json["curves"][0]["points"];
     ASSERT_GE(points.size(), 3U);
@@ -36,11 +38,32 @@ TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
     }
     EXPECT_LT(points.back()["relRMSE"].get<double>(), points.front()["relRMSE"].get<double>());
     EXPECT_LT(points.back()["relRMSE"].get<double>(), 0.3);
-    for (const char* name :
-         {"index.html", "reference.exr", "reference_area.exr", "estimate_combined.svg"}) {
+    for (const char* name : {"index.html", "reference_area.exr", "estimate_combined.svg"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
     fs::remove_all(folder);
+}
+
+/// Only path tracing knows glass: by default the other methods on the CPU are left out.
+TEST(AccuracyCommand, MeasuresASceneWithGlassByTheMethodsThatKnowIt) {
+    const fs::path folder = fs::path(testing::TempDir()) / "raybundle_accuracy_glass";
+    fs::remove_all(folder);
+    const std::string command = RAYBUNDLE_EXECUTABLE
+                                " accuracy --log-level off " RAYBUNDLE_SCENES
+                                "/effects/glass.gltf --size 16x16 --patch-size 0.5 --seconds 0.2 "
+                                "--reference-seconds 1 -o '" +
+                                folder.string() + "' 2>/dev/null >/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream stream(folder / "accuracy.json");
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    std::vector<std::string> methods;
+    for (const auto& curve : json.at("curves")) {
+        methods.push_back(curve.at("method"));
+    }
+    EXPECT_EQ(methods, (std::vector<std::string>{"combined", "parallel-layered", "parallel-plane",
+                                                 "perspective", "path"}));
+    fs::remove_all(folder);
+    EXPECT_EQ(WEXITSTATUS(std::system((command + " --methods light").c_str())), 1);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(MovedTogether, ACarriedLightIsNoWorseThanAFreshSolve) {
             moved += std::pow(relative_difference(solver.store().read_irradiance(), truth), 2.0);
             fresh += std::pow(relative_difference(equal.store().read_irradiance(), truth), 2.0);
         }
-        EXPECT_LT(std::sqrt(moved / fresh), 1.6) << count;
+        EXPECT_LT(std::sqrt(moved / fresh), 1.15) << count;
         RecordProperty("ratio_" + std::to_string(count), std::to_string(std::sqrt(moved / fresh)));
     }
 }

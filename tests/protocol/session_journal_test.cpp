@@ -97,6 +97,23 @@ TEST_F(SessionJournalTest, PartialChangesOfALightAddUp) {
     EXPECT_EQ(changes[0].epoch(), 2U);
 }
 
+TEST_F(SessionJournalTest, KnowsWhatWasBeforeTheLastChangesUpToAGap) {
+    {
+        SessionJournal journal(settings_);
+        journal.append(move(1, 2, 0.5F), move(0, 2, 0.0F));
+        journal.append(move(2, 2, 1.5F));  // as by a server that keeps none
+        journal.append(move(3, 1, 2.5F), move(0, 1, 0.0F));
+        journal.append(move(4, 2, 3.5F), move(2, 2, 1.5F));
+    }
+    SessionJournal journal(settings_);
+    const auto past = journal.past();
+    ASSERT_EQ(past.size(), 2U);
+    EXPECT_EQ(past[0].SerializeAsString(), move(3, 1, 0.0F).SerializeAsString());
+    EXPECT_EQ(past[1].SerializeAsString(), move(4, 2, 1.5F).SerializeAsString());
+    journal.append(move(5, 2, 4.5F));
+    EXPECT_TRUE(journal.past().empty());
+}
+
 TEST_F(SessionJournalTest, AnotherSceneIsAnotherSession) {
     SessionJournal(settings_).append(move(1, 1, 1.0F));
     JournalSettings other = settings_;

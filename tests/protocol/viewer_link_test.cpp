@@ -67,6 +67,26 @@ TEST(ViewerLink, ASilentViewerGetsOneFrame) {
     EXPECT_TRUE(link.advise(kDemand, 1e6).send);
 }
 
+TEST(ViewerLink, APingAfterTheWelcomeTellsWhetherAnybodyIsThere) {
+    ViewerLink link(1, 1000, {});
+    v1::ServerMessage welcome;
+    welcome.mutable_welcome();
+    link.send(welcome);
+    link.send_frame(frame(1), {1});
+    EXPECT_EQ(link.take(0)->kind, Outgoing::Kind::text);
+    ASSERT_TRUE(link.has_output());
+    const Outgoing greeting = *link.take(0);
+    EXPECT_EQ(greeting.kind, Outgoing::Kind::ping);
+    EXPECT_EQ(link.take(0)->kind, Outgoing::Kind::ping) << "the one that measures";
+    EXPECT_EQ(link.take(0)->kind, Outgoing::Kind::frame);
+    EXPECT_FALSE(link.has_output());
+    EXPECT_FALSE(link.answers());
+    link.on_pong("unasked", 1);
+    EXPECT_FALSE(link.answers());
+    link.on_pong(payload(greeting), 1);
+    EXPECT_TRUE(link.answers());
+}
+
 TEST(ViewerLink, OverflowClosesInsteadOfGrowing) {
     ViewerLink link(1, 100, {});
     for (std::uint32_t i = 0; i < 100; ++i) {

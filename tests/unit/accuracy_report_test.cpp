@@ -28,8 +28,8 @@ CurvePoint point(unsigned checkpoint, double seconds, double error) {
     return result;
 }
 
-ErrorCurve curve(const std::string& name, const std::string& knob, PixelFilter filter) {
-    ErrorCurve result{name, name, knob, filter, {{"bytes", 1000000}, {"seed", 1}}, {}};
+ErrorCurve curve(const std::string& name, const std::string& knob, bool by_bundles) {
+    ErrorCurve result{name, name, knob, by_bundles, {{"bytes", 1000000}, {"seed", 1}}, {}};
     result.points = {point(0, 1.0, 0.2), point(1, 2.0, 0.09), point(2, 4.0, 0.04)};
     return result;
 }
@@ -47,9 +47,8 @@ AccuracyReport report() {
     result.references = {
         {PixelFilter::centre, "out/reference.exr", ReferenceNoise{0.005, 1e-4}, 64, 3.5},
         {PixelFilter::box, "out/reference_area.exr", std::nullopt, 0, 0.0}};
-    result.curves = {curve("combined", "", PixelFilter::centre),
-                     curve("path", "", PixelFilter::box),
-                     curve("edges halved", "patch size", PixelFilter::centre)};
+    result.curves = {curve("combined", "", true), curve("path", "", false),
+                     curve("edges halved", "patch size", true)};
     const std::vector<std::uint8_t> rgba = {1, 2, 3, 255, 4, 5, 6, 255};
     result.pictures = {{"reference", 0.0, 0.0, png_of(rgba, {2, 1}), ""},
                        {"combined", 4.0, 0.04, png_of(rgba, {2, 1}), png_of(rgba, {2, 1})}};

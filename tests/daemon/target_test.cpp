@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server whose viewers have what they want does nothing, until one wants something else.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "daemon.h"
+#include "json_viewer.h"
+
+namespace raybundle {
+namespace {
+
+constexpr double target = 0.25;
+
+/// CPU time of a process and its threads so far, seconds.
+double cpu_seconds(pid_t process) {
+    std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(stream, text);
+    std::istringstream fields(text.substr(text.rfind(')') + 2));
+    std::string skipped;
+    for (int field = 3; field < 14; ++field) {
+        fields >> skipped;
+    }
+    double user = 0.0;
+    double system = 0.0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+class TargetTest : public testing::Test {
+  protected:
+    TargetTest() { viewer_.join("", 160, 120); }
+
+    [[nodiscard]] Json next_solution(JsonViewer& viewer) {
+        return viewer.next_with("solution").value("solution", Json::object());
+    }
+    /// Waits until no iteration has been done for a second and a half; the last solution.
+    Json rest(JsonViewer& viewer) {
+        Json last = next_solution(viewer);
+        int same = 0;
+        for (int i = 0; i < 160 && same < 6 && !last.empty(); ++i) {
+            const Json now = next_solution(viewer);
+            same = now.value("iterations", 0) == last.value("iterations", 0) ? same + 1 : 0;
+            last = now;
+        }
+        EXPECT_GE(same, 6) << "it never rested: " << last.dump();
+        return last;
+    }
+    /// The next solution with at least so many iterations.
+    bool goes_on_to(int iterations) {
+        const auto enough = [&](const Json& m) {
+            return m.contains("solution") && m["solution"].value("iterations", 0) >= iterations;
+        };
+        return !viewer_.next(enough).empty();
+    }
+    /// Rests at its target again, having worked for it.
+    Json rests_after_work(const Json& before) {
+        const int iterations = before.value("iterations", 0);
+        EXPECT_TRUE(goes_on_to(iterations + 16));
+        const Json after = rest(viewer_);
+        EXPECT_LE(after.value("errorHigh", 1.0), target) << after.dump();
+        return after;
+    }
+
+    Daemon daemon_{scene_file("cornell_box.gltf")};
+    JsonViewer viewer_{daemon_.port()};
+};
+
+TEST_F(TargetTest, TheSolverRestsAtTheTargetAndWakesForAChange) {
+    viewer_.request({{"setTarget", {{"relativeError", target}}}});
+    ASSERT_TRUE(goes_on_to(16));
+    Json at_rest = rest(viewer_);
+    EXPECT_LE(at_rest.value("errorHigh", 1.0), target) << at_rest.dump();
+    EXPECT_EQ(at_rest.value("secondsToTarget", 1.0), 0.0) << at_rest.dump();
+    // Less than 5 % of a core on a machine of its own; twice that where it is shared.
+    const double before = cpu_seconds(daemon_.process());
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    EXPECT_GT(before, 0.0);
+    EXPECT_LT(cpu_seconds(daemon_.process()) - before, 0.1 * 2.0);
+
+    viewer_.request({{"setCamera",
+                      {{"eye", {{"x", 2.2}, {"y", 2.2}, {"z", -6.5}}},
+                       {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+    at_rest = rests_after_work(at_rest);
+    viewer_.request({{"moveObject",
+                      {{"object", 2},
+                       {"transform", {{"translation", {{"x", 2.4}, {"y", 0.825}, {"z", 1.7}}}}}}}});
+    at_rest = rests_after_work(at_rest);
+    viewer_.request({{"setLight", {{"light", 1}, {"intensity", 500.0}}}});
+    rests_after_work(at_rest);
+}
+
+TEST_F(TargetTest, SecondsAreATargetToo) {
+    viewer_.request({{"setTarget", {{"seconds", 2.0}}}});
+    EXPECT_GE(rest(viewer_).value("iterations", 0), 1);
+    // Somebody else who wants everything.
+    const int iterations = next_solution(viewer_).value("iterations", 0);
+    JsonViewer other(daemon_.port());
+    other.join("", 160, 120);
+    EXPECT_TRUE(goes_on_to(iterations + 16));
+}
+
+}  // namespace
+}  // namespace raybundle

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "judged_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "reference/image_metrics.h"
+#include "scene/gltf_loader.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+namespace {
+
+const glm::uvec2 size(48, 48);
+constexpr std::uint64_t interval = 16;
+constexpr std::uint64_t reference_seed = 77;
+
+Scene shipped_scene(const std::string& file) {
+    return load_gltf(std::string(RAYBUNDLE_SCENES) + "/" + file);
+}
+
+PatchMesh mesh_of(Scene& scene, float patch_size) {
+    TessellationSettings settings;
+    settings.patch_size = patch_size;
+    return tessellate(scene, settings);
+}
+
+}  // namespace
+
+JudgedScene::JudgedScene(const std::string& file, float patch_size, unsigned passes)
+    : scene_(shipped_scene(file)),
+      mesh_(mesh_of(scene_, patch_size)),
+      camera_(scene_.cameras.front()) {
+    const RayScene ray_scene(scene_, mesh_);
+    const LightSampling lights(ray_scene);
+    const CameraRays rays(ray_scene, camera_, size);
+    measured_ = measured_pixels(ray_scene, rays);
+    ReferenceMaker maker(ray_scene, lights, rays, measured_, PixelFilter::box, reference_seed,
+                         std::nullopt);
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        maker.add_pass();
+    }
+    reference_ = maker.result();
+}
+
+double JudgedScene::error_of(ViewerImage& image) const {
+    std::vector<glm::dvec3> picture;
+    for (const glm::vec4& pixel : image.read_radiance()) {
+        picture.emplace_back(pixel);
+    }
+    const double measured = compare_images(picture, reference_.radiance, measured_).relative_rmse;
+    return std::sqrt(std::max(measured * measured - reference_noise() * reference_noise(), 0.0));
+}
+
+void JudgedScene::run(std::uint64_t seed, double target,
+                      const std::function<bool(const JudgedPicture&)>& goes_on) const {
+    SolverSettings settings;
+    settings.seed = seed;
+    Solver solver(scene_, mesh_, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    image.set_camera(camera_);
+    image.smooth();
+    BundleReceiver* const receivers[] = {&image};
+    JudgedPicture judged;
+    do {
+        for (std::uint64_t i = 0; i < interval; ++i) {
+            solver.step(receivers);
+        }
+        image.request_statistics();
+        image.finish_statistics();
+        judged = {solver.iterations(), error_of(image), image.statistics(),
+                  image.samples_factor_to(target)};
+    } while (goes_on(judged));
+}
+
+void Coverage::add(const JudgedPicture& picture) {
+    ++pictures;
+    covered += picture.covered() ? 1 : 0;
+    above += picture.error > picture.said.error_high ? 1 : 0;
+    below += picture.error < picture.said.error_low ? 1 : 0;
+    widths +=
+        0.5 * (picture.said.error_high - picture.said.error_low) / picture.said.relative_error;
+}
+
+std::string Coverage::text() const {
+    std::ostringstream out;
+    out << pictures << " pictures, " << 100.0 * share() << " % covered, " << above << " above, "
+        << below << " below, +-" << 100.0 * half_width() << " %";
+    return out.str();
+}
+
+}  // namespace raybundle
