@@ -89,11 +89,12 @@ void main() {
     Shooter s;
     // Beyond the rounding of positions: a shooter that came out below its own plane, or its neighbours', would
     // not see what lies near the horizon.
-    s.position = position + SHOOTER_LIFT * diameter * patches[id].normal;
+    float lift = SHOOTER_LIFT * diameter;
+    s.position = position + lift * patches[id].normal;
     s.patch_id = id;
     s.normal = patches[id].normal;
     s.density = density_at(id, larger, radiance[id].w);
-    s.position_before = point_on(v + uint(world.length()) / 2u, u.zw);
+    s.position_before = point_on(v + uint(world.length()) / 2u, u.zw) + lift * patches[before].normal;
     s.normal_before = patches[before].normal;
     s.density_before = density_at(before, larger, radiance[id].w);
     s.pad0 = 0u;

@@ -46,7 +46,7 @@ class GpuScene {
     [[nodiscard]] const glm::uvec4& moved_objects() const { return moved_; }
     /// Whether some of them are of another size or shape than before: patches have another area.
     [[nodiscard]] bool rescaled() const { return rescaled_; }
-    /// Boxes that hold them at either place, shifted world.
+    /// Boxes that hold them, and shooters on them, at either place, shifted world.
     [[nodiscard]] std::vector<Bounds> moved_bounds() const;
     /// Takes over the colours that some materials and their patches have now. Each must be covered
     /// by reflectance(). The unit of radiance stays.

@@ -81,10 +81,18 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
 }
 
 std::vector<Bounds> GpuScene::moved_bounds() const {
+    // Shooters stand a little above the surfaces of their object.
+    const glm::vec3 margin(4.0F * static_cast<float>(SHOOTER_LIFT) * diameter_);
     std::vector<Bounds> boxes;
     for (int i = 0; i < MOST_MOVED && moved_[i] != NO_PATCH; ++i) {
-        boxes.push_back(object_bounds(moved_[i], Place::now));
-        boxes.push_back(object_bounds(moved_[i], Place::before));
+        for (const Place place : {Place::now, Place::before}) {
+            Bounds box = object_bounds(moved_[i], place);
+            if (!box.empty()) {
+                box.add(box.min - margin);
+                box.add(box.max + margin);
+            }
+            boxes.push_back(box);
+        }
     }
     return boxes;
 }
