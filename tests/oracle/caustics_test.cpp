@@ -120,7 +120,7 @@ TEST(Caustics, AFlatMirrorThrowsTheLightOfItsImage) {
     b.add_quad({-0.1F, 1, -0.1F}, {0, 0, 0.2F}, {0.2F, 0, 0}, 1, 1,
                b.add_material(glm::vec3(0.0F), glm::vec3(radiance)));
     Solver solver(b.scene, b.mesh, settings_for());
-    iterate(solver, 512);
+    iterate(solver, 2048);
     const SpecularSurface surface =
         specular_surface(b.scene.materials[mirror], b.scene.materials[mirror].base_colour);
     const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {
@@ -148,7 +148,7 @@ TEST(Caustics, AFlatPaneLetsItsShareThrough) {
     lamp.intensity = glm::vec3(100.0F);
     b.scene.punctual_lights.push_back(lamp);
     Solver solver(b.scene, b.mesh, settings_for());
-    iterate(solver, 64);
+    iterate(solver, 256);
     const SpecularSurface surface =
         specular_surface(b.scene.materials[pane], b.scene.materials[pane].base_colour);
     const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {
@@ -217,7 +217,7 @@ TEST(Caustics, AGlassBallKeepsTheFlux) {
 TEST(Caustics, TheyFollowAMoveAndALamp) {
     SceneBuilder moved = black_room_with_ball({1.0F, 0.6F, 1.0F});
     Solver solver(moved.scene, moved.mesh, settings_for());
-    iterate(solver, 64);
+    iterate(solver, 256);
     const auto before = floor_of(moved, solver);
     solver.move_object(1, glm::translate(glm::mat4(1.0F), {0.6F, 0.6F, 1.2F}), {});
     while (solver.correcting()) {
