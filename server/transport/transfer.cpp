@@ -30,7 +30,7 @@ ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, u
 /// special phase sample more.
 constexpr unsigned row_stride = 4;
 constexpr unsigned special_row_stride = 2;
-constexpr float tie_share = 4e-6F;   // of the scene's diameter: closer surfaces coincide
+constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
 
 glm::ivec4 to_vector(const PixelRectangle& r) {
     return {r.x0, r.y0, r.x1, r.y1};
