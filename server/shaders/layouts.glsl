@@ -54,6 +54,8 @@
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
 #define BINDING_CAUSTICS 45           // vec4[]: radiance that caustics make of patches, see patch_source.glsl
 #define BINDING_CAUSTIC_IRRADIANCE 46 // vec4[]: of patches, by caustics, radiance units
+#define BINDING_CAUSTIC_FLUX 47       // vec4[]: on patches, by all rays of caustics together, lm
+#define BINDING_CAUSTIC_DEPOSITS 48   // vec4[]: new sums of that flux; w: patch (bits)
 #define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
 #define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
 #define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends

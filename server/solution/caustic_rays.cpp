@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/facet_walk.h"
+#include "scene/mix_bits.h"
 #include "scene/patch_colour.h"
 #include "solution/reflectance_tables.h"
 
@@ -17,14 +18,6 @@ namespace {
 constexpr std::uint32_t chunk_rays = 128;
 constexpr int most_bundle_surfaces = 64;
 constexpr int certain_surfaces = 4;  // before Russian roulette
-
-/// SplitMix64's finaliser (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t value) {
-    value += 0x9e3779b97f4a7c15ULL;
-    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
-    return value ^ (value >> 31U);
-}
 
 float unit(std::uint64_t bits) {
     return static_cast<float>(bits >> 40U) * 0x1.0p-24F;
@@ -39,7 +32,7 @@ CausticLights::Numbers numbers_of(std::uint64_t seed, std::uint64_t index) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         step /= root;
         const auto fixed = static_cast<std::uint64_t>(step * 0x1.0p63) << 1U;
-        numbers[i] = unit(mixed(seed + i) + index * fixed);
+        numbers[i] = unit(mix_bits(seed + i) + index * fixed);
     }
     return numbers;
 }
@@ -49,12 +42,9 @@ CausticLights::Numbers numbers_of(std::uint64_t seed, std::uint64_t index) {
 /// What chance decides on the way of one ray.
 class CausticRays::Random {
   public:
-    Random(std::uint64_t seed, std::uint64_t index) : state_(mixed(mixed(~seed) + index)) {}
-    float next() {
-        state_ += 0x9e3779b97f4a7c15ULL;
-        return unit(mixed(state_));
-    }
-    std::uint32_t bits() { return static_cast<std::uint32_t>(mixed(++state_) >> 32U); }
+    Random(std::uint64_t seed, std::uint64_t index) : state_(mix_bits(mix_bits(~seed) + index)) {}
+    float next() { return unit(mix_bits(++state_)); }
+    std::uint32_t bits() { return static_cast<std::uint32_t>(mix_bits(++state_) >> 32U); }
 
   private:
     std::uint64_t state_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/caustics.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
@@ -24,16 +27,18 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
     : scene_(gpu_scene),
       mesh_(without_colours(mesh)),
       caustic_rays_(scene, mesh, *gpu_scene.specular_rays()),
-      inverse_areas_(mesh.patch_count()),
       sums_(mesh.patch_count(), glm::dvec3(0.0)),
-      values_(mesh.patch_count(), glm::vec4(0.0F)),
       seed_(seed),
-      irradiance_("caustic irradiance", mesh.patch_count() * sizeof(glm::vec4)),
-      radiance_("caustic radiance", irradiance_.bytes()),
+      flux_("caustic flux", mesh.patch_count() * sizeof(glm::vec4)),
+      deposit_buffer_("caustic deposits", flux_.bytes()),
+      irradiance_("caustic irradiance", flux_.bytes()),
+      radiance_("caustic radiance", flux_.bytes()),
       vertices_("vertex caustics", 2 * mesh.positions.size() * sizeof(glm::uvec2)),
       vertex_texture_(create_buffer_texture("vertex caustics", GL_RGBA16F, vertices_)),
+      deposit_({"solution_caustic_deposits.comp"}),
       reflect_({"solution_caustics.comp"}, gpu_scene.defines()),
       interpolate_({"view_vertex_irradiance.comp"}) {
+    flux_.clear();
     irradiance_.clear();
     radiance_.clear();
     vertices_.clear();
@@ -42,7 +47,7 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
 void Caustics::refine() {
     if (lights_ && !lights_->empty()) {
         trace(batch_rays);
-        upload();
+        reflect();
     }
 }
 
@@ -51,15 +56,15 @@ void Caustics::scale(const glm::vec3& factor) {
 }
 
 void Caustics::restart() {
-    measure_patches();
     lights_.emplace(scene_, mesh_, mesh_.emission, scene_.specular_rays()->boxes());
     sums_.assign(sums_.size(), glm::dvec3(0.0));
+    flux_.clear();
     rays_ = 0;
     ++changes_;
     if (!lights_->empty()) {
         trace(first_rays);
     }
-    upload();
+    reflect();
 }
 
 void Caustics::update(const Scene& scene, std::span<const std::uint32_t> materials,
@@ -70,41 +75,41 @@ void Caustics::update(const Scene& scene, std::span<const std::uint32_t> materia
     mesh_.emission.assign(emission.begin(), emission.end());
 }
 
+/// Uploads the sums of the patches that the rays have met, and no others.
 void Caustics::trace(std::uint32_t rays) {
+    met_.clear();
     for (const CausticDeposit& deposit :
          caustic_rays_.trace(*lights_, seed_ + changes_, rays_, rays)) {
         sums_[deposit.patch] += glm::dvec3(deposit.flux);
+        met_.push_back(deposit.patch);
     }
     rays_ += rays;
-}
-
-void Caustics::measure_patches() {
-    for (std::size_t i = 0; i < inverse_areas_.size(); ++i) {
-        const glm::uvec3& t = mesh_.triangles[mesh_.patch_triangle[i]];
-        const glm::mat3 world(scene_.world_from_object(mesh_.vertex_object[t.x], Place::now));
-        const glm::vec3 e1 = world * (mesh_.positions[t.y] - mesh_.positions[t.x]);
-        const glm::vec3 e2 = world * (mesh_.positions[t.z] - mesh_.positions[t.x]);
-        const float area = 0.5F * glm::length(glm::cross(e1, e2));
-        inverse_areas_[i] = area > 0.0F ? 1.0F / area : 0.0F;
+    std::sort(met_.begin(), met_.end());
+    met_.erase(std::unique(met_.begin(), met_.end()), met_.end());
+    if (met_.empty()) {
+        return;
     }
+    deposits_.clear();
+    for (const std::uint32_t patch : met_) {
+        deposits_.emplace_back(glm::vec3(sums_[patch]), std::bit_cast<float>(patch));
+    }
+    deposit_buffer_.write<glm::vec4>(deposits_, 0);
+    deposit_buffer_.bind_storage(BINDING_CAUSTIC_DEPOSITS);
+    flux_.bind_storage(BINDING_CAUSTIC_FLUX);
+    deposit_.set("deposit_count", static_cast<unsigned>(deposits_.size()));
+    deposit_.dispatch(deposits_.size());
 }
 
-glm::vec3 Caustics::irradiance(std::size_t patch) const {
-    return rays_ == 0
-               ? glm::vec3(0.0F)
-               : glm::vec3(sums_[patch] / static_cast<double>(rays_)) * inverse_areas_[patch];
-}
-
-void Caustics::upload() {
+/// The patches' irradiance and what they send of it.
+void Caustics::reflect() {
     const GlScope scope("caustics");
-    const float lux_to_units = 1.0F / scene_.radiance_unit();
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        values_[i] = glm::vec4(lux_to_units * irradiance(i), 0.0F);
-    }
-    irradiance_.write<glm::vec4>(values_, 0);
+    flux_.bind_storage(BINDING_CAUSTIC_FLUX);
     irradiance_.bind_storage(BINDING_CAUSTIC_IRRADIANCE);
     radiance_.bind_storage(BINDING_CAUSTICS);
+    const double rays = static_cast<double>(std::max<std::uint64_t>(rays_, 1));
     reflect_.set("patch_count", scene_.patch_count());
+    reflect_.set("flux_share",
+                 static_cast<float>(1.0 / (rays * static_cast<double>(scene_.radiance_unit()))));
     reflect_.set("scale", scale_);
     reflect_.dispatch(scene_.patch_count());
     scale_ = glm::vec3(1.0F);
@@ -114,13 +119,19 @@ void Caustics::upload() {
     interpolate_.dispatch(scene_.vertex_count());
 }
 
+std::vector<glm::vec4> Caustics::read_irradiance() const {
+    std::vector<glm::vec4> values(sums_.size());
+    irradiance_.read<glm::vec4>(values);
+    return values;
+}
+
 void Caustics::bind() const {
     radiance_.bind_storage(BINDING_CAUSTICS);
     glBindTextureUnit(UNIT_VERTEX_CAUSTICS, vertex_texture_.get());
 }
 
 std::size_t Caustics::bytes() const {
-    return irradiance_.bytes() + radiance_.bytes() + vertices_.bytes();
+    return 4 * flux_.bytes() + vertices_.bytes();
 }
 
 }  // namespace raybundle

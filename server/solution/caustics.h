@@ -40,30 +40,29 @@ class Caustics {
                 std::span<const glm::vec3> emission);
 
     void bind() const;
-    /// Irradiance per patch, lx, either sign.
-    [[nodiscard]] glm::vec3 irradiance(std::size_t patch) const;
+    /// Irradiance per patch, radiance units, either sign.
+    [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     void trace(std::uint32_t rays);
-    void measure_patches();
-    void upload();
+    void reflect();
 
     const GpuScene& scene_;
     PatchMesh mesh_;  // without what tells colours
     CausticRays caustic_rays_;
     std::optional<CausticLights> lights_;  // of the present places
-    std::vector<float> inverse_areas_;     // of patches, 1/m²
     std::vector<glm::dvec3> sums_;         // flux per patch, lm, of all rays
-    std::vector<glm::vec4> values_;        // what is uploaded
+    std::vector<std::uint32_t> met_;       // patches, by the last batch
+    std::vector<glm::vec4> deposits_;      // their sums, to be uploaded
     std::uint64_t seed_;
     std::uint64_t rays_ = 0;
     std::uint64_t changes_ = 0;
-    glm::vec3 scale_{1.0F};  // of the radiance since the last upload
-    Buffer irradiance_, radiance_, vertices_;
+    glm::vec3 scale_{1.0F};  // of the radiance since the last estimate
+    Buffer flux_, deposit_buffer_, irradiance_, radiance_, vertices_;
     Texture2D vertex_texture_;
-    ShaderProgram reflect_, interpolate_;
+    ShaderProgram deposit_, reflect_, interpolate_;
 };
 
 }  // namespace raybundle

@@ -297,8 +297,9 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
         }
     }
     if (caustics_ != nullptr) {
+        const std::vector<glm::vec4> caustics = caustics_->read_irradiance();
         for (std::size_t i = 0; i < values.size(); ++i) {
-            values[i] += glm::vec4(caustics_->irradiance(i), 0.0F);
+            values[i] += glm::vec4(glm::vec3(caustics[i]) * scene_.radiance_unit(), 0.0F);
         }
     }
     return values;
