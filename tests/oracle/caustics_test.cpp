@@ -120,7 +120,7 @@ TEST(Caustics, AFlatMirrorThrowsTheLightOfItsImage) {
     b.add_quad({-0.1F, 1, -0.1F}, {0, 0, 0.2F}, {0.2F, 0, 0}, 1, 1,
                b.add_material(glm::vec3(0.0F), glm::vec3(radiance)));
     Solver solver(b.scene, b.mesh, settings_for());
-    iterate(solver, 2048);
+    iterate(solver, 4096);
     const SpecularSurface surface =
         specular_surface(b.scene.materials[mirror], b.scene.materials[mirror].base_colour);
     const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {
@@ -148,7 +148,7 @@ TEST(Caustics, AFlatPaneLetsItsShareThrough) {
     lamp.intensity = glm::vec3(100.0F);
     b.scene.punctual_lights.push_back(lamp);
     Solver solver(b.scene, b.mesh, settings_for());
-    iterate(solver, 256);
+    iterate(solver, 1024);
     const SpecularSurface surface =
         specular_surface(b.scene.materials[pane], b.scene.materials[pane].base_colour);
     const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {

@@ -73,7 +73,7 @@ SolverSettings perspective_alone() {
     return settings;
 }
 
-TEST(BiasForNoise, TamesTheCornersOfPerspectiveBundles) {
+TEST(HeavyBiasForNoise, TamesTheCornersOfPerspectiveBundles) {
     SolverSettings biased = perspective_alone();
     constexpr std::uint64_t iterations = 200;
     biased.noise_horizon = iterations;

@@ -192,7 +192,7 @@ TEST(FirstShot, RoomIsAsBrightAsByPathTracing) {
 }
 
 /// The floor shines: the picture has the lights' highlights, and the wall behind what it reflects.
-TEST(FirstShot, GlossyRoomIsAsBrightAsByPathTracing) {
+TEST(HeavyFirstShot, GlossyRoomIsAsBrightAsByPathTracing) {
     const glm::mat4 where = odd_rotation();
     constexpr glm::uvec2 size(24, 18);
     Lit lit(where, 16, size, 1, true);

@@ -36,7 +36,7 @@ TEST(RandomFaces, WeighOneInTheMean) {
 
 /// Mean irradiance of a room of metal round a lamp, with all faces and with some. Over eight seeds
 /// each, 5 standard errors are passed by chance with a probability of 2e-4 (t, 14 degrees).
-TEST(RandomFaces, ChangeNothingButNoise) {
+TEST(HeavyRandomFaces, ChangeNothingButNoise) {
     SceneBuilder b;
     Material metal;
     metal.base_colour = glm::vec3(0.5F);

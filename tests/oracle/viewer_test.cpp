@@ -60,7 +60,7 @@ TEST(ViewerImage, FurnaceIsAConstantPicture) {
 }
 
 /// Pixels that a plane bundle serves, alone and among all strategies: light within 1 % in the mean.
-TEST(ViewerImage, FurnaceIsAConstantPictureWithPlanes) {
+TEST(HeavyViewerImage, FurnaceIsAConstantPictureWithPlanes) {
     for (const StrategyProbabilities& p :
          {StrategyProbabilities{0.0F, 1.0F, 0.0F}, StrategyProbabilities{0.15F, 0.15F, 0.7F}}) {
         // Planes alone are noisy: a pixel's sample is 0 or large.
