@@ -41,9 +41,8 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
         }
         // An error is believed from some samples on; finer than its pixels no picture can be.
         const ImageStatistics& found = outcome.statistics;
-        const double estimate = found.samples < believed_samples ? unknown
-                                : found.at_floor()               ? 0.0
-                                                                 : found.error_high;
+        const double estimate =
+            found.samples < believed_samples ? unknown : rule.estimate_of(found);
         const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
         bar.show(progress, solver.iterations(), outcome.statistics.relative_error);
         if (progress >= 1.0) {

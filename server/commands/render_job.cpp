@@ -74,6 +74,10 @@ double StopRule::progress(double elapsed, std::uint64_t done, double estimate) c
     return result;
 }
 
+double StopRule::estimate_of(const ImageStatistics& statistics) const {
+    return error_ && statistics.meets(*error_) ? 0.0 : statistics.error_high;
+}
+
 ProgressBar::ProgressBar() : shown_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {

@@ -9,6 +9,7 @@
 
 #include "cli_options.h"
 #include "scene/scene.h"
+#include "view/viewer_image.h"
 
 namespace raybundle {
 
@@ -36,6 +37,8 @@ class StopRule {
 
     /// How far the job is: done at 1. estimate: upper end of the estimated relative error.
     [[nodiscard]] double progress(double elapsed, std::uint64_t done, double estimate) const;
+    /// What progress() is told of a picture's error: 0 where no sample would bring it closer.
+    [[nodiscard]] double estimate_of(const ImageStatistics& statistics) const;
     [[nodiscard]] bool needs_error() const { return error_.has_value(); }
 
   private:

@@ -72,10 +72,8 @@ class Sequence {
             if (done % BATCHES == 0) {
                 image_->request_statistics();
                 glFinish();
-                const ImageStatistics& found = image_->statistics();
-                const double error = done < least_iterations ? 1e9
-                                     : found.at_floor()      ? 0.0
-                                                             : found.error_high;
+                const double error =
+                    done < least_iterations ? 1e9 : rule.estimate_of(image_->statistics());
                 progress = rule.progress(stopwatch.seconds(), done, error);
             } else {
                 progress = rule.needs_error() ? 0.0 : rule.progress(stopwatch.seconds(), done, 1e9);

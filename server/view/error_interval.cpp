@@ -51,11 +51,15 @@ ErrorInterval error_interval(double noise, double discretisation) {
             std::hypot(noise * noise_factor, discretisation * discretisation_factor)};
 }
 
+bool reachable(double discretisation, double target) {
+    return discretisation * discretisation_factor < target;
+}
+
 double samples_factor(double noise, double discretisation, double target, SampleOrder order) {
-    const double rest = discretisation * discretisation_factor;
-    if (rest >= target) {
+    if (!reachable(discretisation, target)) {
         return std::numeric_limits<double>::infinity();
     }
+    const double rest = discretisation * discretisation_factor;
     const double ratio = noise * noise_factor / std::sqrt(target * target - rest * rest);
     return ratio <= 1.0 ? 1.0 : std::pow(ratio, 1.0 / (0.5 + gain_of(order).exponent));
 }

@@ -31,6 +31,9 @@ double discretisation_error(double at_edges, double elsewhere);
 /// relative.
 ErrorInterval error_interval(double noise, double discretisation);
 
+/// Whether some number of samples brings error_interval().high below a target.
+bool reachable(double discretisation, double target);
+
 /// Factor of the number of samples after which error_interval().high is at a target, >= 1; infinite
 /// where it never is.
 double samples_factor(double noise, double discretisation, double target, SampleOrder order);

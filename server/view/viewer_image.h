@@ -45,11 +45,12 @@ struct ImageStatistics {
     double mean_log_luminance = 0.0;  ///< mean of ln(luminance / (cd/m²))
     double rms_luminance = 0.0;       ///< cd/m²
 
-    /// The noise is but half of what the pixels cannot resolve anyway: more samples bring next to
-    /// nothing.
-    [[nodiscard]] bool at_floor() const { return noise <= 0.5 * discretisation; }
-    /// The interval ends below a target, or at_floor().
-    [[nodiscard]] bool meets(double target) const { return error_high <= target || at_floor(); }
+    /// The interval ends below a target. Or it never will, and the noise is but half of what the
+    /// pixels cannot resolve anyway: more samples bring next to nothing.
+    [[nodiscard]] bool meets(double target) const {
+        return error_high <= target ||
+               (!reachable(discretisation, target) && noise <= 0.5 * discretisation);
+    }
 };
 
 /// What a pixel of a viewer shows.
