@@ -115,11 +115,12 @@ class AffectedTiles : public testing::TestWithParam<bool> {};
 
 /// 16 bundles are planned in two lots; a quarter of them are parallel ones.
 TEST_P(AffectedTiles, LeaveOutNothingButWhatCancels) {
-    const SceneBuilder builder = room(GetParam());
-    for (const unsigned bundles : {8U, 16U}) {
+    const bool glossy = GetParam();
+    const SceneBuilder builder = room(glossy);
+    for (const unsigned bundles : glossy ? std::vector{16U} : std::vector{8U, 16U}) {
         const MovedView some(builder, true, bundles);
         const MovedView all(builder, false, bundles);
-        EXPECT_EQ(some.solver->scene().reflectance().any_glossy(), GetParam());
+        EXPECT_EQ(some.solver->scene().reflectance().any_glossy(), glossy);
         EXPECT_EQ(some.before, all.before);
         const Differences d = compare(some, all);
         EXPECT_LT(d.largest, 1e-4);

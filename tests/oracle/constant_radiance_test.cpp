@@ -126,8 +126,10 @@ TEST_P(ConstantRadiance, ChangesNothingButNoise) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strategies, ConstantRadiance,
-                         testing::Values(StrategyProbabilities{0.3F, 0.0F, 0.7F},
-                                         StrategyProbabilities{0.3F, 0.3F, 0.4F}));
+                         testing::Values(StrategyProbabilities{0.3F, 0.0F, 0.7F}));
+INSTANTIATE_TEST_SUITE_P(HeavyStrategies, ConstantRadiance,
+                         testing::Values(StrategyProbabilities{0.3F, 0.3F, 0.4F}));
+
 /// In a furnace of radiance L, a shading normal that tilts by t from its surface receives
 /// pi L (1 + cos t)/2, since light comes from the surface's side only.
 TEST(ConstantRadianceInAFurnace, LightsTiltedNormalsAsTheirSurfaceDoes) {

@@ -37,7 +37,7 @@ TEST(ClosedFormSensitivity, DensityWrongByTwoPercentIsCaught) {
 }
 
 /// The same for bundles split by a plane, alone and among all strategies.
-TEST(ClosedFormSensitivity, DensityWrongByTwoPercentIsCaughtWithPlanes) {
+TEST(HeavyClosedFormSensitivity, DensityWrongByTwoPercentIsCaughtWithPlanes) {
     for (const StrategyProbabilities& p :
          {StrategyProbabilities{0.0F, 1.0F, 0.0F}, StrategyProbabilities{0.15F, 0.15F, 0.7F}}) {
         OracleSettings settings;

@@ -124,8 +124,8 @@ TEST(RussianRoulette, ConstantSceneHasItsVarianceInClosedForm) {
 TEST(RussianRoulette, LampMakesLongWalksWastefulTheMoreSoTheDarkerItIs) {
     const auto price_of_long_walks = [](float albedo) {
         const WalkScene scene = lamp_scene(albedo);
-        const WalkVariance middle = measure_variance(scene, 0.5, 4'000, 100.0);
-        const WalkVariance longer = measure_variance(scene, 0.9, 4'000, 100.0);
+        const WalkVariance middle = measure_variance(scene, 0.5, 2'000, 100.0);
+        const WalkVariance longer = measure_variance(scene, 0.9, 2'000, 100.0);
         return longer.variance / middle.variance;
     };
     const double dark = price_of_long_walks(0.1F * glm::pi<float>());
