@@ -106,36 +106,59 @@ void order_coincident(inout Hit a, inout Hit b) {
 #endif
 }
 
-/// Insertion sort of a list that is longer than four, in memory. Returns its first four.
+// The last list of more than four surfaces, nearest first, and the places that they had before.
+float held_depth[LONGEST_LIST];
+uint held_surface[LONGEST_LIST];
+uint held_place[LONGEST_LIST];
+uint held_count = 0u;
+
+/// Puts the surface at a place of the unsorted list among those that are held.
+void hold(uint pixel, uint place, vec3 point) {
+    Hit hit = make_hit(layer_surfaces[layer_slot(place, pixel)], point, vec3(0.0));
+    uint k = held_count++;
+    for (; k > 0u && before(hit, Hit(held_depth[k - 1u], 0.0, held_surface[k - 1u])); --k) {
+        held_depth[k] = held_depth[k - 1u];
+        held_surface[k] = held_surface[k - 1u];
+        held_place[k] = held_place[k - 1u];
+    }
+    held_depth[k] = hit.depth;
+    held_surface[k] = hit.surface;
+    held_place[k] = place;
+}
+
+/// Insertion sort of a list that is longer than four, in memory too. Returns its first four. Neighbouring
+/// pixels mostly have the same surfaces, which have come in the same order: taken as the last list was in the
+/// end, few are out of place.
 uvec4 sort_long_list(uint pixel, uint count, vec3 point) {
-    for (uint i = 1u; i < count; ++i) {
-        Hit hit = make_hit(layer_surfaces[layer_slot(i, pixel)], point, vec3(0.0));
-        uint k = i;
-        for (; k > 0u; --k) {
-            Hit other = make_hit(layer_surfaces[layer_slot(k - 1u, pixel)], point, vec3(0.0));
-            if (!before(hit, other)) {
-                break;
-            }
-            layer_surfaces[layer_slot(k, pixel)] = other.surface;
+    uint known = held_count;
+    held_count = 0u;
+    for (uint k = 0u; k < known; ++k) {
+        uint place = held_place[k];
+        for (bool there = place < count; there; there = false) {
+            hold(pixel, place, point);
         }
-        layer_surfaces[layer_slot(k, pixel)] = hit.surface;
+    }
+    for (uint place = known; place < count; ++place) {
+        hold(pixel, place, point);
     }
 #ifdef THIN_WALLS
     for (uint i = 0u; i + 1u < count; ++i) {
-        Hit a = make_hit(layer_surfaces[layer_slot(i, pixel)], point, vec3(0.0));
+        Hit a = Hit(held_depth[i], 0.0, held_surface[i]);
         for (uint k = i + 1u; k < count && faces_far(a.surface); ++k) {
-            Hit b = make_hit(layer_surfaces[layer_slot(k, pixel)], point, vec3(0.0));
+            Hit b = Hit(held_depth[k], 0.0, held_surface[k]);
             if (b.depth > a.depth + coincidence_range()) {
                 break;
             }
             order_coincident(a, b);
-            layer_surfaces[layer_slot(k, pixel)] = b.surface;
+            held_surface[k] = b.surface;
         }
-        layer_surfaces[layer_slot(i, pixel)] = a.surface;
+        held_surface[i] = a.surface;
     }
 #endif
-    return uvec4(layer_surfaces[layer_slot(0u, pixel)], layer_surfaces[layer_slot(1u, pixel)],
-                 layer_surfaces[layer_slot(2u, pixel)], layer_surfaces[layer_slot(3u, pixel)]);
+    for (uint k = 0u; k < count; ++k) {
+        layer_surfaces[layer_slot(k, pixel)] = held_surface[k];
+    }
+    return uvec4(held_surface[0], held_surface[1], held_surface[2], held_surface[3]);
 }
 
 /// Up to four surfaces of a line. The next pixel of the row often has the same ones in the same order.

@@ -10,20 +10,34 @@ namespace {
 // Pixels of a row that one invocation sums.
 constexpr unsigned hemicube_run = 8;  // run_length of transport_hemicube_patches.comp
 constexpr unsigned parallel_run = 32;
-/// Longer lists are sorted by one invocation each: llvmpipe ends an invocation's loops after 65 535
-/// rounds, all loops together.
-constexpr std::uint32_t longest_list_in_runs = 32;
-
-unsigned layers_run(std::uint32_t capacity) {
-    return capacity > longest_list_in_runs ? 1 : parallel_run;
-}
 
 /// Program of a parallel bundle whose invocations sum `run` pixels each.
-ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, unsigned run) {
+ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, unsigned run,
+                               unsigned longest_list = 0) {
     std::vector<std::string> defines = scene.defines();
     defines.push_back("RUN_LENGTH " + std::to_string(run));
+    defines.push_back("LONGEST_LIST " + std::to_string(longest_list));
     return ShaderProgram({file}, defines);
 }
+
+/// Pixels that one invocation sorts and sums where lists may be so long. llvmpipe ends an
+/// invocation's loops after 65 535 rounds, all loops together.
+unsigned layered_run(std::uint32_t longest_list) {
+    constexpr unsigned most_rounds = 50'000;
+    const unsigned rounds = longest_list * (longest_list / 2 + 8);  // insertion sort, exchange
+    unsigned run = parallel_run;
+    while (run > 1 && run * rounds > most_rounds) {
+        run /= 2;
+    }
+    return run;
+}
+
+/// Lists that a program has room for: few sizes, since each takes time to compile.
+std::uint32_t longest_list(std::uint32_t capacity) {
+    constexpr std::uint32_t grain = 16;
+    return (capacity + grain - 1) / grain * grain;
+}
+
 /// Patches are summed over every row_stride-th pixel row: unbiased, since the phase is drawn at
 /// random, and the noise that it adds is below that of the choice of the bundle (Cornell box,
 /// 512x512, 300 iterations, 8 seeds: relRMSE 4.4, 3.7, 4.3 % for 2, 4, 8). The few bundles of a
@@ -59,12 +73,18 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_run_(layers_run(layers_.capacity())),
-      layers_patches_(parallel_program("transport_layers_patches.comp", scene, layers_run_)) {
+      layers_patches_(layered_patches(scene, longest_list(layers_.capacity()))) {
     if (scene.reflectance().any_glossy()) {
         hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
                                                  with(scene.defines(), "SHOOTER_GLOSSY 1"));
     }
+}
+
+Transfer::LayeredPatches Transfer::layered_patches(const GpuScene& scene,
+                                                   std::uint32_t longest_list) {
+    const unsigned run = layered_run(longest_list);
+    return {longest_list, run,
+            parallel_program("transport_layers_patches.comp", scene, run, longest_list)};
 }
 
 ParallelWindow Transfer::parallel_window(const IterationSample& sample) const {
@@ -186,16 +206,18 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
     store_.send_along_bundle(place);
     layers_.draw(scene_, window, place, rectangle, store_.counters());
 
-    layers_patches_.set("first_column", static_cast<unsigned>(rectangle.x0));
-    layers_patches_.set("first_row", static_cast<unsigned>(rectangle.y0));
-    layers_patches_.set("last_column", static_cast<unsigned>(rectangle.x1));
-    const auto columns = (static_cast<unsigned>(rectangle.width()) + layers_run_ - 1) / layers_run_;
-    layers_patches_.set("run_columns", columns);
-    layers_patches_.set("rows", static_cast<unsigned>(rectangle.height()));
-    layers_patches_.set("slot", settings.slot);
-    set_bases(layers_patches_, place);
-    const unsigned rows = set_rows(layers_patches_, rectangle.y0, rectangle.height(), settings);
-    layers_patches_.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
+    const ShaderProgram& patches = layers_patches_.program;
+    patches.set("first_column", static_cast<unsigned>(rectangle.x0));
+    patches.set("first_row", static_cast<unsigned>(rectangle.y0));
+    patches.set("last_column", static_cast<unsigned>(rectangle.x1));
+    const auto columns =
+        (static_cast<unsigned>(rectangle.width()) + layers_patches_.run - 1) / layers_patches_.run;
+    patches.set("run_columns", columns);
+    patches.set("rows", static_cast<unsigned>(rectangle.height()));
+    patches.set("slot", settings.slot);
+    set_bases(patches, place);
+    const unsigned rows = set_rows(patches, rectangle.y0, rectangle.height(), settings);
+    patches.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_layers(settings.context);
     }
@@ -238,10 +260,8 @@ std::uint32_t Transfer::take_overflow() {
     non_finite_ += counters.non_finite;
     if (counters.overflow_mask != 0) {
         layers_.grow(counters.wanted + counters.wanted / 4);
-        if (layers_run_ != layers_run(layers_.capacity())) {
-            layers_run_ = layers_run(layers_.capacity());
-            layers_patches_ =
-                parallel_program("transport_layers_patches.comp", scene_, layers_run_);
+        if (layers_.capacity() > layers_patches_.longest_list) {
+            layers_patches_ = layered_patches(scene_, longest_list(layers_.capacity()));
         }
     }
     return counters.overflow_mask;

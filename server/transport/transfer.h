@@ -80,8 +80,14 @@ class Transfer {
     LayeredWindow layers_;
     Buffer parameters_;
     ShaderProgram hemicube_patches_, hemicube_patches_coloured_, hemicube_patches_glossy_;
-    unsigned layers_run_;  // pixels that an invocation of layers_patches_ sums
-    ShaderProgram layers_patches_;
+    /// Layered bundles to patches; made anew where lists are longer than it has room for.
+    struct LayeredPatches {
+        std::uint32_t longest_list;
+        unsigned run;  // pixels of a row that an invocation sorts and sums
+        ShaderProgram program;
+    };
+    static LayeredPatches layered_patches(const GpuScene& scene, std::uint32_t longest_list);
+    LayeredPatches layers_patches_;
     /// Exists from the first plane bundle on.
     struct Planes {
         PlaneWindow pictures;
