@@ -204,6 +204,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {ProbeGridResult} [probeGridResult]
  * @property {{scenes: SceneFile[], current: string, maxUploadBytes: number}} [sceneList]
  * @property {SceneOpening} [sceneOpening]
+ * @property {{url: string, relativeError: number, epoch: number}} [snapshotReady]
  */
 
 /** An `error` message of the server, as an exception. */

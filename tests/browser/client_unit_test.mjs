@@ -13,6 +13,7 @@ import {ErrorHistory, RateMeter, Samples} from '../../client_web/meters.js';
 import {outlinePath, visibleEdges} from '../../client_web/overlay.js';
 import {pickByBounds} from '../../client_web/picking.js';
 import {fitViewport} from '../../client_web/picture.js';
+import {snapshotSize} from '../../client_web/snapshot_panel.js';
 import {retryDelay} from '../../client_web/raybundle_client.js';
 import {SceneModel, movedBounds, shifted} from '../../client_web/scene_model.js';
 import * as vector from '../../client_web/vector.js';
@@ -268,6 +269,16 @@ describe('drag', () => {
 });
 
 describe('figures', () => {
+    it('keeps the shape of a snapshot within the limits', () => {
+        const limits = {maxWidth: 3840, maxHeight: 2160};
+        const screen = {width: 800, height: 600};
+        assert.deepEqual(snapshotSize(0, screen, limits), screen);
+        assert.deepEqual(snapshotSize(1920, screen, limits), {width: 1920, height: 1440});
+        assert.deepEqual(snapshotSize(3840, screen, limits), {width: 2880, height: 2160});
+        const tall = snapshotSize(3840, {width: 1, height: 900}, limits);
+        assert.deepEqual(tall, {width: 2, height: 2160});
+    });
+
     it('ask for device pixels within the limits, in proportion', () => {
         const limits = {maxWidth: 3840, maxHeight: 2160};
         assert.deepEqual(fitViewport(800, 600, 1, 1280 * 960, limits), {width: 800, height: 600});

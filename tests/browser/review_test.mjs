@@ -305,6 +305,20 @@ describe('a review', () => {
         await shared.context.close();
     });
 
+    it('renders a picture on the server, to save', async () => {
+        const {page} = ann;
+        await page.click('#tab-review');
+        await page.selectOption('#snapshot-format', 'EXR');
+        await page.selectOption('#snapshot-error', '0.1');
+        await page.click('#snapshot');
+        await page.waitForSelector('#snapshot-state a', {timeout: 60000});
+        await keepScreenshot(page, 'snapshot');
+        const {name, bytes} = await saved(page, '#snapshot-state a');
+        assert.match(name, /^Cornell_box_epoch_\d+\.exr$/);
+        assert.deepEqual([...bytes.subarray(0, 4)], [0x76, 0x2f, 0x31, 0x01]);
+        assert.match(await page.textContent('#snapshot-state'), /error below \d/);
+    });
+
     it('can be shown in another page', async () => {
         const example = await openClient(browser, `${daemon.url}example.html`, SMALL);
         await example.page.waitForFunction(() => {
