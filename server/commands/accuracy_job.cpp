@@ -85,7 +85,7 @@ void add_probabilities(std::vector<PlannedCurve>& curves, const PlannedCurve& ba
         curve.knob = "strategy probabilities";
         curve.name = fmt::format("P {:.2f}, {:.2f}, {:.2f}", p.layered, p.plane, p.perspective);
         curve.solver.probabilities = p;
-        curve.solver.adapt_to_sky = false;
+        curve.solver.adapt_probabilities = false;
         curves.push_back(curve);
     }
 }

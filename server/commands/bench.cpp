@@ -146,7 +146,7 @@ class SceneBench {
         SolverSettings s = settings(probabilities);
         s.coarse_iterations = 0;
         s.fine = resolution;
-        s.adapt_to_sky = false;
+        s.adapt_probabilities = false;
         Solver solver(loaded_.scene, mesh, s);
         const ViewPrograms programs(solver.scene());
         ViewerImage image(solver.scene(), solver.store(), programs, picture_size);

@@ -74,6 +74,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
                       const LoadedScene& loaded, const ViewerImage& image, const Outcome& outcome) {
     const nlohmann::json plan =
         effects_plan_json(plan_effects(loaded.scene, loaded.mesh.patch_count()));
+    const StrategyProbabilities& p = solver.probabilities();
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", context.renderer()},
@@ -97,6 +98,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"constantRadiance", solver.scene().constant_radiance()},
         {"perspectiveBundles", solver.shots().all},
         {"fromEmitters", solver.shots().from_emitters},
+        {"probabilities", {p.layered, p.plane, p.perspective}},
         {"nonFinite", solver.non_finite()},
         {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};

@@ -56,6 +56,7 @@
 #define BINDING_CAUSTIC_IRRADIANCE 46 // vec4[]: of patches, by caustics, radiance units
 #define BINDING_CAUSTIC_FLUX 47       // vec4[]: on patches, by all rays of caustics together, lm
 #define BINDING_CAUSTIC_DEPOSITS 48   // vec4[]: new sums of that flux; w: patch (bits)
+#define BINDING_SCATTER 49            // vec2[scouts]: see scatter.glsl
 #define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)
 #define BINDING_STAGE 51              // vec4[]: sum over the bundles of its running stage, w = sum of squares (luminance)
 #define BINDING_CHANGED_RADIANCE 52   // vec4[]: as BINDING_RADIANCE, of what a special phase sends
@@ -79,6 +80,10 @@
 #define MOST_DIFFERENCES 8  // pairs of bundles whose affected tiles are listed at once
 #define MOST_MOVED 4  // objects that are elsewhere at once: components of a vector
 #define MOST_BOXES 8  // that hold them, at either place
+#define MOST_SCOUTS 4096  // patches that the scatter of the strategies is measured on, see scatter.glsl
+#define SCATTER_PARALLEL 0u
+#define SCATTER_PERSPECTIVE 1u
+#define SCATTER_NOT_MEASURED 2u
 #define BATCHES 8  // independently randomised batches of iterations, for the error estimate
 
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four

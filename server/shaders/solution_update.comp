@@ -15,6 +15,7 @@
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
 #include "density.glsl"
+#include "scatter.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
@@ -25,6 +26,7 @@ uniform float shooter_density;  // p_j / A_j of a perspective bundle
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
 uniform float step;     // of the iterate
+uniform uint scatter_kind;  // which of the sums the bundle's deviation joins, or SCATTER_NOT_MEASURED
 uniform vec3 constant_irradiance;  // pi times the constant radiance term, which the bundle did not carry
 #ifdef GLOSSY
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
@@ -70,6 +72,12 @@ void main() {
     }
     new_sample += constant_irradiance;
     vec4 mean = irradiance[i];
+    // A loop in the place of a condition: a software rasteriser skips those that no lane enters.
+    for (bool scout = scatter_kind != SCATTER_NOT_MEASURED && mean.w > 0.0 && i % scout_stride == 0u; scout;
+         scout = false) {
+        float deviation = deviation_of(new_sample, mean.rgb);
+        scatter[i / scout_stride][scatter_kind] += deviation * deviation;
+    }
     mean.w += weight;
     mean.rgb += (new_sample - mean.rgb) * (weight / mean.w);
     irradiance[i] = mean;

@@ -29,6 +29,8 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       shooters_("shooters", max_shooters * sizeof(layout::Shooter)),
       checkpoint_buffer_("checkpoint", std::size_t{patch_count_} * sizeof(glm::vec4)),
       statistics_buffer_("solution statistics", statistics_groups * sizeof(glm::vec4)),
+      scout_stride_((patch_count_ + MOST_SCOUTS - 1) / MOST_SCOUTS),
+      scatter_("scatter of the strategies", (patch_count_ / scout_stride_ + 1) * sizeof(glm::vec2)),
       caustics_(caustics),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
@@ -40,9 +42,10 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
       checkpoint_({"solution_checkpoint.comp"}),
-      statistics_({"solution_statistics.comp"}) {
+      statistics_({"solution_statistics.comp"}),
+      measure_scatter_({"solution_scatter.comp"}) {
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &counters_,
-                                 &balance_, &flux_, &checkpoint_buffer_}) {
+                                 &balance_, &flux_, &checkpoint_buffer_, &scatter_}) {
         buffer->clear();
     }
     if (scene_.transmitting()) {
@@ -92,6 +95,7 @@ void RadianceStore::bind() const {
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
+    scatter_.bind_storage(BINDING_SCATTER);
     if (first_shot_) {
         first_shot_->bind();
     }
@@ -140,6 +144,8 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("step", bundle.step);
     update_.set("constant_irradiance", bundle.constant_irradiance);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
+    update_.set("scatter_kind", bundle.scatter);
+    update_.set("scout_stride", scout_stride_);
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));
     if (first_shot_ && gloss_.bytes() > 0) {
         first_shot_->set_uniforms(update_);
@@ -271,6 +277,12 @@ SolutionStatistics RadianceStore::statistics() const {
     result.distance = sum.z > 0.0 ? std::sqrt(sum.w / sum.z) : 0.0;
     result.settled = sum.x > 0.0 ? std::clamp(1.0 - std::sqrt(sum.y / sum.x), 0.0, 1.0) : 1.0;
     return result;
+}
+
+glm::dvec2 RadianceStore::take_scatter() const {
+    scatter_.bind_storage(BINDING_SCATTER);
+    measure_scatter_.set("scout_stride", scout_stride_);
+    return glm::dvec2(reduce(measure_scatter_));
 }
 
 layout::Counters RadianceStore::take_counters() const {

@@ -31,7 +31,8 @@ struct BundleUpdate {
     /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
     float shooter_density = 0.0F;
     std::uint64_t iteration = 0;
-    glm::vec3 constant_irradiance{0.0F};  ///< that the bundle did not carry, radiance units
+    unsigned scatter = SCATTER_NOT_MEASURED;  ///< which sum of take_scatter() it joins
+    glm::vec3 constant_irradiance{0.0F};      ///< that the bundle did not carry, radiance units
 };
 
 /// The object-space solution (ch. 7.2): mean irradiance per patch, the iterate that is transferred
@@ -86,6 +87,12 @@ class RadianceStore {
     /// There has been no change.
     void forget_checkpoint() const { checkpoint_buffer_.clear(); }
     [[nodiscard]] SolutionStatistics statistics() const;
+    /// Sums of the squared deviations of bundles from the mean irradiance over patches (luminance),
+    /// of parallel and of perspective ones, in one unknown unit. What was measured before weighs
+    /// half from now on.
+    [[nodiscard]] glm::dvec2 take_scatter() const;
+    /// The light has changed: what was measured no longer counts.
+    void forget_scatter() const { scatter_.clear(); }
     /// Sums of a reduction over all patches by statistics_groups groups of 256; see its shader.
     [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const;
 
@@ -109,6 +116,8 @@ class RadianceStore {
     std::uint32_t patch_count_, block_count_;
     Buffer radiance_, irradiance_, source_, accumulator_, counters_;
     Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
+    unsigned scout_stride_;
+    Buffer scatter_;
     float forgetting_ = 0.0F;
     bool shoots_only_ = false;
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
@@ -128,7 +137,7 @@ class RadianceStore {
     std::optional<ShaderProgram> level_;  // only where patches transmit light
     ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
     ShaderProgram flux_sum_, balance_flux_;
-    ShaderProgram checkpoint_, statistics_, turn_gloss_, send_, forget_;
+    ShaderProgram checkpoint_, statistics_, measure_scatter_, turn_gloss_, send_, forget_;
 };
 
 }  // namespace raybundle

@@ -49,8 +49,21 @@ float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
 }
 
 StrategyMix choose_mix(const SolverSettings& settings, const Scene& scene) {
-    const StrategyMix mix = settings.ageing ? ageing_mix() : StrategyMix(settings.probabilities);
-    return settings.adapt_to_sky ? with_sky(mix, scene) : mix;
+    return {settings.adapt_probabilities ? with_sky(settings.probabilities, scene)
+                                         : settings.probabilities,
+            settings.adapt_probabilities};
+}
+
+unsigned scatter_kind(Strategy strategy) {
+    switch (strategy) {
+        case Strategy::layered:
+            return SCATTER_PARALLEL;
+        case Strategy::perspective:
+            return SCATTER_PERSPECTIVE;
+        case Strategy::plane:
+            break;
+    }
+    return SCATTER_NOT_MEASURED;
 }
 
 }  // namespace
@@ -58,7 +71,7 @@ StrategyMix choose_mix(const SolverSettings& settings, const Scene& scene) {
 Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& settings)
     : settings_(settings),
       mix_(choose_mix(settings, scene)),
-      probabilities_(mix_.at(0)),
+      probabilities_(mix_.probabilities()),
       scene_(scene, mesh, settings.constant_radiance, settings.caustics),
       caustics_(scene_.caustics() ? std::make_unique<Caustics>(scene, mesh, scene_, settings.seed)
                                   : nullptr),
@@ -109,7 +122,11 @@ void Solver::plan_group() {
     }
     group_.clear();
     group_next_ = 0;
-    probabilities_ = mix_.at(iterations_);
+    if (mix_.is_due()) {
+        const glm::dvec2 scatter = store_.take_scatter();
+        mix_.adapt({scatter.x, scatter.y});
+    }
+    probabilities_ = mix_.probabilities();
     schedule_.set_probabilities(probabilities_);
     store_.set_shoots_only(probabilities_.perspective >= 1.0F);
     std::vector<glm::vec4> numbers;
@@ -212,6 +229,9 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
     settings.row_phase = planned.sample.row_phase;
     last_strategy_ = planned.sample.strategy;
+    mix_.count(planned.sample.strategy);
+    const unsigned scatter =
+        mix_.adaptive() ? scatter_kind(planned.sample.strategy) : SCATTER_NOT_MEASURED;
     if (planned.sample.strategy == Strategy::perspective) {
         BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
                                        static_cast<float>(planned.sample.angle));
@@ -235,6 +255,7 @@ void Solver::run(const Planned& planned, unsigned slot,
                        .step = iterate_step(),
                        .shooter_density = planned.shooter.density,
                        .iteration = iterations_,
+                       .scatter = scatter,
                        .constant_irradiance = settings.context.constant_irradiance});
     } else {
         const ParallelWindow window = transfer().parallel_window(planned.sample);
@@ -246,6 +267,7 @@ void Solver::run(const Planned& planned, unsigned slot,
         store_.update({.weight = settings.context.sample_weight,
                        .step = iterate_step(),
                        .iteration = iterations_,
+                       .scatter = scatter,
                        .constant_irradiance = settings.context.constant_irradiance});
     }
     after_iteration();
@@ -260,6 +282,7 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
                 --iterations_;
                 --since_change_;
                 --iterate_age_;
+                mix_.count(group_[slot].sample.strategy, -1);
                 for (BundleReceiver* receiver : receivers) {
                     receiver->discard_sample({.sample_weight = sample_weight(),
                                               .constant_irradiance = glm::pi<float>() * constant_});

@@ -29,7 +29,6 @@ struct SolverSettings {
     std::uint64_t coarse_iterations = 768;
     float fine_noise = 0.02F;
     float density_error = 1.0F;  ///< fault injection of tests: factor of the densities
-    bool ageing = false;         ///< probabilities follow ageing_mix() instead
     /// Iterations planned, M of eq. 5.6: perspective bundles trade bias for noise, most of all
     /// without parallel ones, which bound their contributions anyway. 0: unbiased.
     std::uint64_t noise_horizon = 0;
@@ -43,7 +42,8 @@ struct SolverSettings {
     bool caustics = true;
     /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
     bool random_faces = false;
-    bool adapt_to_sky = true;           ///< more parallel bundles where a sky lights the scene
+    /// Probabilities follow the sky and what is measured, see with_sky() and StrategyMix.
+    bool adapt_probabilities = true;
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
     SpecialSettings special;            ///< how changes are worked in
 };
@@ -102,6 +102,8 @@ class Solver {
         std::uint64_t all = 0, from_emitters = 0;
     };
     [[nodiscard]] const Shots& shots() const { return shots_; }
+    /// Of the strategies, at present.
+    [[nodiscard]] const StrategyProbabilities& probabilities() const { return probabilities_; }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] RadianceStore& store() { return store_; }
     [[nodiscard]] const RadianceStore& store() const { return store_; }

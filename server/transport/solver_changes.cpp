@@ -68,6 +68,8 @@ void Solver::note_change() {
     kept_weight_ = no_limit;
     limit_iterate_age(iterate_age_after_change);
     statistics_.settled = 0.0;
+    store_.forget_scatter();
+    mix_.forget();
     ++changes_;
 }
 

@@ -1,39 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <array>
 
 #include "scene/scene.h"
 #include "transport/iteration_schedule.h"
 
 namespace raybundle {
 
-/// Probabilities of the strategies over the age of a solution (ch. 6.3: perspective bundles spread
-/// the light of the lamps first, parallel bundles refine it). A function of the iterations alone,
-/// so that a seed gives the same solution on every machine; every sample is divided by the density
-/// of the probabilities that it was drawn with, so changing them is unbiased.
+/// Probabilities of the strategies (ch. 6.2) that follow what is measured: of layered and
+/// perspective bundles those become more frequent whose contributions scatter more for what they
+/// cost. Every sample is divided by the density of the probabilities that it was drawn with, so
+/// changing them is unbiased. Plane bundles keep their share.
+///
+/// With the one density of the balance heuristic no small shift of probability lowers variance
+/// times cost where sigma_i^2 / c_i is the same for all strategies i: sigma_i^2 is the mean squared
+/// deviation of a bundle from the solution, c_i its cost, and more of strategy i lowers the
+/// variance by sigma_i^2 for each bundle. That holds for independent bundles and for patches; ours
+/// come from low-discrepancy sequences, and pixels are what is looked at. So the odds go a third of
+/// the way, as logarithms, from those of the start, which are good in most rooms.
 class StrategyMix {
   public:
-    /// The same probabilities at all times.
-    explicit StrategyMix(const StrategyProbabilities& fixed) : first_(fixed), last_(fixed) {}
-    /// From first to last over the ageing iterations.
-    StrategyMix(const StrategyProbabilities& first, const StrategyProbabilities& last)
-        : first_(first), last_(last) {}
+    /// adaptive: has no effect unless layered and perspective bundles are both in use.
+    StrategyMix(const StrategyProbabilities& start, bool adaptive);
 
-    [[nodiscard]] StrategyProbabilities at(std::uint64_t iterations) const;
+    [[nodiscard]] const StrategyProbabilities& probabilities() const { return now_; }
 
-    static constexpr std::uint64_t ageing_iterations = 512;
-    [[nodiscard]] const StrategyProbabilities& first() const { return first_; }
-    [[nodiscard]] const StrategyProbabilities& last() const { return last_; }
+    /// A bundle of the strategy was transferred (plane bundles are not counted), or undone.
+    void count(Strategy strategy, int bundles = 1);
+    [[nodiscard]] bool adaptive() const { return adaptive_; }
+    /// Whether enough bundles were counted since the last adapt().
+    [[nodiscard]] bool is_due() const;
+    /// scatter_sums: of squared deviations over all bundles counted, those before the last adapt()
+    /// with half of their weight: of layered, of perspective bundles. What was counted weighs half
+    /// from now on.
+    void adapt(const std::array<double, 2>& scatter_sums);
+    /// The light has changed: nothing was counted.
+    void forget();
 
   private:
-    StrategyProbabilities first_, last_;
+    StrategyProbabilities start_, now_;
+    bool adaptive_;
+    std::array<double, 2> counted_{};  // layered, perspective
+    unsigned since_ = 0;               // bundles, since adapt()
 };
 
-/// The mix of the combined method.
-StrategyMix ageing_mix();
-/// Only parallel bundles see the sky: a mix with more of them where a sky lights the scene, and
-/// more yet where it does so alone. Mixes without one of layered and perspective stay as they are.
-StrategyMix with_sky(const StrategyMix& mix, const Scene& scene);
+/// Only parallel bundles see the sky: more of them where a sky lights the scene, and more yet where
+/// it does so alone. Probabilities without one of layered and perspective stay as they are.
+StrategyProbabilities with_sky(StrategyProbabilities probabilities, const Scene& scene);
 
 }  // namespace raybundle
