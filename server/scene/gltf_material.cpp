@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "scene/alpha_blend.h"
 #include "scene/base_colour.h"
 #include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
@@ -143,6 +144,11 @@ class MaterialReader {
             read_details(source, item_path("materials", index), material);
         }
         read_diffuse_transmission(source, material);
+        if (source.alphaMode == "BLEND") {
+            if (const auto notice = read_alpha_blend(scene_.textures, material)) {
+                document_.note(*notice);
+            }
+        }
         note_unused(source);
         scene_.materials.push_back(std::move(material));
     }
@@ -290,9 +296,6 @@ class MaterialReader {
         material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
         if (source.alphaMode == "MASK") {
             material.alpha_mode = AlphaMode::mask;
-        } else if (source.alphaMode == "BLEND") {
-            material.alpha_mode = AlphaMode::blend;
-            document_.note("blended (alpha BLEND) materials are treated as opaque");
         }
     }
 

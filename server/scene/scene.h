@@ -48,7 +48,7 @@ struct TextureSlot {
     glm::mat3 uv_from_mesh_uv{1.0F};  ///< homogeneous 2D transform
 };
 
-enum class AlphaMode { opaque, mask, blend };
+enum class AlphaMode { opaque, mask };  // BLEND: see scene/alpha_blend.h
 
 /// A specular lobe after Neumann, Neumann and Szirmay-Kalos 1999, "Compact Metallic Reflectance
 /// Models": k cos^exponent / max(cos_in, cos_out). The dissertation's scenes have it.

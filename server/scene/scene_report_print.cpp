@@ -26,14 +26,7 @@ Json json_of(const Bounds& bounds) {
 }
 
 const char* name_of(AlphaMode mode) {
-    switch (mode) {
-        case AlphaMode::mask:
-            return "MASK";
-        case AlphaMode::blend:
-            return "BLEND";
-        default:
-            return "OPAQUE";
-    }
+    return mode == AlphaMode::mask ? "MASK" : "OPAQUE";
 }
 
 void print_summary(std::ostream& out, const Scene& scene, const SceneReport& report) {

@@ -7,6 +7,7 @@
 #include "gltf_builder.h"
 #include "scene/base_colour.h"
 #include "scene/patch_mesh.h"
+#include "scene/specular_surface.h"
 #include "scene/texture_mean.h"
 
 namespace raybundle::test {
@@ -52,7 +53,6 @@ TEST(SceneMaterial, FactorsAreRead) {
                        {"metallicFactor", 0.25},
                        {"roughnessFactor", 0.75}}},
                      {"emissiveFactor", {1, 0.5, 0}},
-                     {"alphaMode", "BLEND"},
                      {"doubleSided", true},
                      {"extensions",
                       {{"KHR_materials_emissive_strength", {{"emissiveStrength", 200}}},
@@ -67,9 +67,66 @@ TEST(SceneMaterial, FactorsAreRead) {
     EXPECT_FLOAT_EQ(material.roughness, 0.75F);
     EXPECT_FLOAT_EQ(material.specular, 0.0F);
     EXPECT_EQ(material.emission, glm::vec3(200, 100, 0));
-    EXPECT_EQ(material.alpha_mode, AlphaMode::blend);
     EXPECT_TRUE(material.double_sided);
-    EXPECT_TRUE(has_notice(scene, "BLEND"));
+}
+
+Json blended(float alpha) {
+    return {{"pbrMetallicRoughness",
+             {{"baseColorFactor", {0.2, 0.4, 0.8, alpha}}, {"metallicFactor", 0}}},
+            {"alphaMode", "BLEND"}};
+}
+
+TEST(SceneMaterial, BlendThatCoversLittleIsAClearPane) {
+    const Scene scene = square_with(blended(0.25F)).load();
+    const Material& material = scene.materials[0];
+    EXPECT_TRUE(has_notice(scene, "panes that let 1 - alpha through"));
+    ASSERT_EQ(specular_kind(material), SpecularKind::pane);
+    for (const float cosine : {1.0F, 0.5F, 0.1F}) {
+        const PaneShares shares =
+            pane_shares(specular_surface(material, material.base_colour), cosine);
+        EXPECT_NEAR(shares.transmitted.r, 0.75F, 1e-6F);
+        EXPECT_LT(shares.reflected.r, 1e-6F);
+    }
+}
+
+TEST(SceneMaterial, BlendThatCoversMostIsAVeil) {
+    const Scene scene = square_with(blended(0.75F)).load();
+    const Material& material = scene.materials[0];
+    EXPECT_TRUE(has_notice(scene, "like a veil"));
+    EXPECT_FLOAT_EQ(material.base_colour.b, 0.75F * 0.8F);
+    EXPECT_NEAR(material.transmittance.r, 0.25F, 1e-3F);
+    EXPECT_TRUE(material.double_sided);
+    EXPECT_EQ(material.specular, 0.0F);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_LE(material.base_colour[c] + material.transmittance[c], 1.0F);
+    }
+}
+
+TEST(SceneMaterial, BlendThatCoversAllIsOpaque) {
+    const Scene scene = square_with(blended(1.0F)).load();
+    EXPECT_EQ(specular_kind(scene.materials[0]), SpecularKind::none);
+    EXPECT_FALSE(transmits(scene.materials[0]));
+    EXPECT_FALSE(has_notice(scene, "BLEND"));
+}
+
+TEST(SceneMaterial, BlendWithATextureOfAlphaIsCutOut) {
+    Json material = textured({{"index", 0}});
+    material["alphaMode"] = "BLEND";
+    GltfBuilder builder = square_with(material);
+    add_texture(builder, 2, 1, {255, 255, 255, 255, 0, 0, 0, 100});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::mask);
+    EXPECT_TRUE(has_notice(scene, "cut out where"));
+}
+
+/// What transmits by an extension is not blended as well.
+TEST(SceneMaterial, BlendLeavesGlassAsItIs) {
+    Json glass = blended(0.25F);
+    glass["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}};
+    const Scene scene = square_with(glass).load();
+    EXPECT_EQ(specular_kind(scene.materials[0]), SpecularKind::pane);
+    EXPECT_FLOAT_EQ(scene.materials[0].ior, 1.5F);
+    EXPECT_FLOAT_EQ(scene.materials[0].base_colour.b, 0.8F);
 }
 
 TEST(SceneMaterial, DefaultMaterialServesMeshesWithoutOne) {
