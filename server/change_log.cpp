@@ -40,12 +40,25 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     if (!journal_) {
         return;
     }
+    std::vector<v1::SceneChanged> changes;
+    try {
+        changes = journal_->changes();
+    } catch (const JournalError& error) {
+        working_ = false;
+        journal_.reset();
+        spdlog::error("the scene is shown without the changes made to it and cannot be changed: {}",
+                      error.what());
+        return;
+    }
     std::vector<std::uint32_t> materials(scene.materials.size());
     std::iota(materials.begin(), materials.end(), 0U);
     bool surfaces = false;
-    for (const v1::SceneChanged& change : journal_->changes()) {
-        if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET ||
-            problem_of(scene, change).code() != v1::Error::CODE_UNSPECIFIED) {
+    for (const v1::SceneChanged& change : changes) {
+        if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET) {
+            spdlog::error("change {} of the journal cannot be read and is lost", change.epoch());
+            continue;
+        }
+        if (problem_of(scene, change).code() != v1::Error::CODE_UNSPECIFIED) {
             spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
             continue;
         }

@@ -191,10 +191,7 @@ std::vector<AccessToken> read_tokens(const Json& value) {
     return tokens;
 }
 
-void apply_key(const std::string& key, const Json& value, Options& options) {
-    if (options.on_command_line.contains(key)) {
-        return;
-    }
+void read_key(const std::string& key, const Json& value, Options& options) {
     if (key == scene_key) {
         read(value, options.scene);
         return;
@@ -212,6 +209,16 @@ void apply_key(const std::string& key, const Json& value, Options& options) {
     std::visit([&](const auto member) { read(value, options.*member); }, option->member);
     if (const std::string problem = problem_of(*option, options); !problem.empty()) {
         throw BadValue(problem);
+    }
+}
+
+/// What the command line has said is kept, but checked in the file all the same.
+void apply_key(const std::string& key, const Json& value, Options& options) {
+    if (options.on_command_line.contains(key)) {
+        Options overridden;
+        read_key(key, value, overridden);
+    } else {
+        read_key(key, value, options);
     }
 }
 
@@ -317,7 +324,11 @@ std::string print_config(const Options& options) {
                                     {"role", v1::Role_Name(token.role)},
                                     {"sha256", to_hex(token.digest)}});
     }
-    return json.dump(4) + "\n";
+    try {
+        return json.dump(4) + "\n";
+    } catch (const nlohmann::json::exception&) {
+        throw UsageError("--print-config: an option holds text that is not UTF-8");
+    }
 }
 
 }  // namespace raybundle

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "log_settings.h"
 
+#include <fmt/format.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
 
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -25,16 +27,42 @@ class JsonMessage : public spdlog::custom_flag_formatter {
     }
 };
 
+/// The message on one line: a viewer's name or an address cannot forge another line, nor speak to
+/// the terminal.
+class PlainMessage : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& line, const std::tm& /*time*/,
+                spdlog::memory_buf_t& out) override {
+        constexpr unsigned char first_printable = 0x20;
+        constexpr unsigned char delete_character = 0x7F;
+        for (const char letter : line.payload) {
+            const auto code = static_cast<unsigned char>(letter);
+            if (code < first_printable || code == delete_character) {
+                fmt::format_to(std::back_inserter(out), "\\x{:02x}", code);
+            } else {
+                out.push_back(letter);
+            }
+        }
+    }
+    [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<PlainMessage>();
+    }
+};
+
 }  // namespace
 
 void set_log(const Options& options) {
-    if (options.log_format == "json") {
-        auto formatter =
-            std::make_unique<spdlog::pattern_formatter>(spdlog::pattern_time_type::utc);
+    const bool json = options.log_format == "json";
+    auto formatter = std::make_unique<spdlog::pattern_formatter>(
+        json ? spdlog::pattern_time_type::utc : spdlog::pattern_time_type::local);
+    if (json) {
         formatter->add_flag<JsonMessage>('*').set_pattern(
             R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*})");
-        spdlog::set_formatter(std::move(formatter));
+    } else {
+        formatter->add_flag<PlainMessage>('*').set_pattern(
+            "[%Y-%m-%d %H:%M:%S.%e] [%n] [%^%l%$] %*");
     }
+    spdlog::set_formatter(std::move(formatter));
     set_log_level(options);
 }
 

@@ -6,6 +6,9 @@
 #include <chrono>
 #include <filesystem>
 #include <utility>
+#include <vector>
+
+#include "scene/gltf_confinement.h"
 
 namespace raybundle {
 namespace {
@@ -22,6 +25,9 @@ struct FileState {
     bool operator==(const FileState&) const = default;
 };
 
+/// Of the scene file, then of the files that it refers to.
+using FileStates = std::vector<FileState>;
+
 FileState state_of(const std::string& file) {
     std::error_code missing;
     FileState state{fs::last_write_time(file, missing), 0};
@@ -30,6 +36,24 @@ FileState state_of(const std::string& file) {
     }
     state.size = fs::file_size(file, missing);
     return missing ? FileState{} : state;
+}
+
+/// The scene file alone where it cannot be read.
+std::vector<std::string> files_to_watch(const std::string& scene) {
+    try {
+        return files_of_scene(scene);
+    } catch (const std::exception&) {
+        return {scene};
+    }
+}
+
+FileStates states_of(const std::vector<std::string>& files) {
+    FileStates states;
+    states.reserve(files.size());
+    for (const std::string& file : files) {
+        states.push_back(state_of(file));
+    }
+    return states;
 }
 
 }  // namespace
@@ -45,17 +69,19 @@ std::optional<LoadedScene> SceneWatch::take() {
 }
 
 void SceneWatch::watch(const std::stop_token& token) {
-    FileState known = state_of(options_.scene);
-    FileState before = known;
+    std::vector<std::string> files = files_to_watch(options_.scene);
+    FileStates known = states_of(files);
+    FileStates before = known;
     while (!token.stop_requested()) {
         std::this_thread::sleep_for(poll_interval);
-        const FileState now = state_of(options_.scene);
-        const bool settled = now == before && now != FileState{};
-        before = now;
+        FileStates now = states_of(files);
+        const bool settled = now == before && now.front() != FileState{};
         if (settled && now != known) {
-            known = now;
+            files = files_to_watch(options_.scene);
+            known = now = states_of(files);
             load();
         }
+        before = std::move(now);
     }
 }
 

@@ -10,9 +10,10 @@
 
 namespace raybundle {
 
-/// Reads the scene again, on a thread of its own, when its file is replaced. A file that is
-/// rejected is reported in the log and changes nothing. Looks twice a second, and waits until the
-/// file has stopped changing; files that it refers to are not watched.
+/// Reads the scene again, on a thread of its own, when its file or one that it refers to is
+/// replaced. A scene that is rejected is reported in the log and changes nothing. Looks twice a
+/// second, and waits until the files have stopped changing; an exporter that takes longer between
+/// two of them is waited for after the rejection.
 class SceneWatch {
   public:
     /// `replaced` is called when take() has something.

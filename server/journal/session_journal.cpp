@@ -121,11 +121,14 @@ void SessionJournal::find_session(const JournalSettings& settings) {
 std::vector<v1::SceneChanged> SessionJournal::changes() {
     std::vector<v1::SceneChanged> result;
     try {
-        auto select = database_->prepare("SELECT body FROM change WHERE session=? ORDER BY epoch");
+        auto select =
+            database_->prepare("SELECT epoch, body FROM change WHERE session=? ORDER BY epoch");
         select.bind(1, session_);
         while (select.step()) {
-            if (!result.emplace_back().ParseFromString(select.bytes(0))) {
-                throw JournalError(file_ + ": holds a change that cannot be read");
+            v1::SceneChanged& change = result.emplace_back();
+            if (!change.ParseFromString(select.bytes(1))) {
+                change.Clear();
+                change.set_epoch(static_cast<std::uint32_t>(select.integer(0)));
             }
         }
     } catch (const SqliteError& error) {
@@ -144,7 +147,9 @@ v1::SceneChanged SessionJournal::take_earlier(const v1::SceneChanged& change,
     select.bind(2, std::int64_t{change.change_case()});
     select.bind(3, subject);
     while (select.step()) {
-        earlier.ParseFromString(select.bytes(0));
+        if (!earlier.ParseFromString(select.bytes(0))) {
+            earlier.Clear();
+        }
     }
     return earlier;
 }

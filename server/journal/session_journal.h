@@ -44,7 +44,8 @@ class SessionJournal {
     /// Changes applied in this session, 0 in a new one.
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
-    /// What brings the scene file to the state of this session, in order of epochs.
+    /// What brings the scene file to the state of this session, in order of epochs. One that cannot
+    /// be read has its epoch only.
     [[nodiscard]] std::vector<v1::SceneChanged> changes();
 
     /// Writes a change, whose epoch must be epoch() + 1, and what its subject was like before, for

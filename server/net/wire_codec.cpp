@@ -38,8 +38,12 @@ std::string excerpt(std::string_view text) {
 }
 
 /// Protobuf's "(set_camera.eye.x): reason" in the names that the client uses: "setCamera.eye.x:
-/// reason".
+/// reason"; nothing before the reason where no field is named.
 std::string client_words(const std::string& text) {
+    constexpr std::string_view kNoField = ": ";
+    if (text.starts_with(kNoField)) {
+        return text.substr(kNoField.size());
+    }
     const std::size_t end = text.find("): ");
     if (!text.starts_with('(') || end == std::string::npos) {
         return text;

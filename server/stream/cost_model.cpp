@@ -8,9 +8,9 @@ namespace raybundle {
 namespace {
 
 constexpr double kMega = 1e6;
-constexpr double kForget = 0.995;      ///< weight that an observation keeps at the next
-constexpr double kPriorWeight = 1e-2;  ///< of the assumed slope, in megapixels²
-constexpr double kSmoothing = 0.1;
+constexpr double kForget = 0.995;      ///< weight that an iteration keeps at the next
+constexpr double kForgetFrame = 0.97;  ///< weight that a frame keeps at the next
+constexpr double kPriorWeight = 1e-2;  ///< of an assumed slope, in megapixels²
 
 bool usable(double milliseconds, double pixels) {
     return std::isfinite(milliseconds) && milliseconds >= 0.0 && pixels >= 0.0;
@@ -32,8 +32,17 @@ void CostModel::note_iteration(double milliseconds, double pixels) {
 
 void CostModel::note_frame(double milliseconds, double pixels) {
     if (usable(milliseconds, pixels) && pixels > 0.0) {
-        frame_ms_per_pixel_ += kSmoothing * (milliseconds / pixels - frame_ms_per_pixel_);
+        const double x = pixels / kMega;
+        frame_xx_ = kForgetFrame * frame_xx_ + x * x;
+        frame_xy_ = kForgetFrame * frame_xy_ + x * milliseconds;
     }
+}
+
+/// Least squares through the origin, so that what every frame costs, however small, does not count
+/// as the price of its few pixels.
+double CostModel::frame_ms_per_pixel() const {
+    const double prior = kPriorFrameMs * kMega;
+    return (frame_xy_ + kPriorWeight * prior) / (frame_xx_ + kPriorWeight) / kMega;
 }
 
 /// Least squares, with the assumed slope as a weak prior: it decides while all observations had
@@ -55,7 +64,7 @@ CostModel::Line CostModel::iteration_line() const {
 
 double CostModel::round_ms(double pixels) const {
     const Line line = iteration_line();
-    return line.base + (line.slope + frame_ms_per_pixel_) * pixels;
+    return line.base + (line.slope + frame_ms_per_pixel()) * pixels;
 }
 
 CostModel::Verdict CostModel::admit(std::uint32_t width, std::uint32_t height, double present,

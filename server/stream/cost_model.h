@@ -8,7 +8,8 @@
 namespace raybundle {
 
 /// What viewers cost, learnt from measurements: an iteration takes a + b * pixels milliseconds, a
-/// frame c * pixels. Forgets slowly. Has no clock of its own.
+/// frame c * pixels; large frames say more about c than small ones. Forgets slowly. Has no clock of
+/// its own.
 class CostModel {
   public:
     void note_iteration(double milliseconds, double pixels);
@@ -44,10 +45,12 @@ class CostModel {
         double slope = kPriorReceiveMs;
     };
     [[nodiscard]] Line iteration_line() const;
+    [[nodiscard]] double frame_ms_per_pixel() const;
 
     // Exponentially weighted sums over iterations: weight, x, y, x², xy; x in megapixels.
     double w_ = 0.0, x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0;
-    double frame_ms_per_pixel_ = kPriorFrameMs;
+    // The same over frames.
+    double frame_xx_ = 0.0, frame_xy_ = 0.0;
 };
 
 }  // namespace raybundle

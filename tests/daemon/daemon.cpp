@@ -17,9 +17,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kStartTime = std::chrono::seconds(60);
-constexpr auto kEndTime = std::chrono::seconds(40);
-constexpr auto kTalkTime = std::chrono::seconds(40);
+// Only what hangs takes so long, with sanitizers on a busy machine either.
+constexpr auto kStartTime = std::chrono::seconds(300);
+constexpr auto kEndTime = std::chrono::seconds(120);
+constexpr auto kTalkTime = std::chrono::seconds(120);
 constexpr std::string_view kAddress = "://127.0.0.1:";
 
 }  // namespace

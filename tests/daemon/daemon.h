@@ -26,7 +26,7 @@ class Daemon {
     void signal(int number) const;
 
     /// Waits for the end: the exit status, or minus the signal that ended it. Nothing where it
-    /// still runs after 40 seconds.
+    /// still runs after two minutes.
     std::optional<int> wait();
 
     /// Sends a signal and waits.
@@ -38,7 +38,7 @@ class Daemon {
     /// What it has written so far, log included.
     std::string output();
 
-    /// Waits until the output holds a text. False: not within 40 seconds.
+    /// Waits until the output holds a text. False: not within two minutes.
     bool says(const std::string& text);
 
   private:

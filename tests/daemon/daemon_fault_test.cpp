@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What operators and accidents do to a running server.
 #include <gtest/gtest.h>
+#include <openssl/evp.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -220,7 +221,7 @@ TEST_F(DaemonTest, SigtermSaysGoodbyeAndEndsWithSuccess) {
     daemon.signal(SIGTERM);
     EXPECT_EQ(viewer.close_code(), 1001);
     EXPECT_EQ(daemon.wait(), 0);
-    EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
+    EXPECT_LT(Clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST_F(DaemonTest, SighupReadsTokensAgainAndWrongSettingsChangeNothing) {
@@ -246,13 +247,18 @@ TEST_F(DaemonTest, SighupReadsTokensAgainAndWrongSettingsChangeNothing) {
     EXPECT_TRUE(JsonViewer(daemon.port()).join(second).contains("welcome"));
 }
 
+/// Writes what a base64 data URI holds.
+void write_data_uri(const std::string& uri, const std::string& file) {
+    const std::string text = uri.substr(uri.find(',') + 1);
+    std::string bytes(3 * text.size() / 4, '\0');
+    EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
+                    reinterpret_cast<const unsigned char*>(text.data()),
+                    static_cast<int>(text.size()));
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
 TEST_F(DaemonTest, AReplacedSceneIsServedAndARejectedOneIsNot) {
     fs::copy_file(cornell_box(), path("scene.gltf"));
-    for (const char* companion : {"cornell_box.bin"}) {
-        if (fs::exists(scene_file(companion))) {
-            fs::copy_file(scene_file(companion), path(companion));
-        }
-    }
     Daemon daemon(path("scene.gltf"), {"--watch"});
     JsonViewer viewer(daemon.port());
     EXPECT_TRUE(viewer.join().contains("welcome"));
@@ -268,8 +274,13 @@ TEST_F(DaemonTest, AReplacedSceneIsServedAndARejectedOneIsNot) {
             node["name"] = "renamed box";
         }
     }
+    Json& uri = scene["buffers"][0]["uri"];
+    const std::string buffer = uri.get<std::string>();
+    uri = "late.bin";
     std::ofstream(path("new.gltf")) << scene.dump();
     fs::rename(path("new.gltf"), path("scene.gltf"));
+    EXPECT_TRUE(daemon.says("late.bin")) << "its buffer is not there yet";
+    write_data_uri(buffer, path("late.bin"));
     EXPECT_EQ(viewer.close_code(), 1012);
     JsonViewer again(daemon.port());
     const Json welcome = again.join();

@@ -129,6 +129,22 @@ TEST(ConfigFile, TheCommandLineWins) {
     EXPECT_THROW(parsed({"serve", "--config", "/nonexistent.json", "a.gltf"}), UsageError);
 }
 
+TEST(ConfigFile, WhatTheCommandLineOverridesMustBeRightToo) {
+    Options options;
+    options.on_command_line = {"scene", "maxViewers"};
+    options.max_viewers = 7;
+    apply_config_text("f", R"({"scene":"a.gltf","maxViewers":3})", options);
+    EXPECT_EQ(options.max_viewers, 7);
+    EXPECT_THROW(apply_config_text("f", R"({"scene":5})", options), UsageError);
+    EXPECT_THROW(apply_config_text("f", R"({"maxViewers":0})", options), UsageError);
+}
+
+TEST(ConfigFile, TextThatIsNotUtf8CannotBePrinted) {
+    Options options;
+    options.scene = "\xff.gltf";
+    EXPECT_THROW(print_config(options), UsageError);
+}
+
 TEST(ConfigFile, IsReadAgainUnderTheSameCommandLine) {
     const auto file = std::filesystem::temp_directory_path() / "raybundle_reread_test.json";
     std::ofstream(file) << R"({"maxViewers":3,"seed":5,"tokens":[{"name":"a","role":"EDITOR",

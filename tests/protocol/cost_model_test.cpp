@@ -70,6 +70,21 @@ TEST(CostModel, NothingFitsWhereItIsFullButTheFirstViewerAlwaysDoes) {
     EXPECT_TRUE(model.admit(3840, 2160, 0.0, 1.0).fits);
 }
 
+/// What a frame of one pixel costs says nothing about large ones: else whoever asks for such frames
+/// shuts out everybody.
+TEST(CostModel, TinyPicturesDoNotShutOutLargeOnes) {
+    CostModel model;
+    for (int i = 0; i < 1000; ++i) {
+        model.note_iteration(10.0, 1.0);
+        model.note_frame(2.0, 1.0);
+    }
+    EXPECT_TRUE(model.admit(1280, 720, 1.0, 1000.0).fits);
+    for (int i = 0; i < 100; ++i) {
+        model.note_frame(500e-6 * kPixels, kPixels);
+    }
+    EXPECT_NEAR(model.round_ms(1e6) - model.round_ms(0.0), 520.0, 30.0) << "a slow machine";
+}
+
 TEST(CostModel, NonsenseIsIgnored) {
     CostModel model = learnt();
     const double before = model.round_ms(kPixels);

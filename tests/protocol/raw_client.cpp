@@ -13,7 +13,8 @@
 namespace raybundle {
 namespace {
 
-constexpr int kTimeoutMs = 20000;  // only what hangs takes so long, on a busy machine either
+/// Only what hangs takes so long, with sanitizers on a busy machine either.
+constexpr int kTimeoutMs = 120000;
 constexpr int kPing = 9;
 constexpr int kPong = 10;
 

@@ -35,7 +35,7 @@ class ServerWebSocketTest : public testing::Test {
 
     /// Waits for one event of the kind and takes everything up to it.
     ClientEvent wait_for(ClientEvent::Kind kind) {
-        const auto end = Clock::now() + std::chrono::seconds(20);
+        const auto end = Clock::now() + std::chrono::seconds(120);
         while (Clock::now() < end) {
             server_->inbox().wait_for(milliseconds(50));
             for (auto& event : server_->inbox().drain()) {

@@ -192,6 +192,26 @@ TEST_F(SessionJournalTest, DamageInTheMiddleIsFound) {
     EXPECT_EQ(damaged_files(), 1U);
 }
 
+/// Damage that SQLite does not see costs one change, not the session.
+TEST_F(SessionJournalTest, AChangeThatCannotBeReadIsLostAlone) {
+    {
+        SessionJournal journal(settings_);
+        for (std::uint32_t i = 1; i <= 3; ++i) {
+            journal.append(move(i, i, 1.0F));
+        }
+    }
+    SqliteDatabase(settings_.file).execute("UPDATE change SET body=x'ff00ff' WHERE epoch=2");
+    SessionJournal journal(settings_);
+    const auto changes = journal.changes();
+    ASSERT_EQ(changes.size(), 3U);
+    EXPECT_EQ(changes[1].epoch(), 2U);
+    EXPECT_EQ(changes[1].change_case(), v1::SceneChanged::CHANGE_NOT_SET);
+    EXPECT_EQ(changes[2].move_object().object(), 3U);
+    EXPECT_EQ(journal.epoch(), 3U);
+    EXPECT_NO_THROW(journal.append(move(4, 2, 2.0F))) << "it replaces what cannot be read";
+    EXPECT_EQ(journal.changes().back().move_object().transform().translation().x(), 2.0F);
+}
+
 TEST_F(SessionJournalTest, AFullDiskIsAnErrorAndChangesNothing) {
     settings_.max_bytes = 10 * 4096;
     SessionJournal journal(settings_);

@@ -91,8 +91,9 @@ TEST(WireCodec, AnswersUnknownMessagesWithTheirId) {
 }
 
 TEST(WireCodec, RefusesTwoBodiesAndWrongTypesNamingTheField) {
-    EXPECT_EQ(refused(parse_text_message(R"({"ping":{},"ack":{"frame":1}})")).code,
-              v1::Error::INVALID_ARGUMENT);
+    const Refusal two = refused(parse_text_message(R"({"ping":{},"ack":{"frame":1}})"));
+    EXPECT_EQ(two.code, v1::Error::INVALID_ARGUMENT);
+    EXPECT_TRUE(two.text.starts_with("invalid value")) << two.text;
     const Refusal wrong =
         refused(parse_text_message(R"({"id":4,"setCamera":{"eye":{"x":"left"}}})"));
     EXPECT_EQ(wrong.id, 4U);

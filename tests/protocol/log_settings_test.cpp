@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "log_settings.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace raybundle {
+namespace {
+
+/// What is logged in a format, where a viewer has a name that nobody expected.
+std::string logged(const std::string& format) {
+    std::ostringstream out;
+    const auto before = spdlog::default_logger();
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+        "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
+    Options options;
+    options.log_format = format;
+    set_log(options);
+    spdlog::warn("viewer '{}' joined", "a\"\\\n[error] b\x1b[2J \xc3\xa4 \xff");
+    spdlog::set_default_logger(before);
+    return out.str();
+}
+
+TEST(LogSettings, NobodyForgesALine) {
+    const std::string text = logged("text");
+    EXPECT_NE(text.find("[test] [warning] viewer 'a\"\\\\x0a[error] b\\x1b[2J \xc3\xa4"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find('\n'), text.size() - 1);
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+}
+
+TEST(LogSettings, JsonLinesAreJsonWhateverIsLogged) {
+    const std::string text = logged("json");
+    EXPECT_EQ(text.find('\n'), text.size() - 1);
+    const auto line = nlohmann::json::parse(text);
+    EXPECT_EQ(line.at("level"), "warning");
+    EXPECT_NE(line.at("message").get<std::string>().find("a\"\\\n[error]"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace raybundle
