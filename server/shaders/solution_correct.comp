@@ -27,7 +27,7 @@ uniform float most_weight;    // that any patch keeps
 uniform float bundles_noise;  // 1/K
 
 const float inverse_pi = 0.31830988618;
-const float wrong = 2.0;           // squared error of few bundles over what they say themselves
+const float wrong = 1.5;           // squared error of few bundles over what they say themselves
 const float likely_unseen = 0.15;  // of the squared error that most_weight reckons with
 
 void main() {
@@ -46,13 +46,16 @@ void main() {
     }
     float measured = luminance(abs(increments[i].rgb));
     float noise = increments[i].w / max(measured * measured, 1e-30);
-    vec3 increment = trusted_share(noise) * increments[i].rgb;
+    float square = measured * measured;
+    float share = moved > 0.0 ? trusted_share_moved(square, increments[i].w, moved) : trusted_share(noise);
+    vec3 increment = share * increments[i].rgb;
     vec4 mean = irradiance[i];
     float before = luminance(mean.rgb);
     float change = luminance(abs(increment));
     mean.rgb = max(mean.rgb + increment, 0.0);
     float after = luminance(mean.rgb);
-    float error = left_error(noise, bundles_noise, measured * measured, after) + moved;
+    float error = moved > 0.0 ? left_error_moved(increments[i].w, moved)
+                              : left_error(noise, bundles_noise, square, after);
     mean.w *= kept_weight(mean.w, after, error);
     checkpoint[i].z = noise;
     // What the phase leaves, as it is to be expected: few bundles differ by less than they are wrong, and a weight is

@@ -12,10 +12,9 @@
 namespace raybundle {
 namespace {
 
-/// Loose: bundles of 48 pixels leave much noise, and some dozen iterations after a drag the
-/// estimate is still too hopeful (0.78 where 0.37 is worked in). Of the last step alone it would be
-/// off by more.
-constexpr double bound = 0.45;
+/// Bundles of 48 pixels leave much noise: `settled` was off by 0.11 at most in this run, and by 0.14
+/// on average over four others.
+constexpr double bound = 0.3;
 constexpr std::uint64_t long_run = 640;
 
 const glm::vec3 first_place(1.2F, 0.0F, 1.5F);
@@ -78,6 +77,8 @@ TEST(SettledDrag, CountsWhatTheStepsBeforeTheLastHaveLeft) {
             const double actual = worked_in(drag, stale, luminances(solver));
             const double settled = solver.statistics().settled;
             EXPECT_NEAR(settled, actual, bound) << "seed " << seed << ", after " << more << " more";
+            // A drag is corrected while it goes on: its steps have brought more light than noise.
+            EXPECT_GT(actual, 0.1) << "seed " << seed << ", after " << more << " more";
             RecordProperty("seed" + std::to_string(seed) + "_" + std::to_string(more),
                            std::to_string(settled) + " " + std::to_string(actual));
         }
