@@ -97,6 +97,7 @@ TEST(Settled, ACorrectedSolutionIsBetterThanTheStaleOne) {
     }
     EXPECT_EQ(moves, 60);
     EXPECT_GE(better, 57);
+    RecordProperty("better", better);
 }
 
 }  // namespace
