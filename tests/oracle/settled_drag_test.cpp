@@ -12,8 +12,8 @@
 namespace raybundle {
 namespace {
 
-/// Bundles of 48 pixels leave much noise: `settled` was off by 0.11 at most in this run, and by 0.14
-/// on average over four others.
+/// Bundles of 48 pixels leave much noise: `settled` was off by 0.11 at most in this run, and by
+/// 0.14 on average over four others.
 constexpr double bound = 0.3;
 constexpr std::uint64_t long_run = 640;
 
