@@ -23,8 +23,8 @@ TrialOutcome run_trial(const EffectTrial& trial, const TrialLength& length, std:
     SolverSettings settings;
     settings.seed = seed;
     settings.caustics = trial.caustics;
-    settings.coarse_iterations =
-        static_cast<std::uint64_t>(length.first_iterations + length.iterations);
+    settings.coarse_iterations = static_cast<std::uint64_t>(length.first_iterations) +
+                                 static_cast<std::uint64_t>(length.iterations);
     Solver solver(trial.scene, trial.mesh, settings);
     const ViewPrograms programs(solver.scene());
     ViewerImage image(solver.scene(), solver.store(), programs, length.size);
