@@ -33,9 +33,7 @@ bool reaches(std::uint16_t port, const std::string& name, double value) {
 class ViewersTest : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        daemon_ =
-            std::make_unique<Daemon>(scene_file("cornell_box.gltf"),
-                                     std::vector<std::string>{"--min-frames-per-second", "2"});
+        daemon_ = std::make_unique<Daemon>(scene_file("cornell_box.gltf"));
     }
     static void TearDownTestSuite() { daemon_.reset(); }
 
@@ -44,15 +42,16 @@ class ViewersTest : public testing::Test {
 
 std::unique_ptr<Daemon> ViewersTest::daemon_;
 
-TEST_F(ViewersTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
-    JsonViewer small(daemon_->port());
+TEST(AdmissionTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
+    const Daemon daemon(scene_file("cornell_box.gltf"), {"--min-frames-per-second", "2"});
+    JsonViewer small(daemon.port());
     EXPECT_TRUE(small.join().contains("welcome"));
-    JsonViewer another(daemon_->port());
+    JsonViewer another(daemon.port());
     EXPECT_TRUE(another.join().contains("welcome"));
     std::vector<std::unique_ptr<JsonViewer>> large;
     Json refusal;
     for (int i = 0; i < 12 && refusal.empty(); ++i) {
-        large.push_back(std::make_unique<JsonViewer>(daemon_->port()));
+        large.push_back(std::make_unique<JsonViewer>(daemon.port()));
         const Json answer = large.back()->join("", 3840, 2160);
         if (answer.contains("error") || !answer.contains("welcome")) {
             refusal = answer;
@@ -61,7 +60,7 @@ TEST_F(ViewersTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
     ASSERT_FALSE(refusal.empty()) << "twelve 4K pictures were admitted";
     EXPECT_EQ(refusal.at("error").at("code"), "RESOURCE_EXHAUSTED");
     EXPECT_NE(refusal.at("error").at("message").get<std::string>().find("fit"), std::string::npos);
-    EXPECT_GE(metric(daemon_->port(), "raybundle_viewers_refused_total"), 1.0);
+    EXPECT_GE(metric(daemon.port(), "raybundle_viewers_refused_total"), 1.0);
     const Json grown = small.request({{"setViewport", {{"width", 3840}, {"height", 2160}}}});
     EXPECT_EQ(grown.at("error").at("code"), "RESOURCE_EXHAUSTED") << grown.dump();
 }
