@@ -79,7 +79,8 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
       schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
                 settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
-      transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))) {}
+      transient_(transient_iterations / (1.0F - std::min(mean_albedo(scene, mesh), 0.999F))),
+      carried_light_(scene, mesh) {}
 
 const BundleResolution& Solver::resolution() const {
     return is_fine() ? settings_.fine : settings_.coarse;

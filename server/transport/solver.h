@@ -10,6 +10,7 @@
 
 #include "solution/gpu_scene.h"
 #include "solution/radiance_store.h"
+#include "transport/carried_light.h"
 #include "transport/iteration_schedule.h"
 #include "transport/scene_change.h"
 #include "transport/special_phase.h"
@@ -166,6 +167,7 @@ class Solver {
     bool fine_fits_ = true;                    // there is memory for it, as far as is known
     float transient_;                          // iterations over which sample weights rise
     std::optional<ChangeStore> change_store_;  // exists from the first change on
+    CarriedLight carried_light_;
     std::optional<SpecialPhase> phase_;
     unsigned special_bundles_ = 0;
     std::vector<Planned> group_;

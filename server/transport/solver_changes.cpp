@@ -20,6 +20,9 @@ constexpr float unit_range = 64.0F;
 /// Samples that what punctual lights bring anew is worth, against those taken with their light
 /// before.
 constexpr float first_shot_weight = 1.0F;
+/// Samples that any mean is worth after all light was carried elsewhere, whatever the few bundles
+/// of the phase say: those that have missed the lamp leave its light where it was.
+constexpr float carried_light_weight = 1.0F;
 /// A change that is settled to less than this is still being worked in when the next one comes.
 constexpr double settled_enough = 0.95;
 /// Samples that the iterate is worth after any change, so that its steps are large again.
@@ -105,7 +108,8 @@ void Solver::move_objects(std::span<const ObjectMove> moves,
         receiver->begin_special();
     }
     note_change();
-    start_phase(true, no_limit);
+    const float share = carried_light_.moved_share(moves, scene_.moved_bounds(), scene_.diameter());
+    start_phase(true, share > 0.0F ? carried_light_weight / (share * share) : no_limit);
 }
 
 /// Lamps, or what they shine through, have changed.
@@ -196,6 +200,7 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     }
     change.glossy = change.glossy || any_glossy(reflecting);
     adapt_unit(scene, mesh, change.scale);
+    carried_light_.update(scene, mesh);
     if (caustics_) {
         caustics_->update(scene, materials, mesh.emission);
         caustics_->scale(change.scale);

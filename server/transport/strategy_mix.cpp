@@ -16,7 +16,7 @@ namespace {
 constexpr double layered_cost = 2.2;
 constexpr unsigned interval = 64;              // bundles between two adaptations
 constexpr double fewest_bundles = 4;           // of a strategy, to know its scatter
-constexpr double least_share = 0.1;            // of either strategy in both
+constexpr double least_share = 0.1;            // of either strategy
 constexpr double towards_optimum = 1.0 / 3.0;  // share of the way from the start, of logarithms
 
 }  // namespace
@@ -24,7 +24,8 @@ constexpr double towards_optimum = 1.0 / 3.0;  // share of the way from the star
 StrategyMix::StrategyMix(const StrategyProbabilities& start, bool adaptive)
     : start_(start),
       now_(start),
-      adaptive_(adaptive && start.layered > 0.0F && start.perspective > 0.0F) {}
+      adaptive_(adaptive && start.layered > 0.0F && start.perspective > 0.0F &&
+                start.plane == 0.0F) {}
 
 void StrategyMix::count(Strategy strategy, int bundles) {
     if (strategy != Strategy::plane) {
@@ -61,9 +62,8 @@ void StrategyMix::adapt(const std::array<double, 2>& scatter_sums) {
     const double wanted = log_odds(start_) + towards_optimum * imbalance;
     const double odds = std::exp(0.5 * (log_odds(now_) + wanted));
     const double share = std::clamp(odds / (1.0 + odds), least_share, 1.0 - least_share);
-    const double both = 1.0 - static_cast<double>(now_.plane);
-    now_.layered = static_cast<float>(share * both);
-    now_.perspective = 1.0F - now_.plane - now_.layered;
+    now_.layered = static_cast<float>(share);
+    now_.perspective = 1.0F - now_.layered;
 }
 
 StrategyProbabilities with_sky(StrategyProbabilities probabilities, const Scene& scene) {

@@ -11,7 +11,7 @@ namespace raybundle {
 /// Probabilities of the strategies (ch. 6.2) that follow what is measured: of layered and
 /// perspective bundles those become more frequent whose contributions scatter more for what they
 /// cost. Every sample is divided by the density of the probabilities that it was drawn with, so
-/// changing them is unbiased. Plane bundles keep their share.
+/// changing them is unbiased.
 ///
 /// With the one density of the balance heuristic no small shift of probability lowers variance
 /// times cost where sigma_i^2 / c_i is the same for all strategies i: sigma_i^2 is the mean squared
@@ -21,7 +21,8 @@ namespace raybundle {
 /// the way, as logarithms, from those of the start, which are good in most rooms.
 class StrategyMix {
   public:
-    /// adaptive: has no effect unless layered and perspective bundles are both in use.
+    /// adaptive: has no effect unless layered and perspective bundles are in use, and they alone:
+    /// the scatter of plane bundles is not measured.
     StrategyMix(const StrategyProbabilities& start, bool adaptive);
 
     [[nodiscard]] const StrategyProbabilities& probabilities() const { return now_; }

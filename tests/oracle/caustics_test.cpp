@@ -120,7 +120,7 @@ TEST(Caustics, AFlatMirrorThrowsTheLightOfItsImage) {
     b.add_quad({-0.1F, 1, -0.1F}, {0, 0, 0.2F}, {0.2F, 0, 0}, 1, 1,
                b.add_material(glm::vec3(0.0F), glm::vec3(radiance)));
     Solver solver(b.scene, b.mesh, settings_for());
-    iterate(solver, 4096);
+    iterate(solver, 6144);
     const SpecularSurface surface =
         specular_surface(b.scene.materials[mirror], b.scene.materials[mirror].base_colour);
     const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "moved_box.h"
@@ -82,8 +83,9 @@ TEST(MovedTogether, AnObjectThatComesBackLeavesTheSceneAsLargeAsItWas) {
 
 #ifdef RAYBUNDLE_LONG_TESTS
 /// numerics.md, "Light carried by the moved object": no worse than a fresh solve at equal time,
-/// up to the noise of the few bundles of the phase. Root mean square over five seeds; a pair of
-/// bundles of the phase counts as two iterations. Ratios of single seeds scatter by 0.2.
+/// up to the noise of the few bundles of the phase. Root mean square over ten seeds, with one (203)
+/// whose phase hardly meets the lamp; a pair of bundles of the phase counts as two iterations.
+/// Ratios of single seeds scatter by 0.2. Measured: 1.13 after 128 iterations, 0.99 after 256.
 TEST(MovedTogether, ACarriedLightIsNoWorseThanAFreshSolve) {
     const auto carrier = [](const glm::vec3& place) {
         SceneBuilder b;
@@ -102,10 +104,10 @@ TEST(MovedTogether, ACarriedLightIsNoWorseThanAFreshSolve) {
     Solver truth_solver(after.scene, after.mesh, quick(30));
     iterate(truth_solver, 2048);
     const auto truth = truth_solver.store().read_irradiance();
-    for (const std::uint64_t count : {128U, 256U}) {
+    for (const auto& [count, bound] : {std::pair{128U, 1.2}, std::pair{256U, 1.1}}) {
         double moved = 0.0;
         double fresh = 0.0;
-        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 201U, 202U, 203U, 204U, 205U}) {
             Solver solver(before.scene, before.mesh, quick(seed));
             iterate(solver, 256);
             solver.move_object(1, at(to).matrix(), {});
@@ -116,7 +118,7 @@ TEST(MovedTogether, ACarriedLightIsNoWorseThanAFreshSolve) {
             moved += std::pow(relative_difference(solver.store().read_irradiance(), truth), 2.0);
             fresh += std::pow(relative_difference(equal.store().read_irradiance(), truth), 2.0);
         }
-        EXPECT_LT(std::sqrt(moved / fresh), 1.15) << count;
+        EXPECT_LT(std::sqrt(moved / fresh), bound) << count;
         RecordProperty("ratio_" + std::to_string(count), std::to_string(std::sqrt(moved / fresh)));
     }
 }
