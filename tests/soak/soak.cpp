@@ -47,6 +47,16 @@ void sleep_s(double seconds) {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
+/// Waits until bundles are no longer coarse: the first iterations are cheaper, and what fine
+/// bundles need in memory comes at once with the first of them.
+void warm_up(std::uint16_t port) {
+    for (int i = 0;
+         i < most_warm_up_s && !(metric(port, "raybundle_iterations_total") >= coarse_iterations);
+         ++i) {
+        sleep_s(1.0);
+    }
+}
+
 /// Ends viewers; says who was lost.
 void stop(Viewers& all, Expectations& expected) {
     for (auto& viewer : all) {
@@ -100,6 +110,7 @@ void many_viewers(double seconds, Expectations& expected) {
     fmt::print("{} viewers of 640x360, {} moving, {:.0f} s\n", viewers, moving, seconds);
     Daemon daemon(scene_file("cornell_box.gltf"),
                   {"--min-frames-per-second", "0.1", "--log-level", "warn"});
+    warm_up(daemon.port());
     Viewers all;
     for (int i = 0; i < viewers; ++i) {
         all.push_back(std::make_unique<SoakViewer>(daemon.port(), i < moving, i));
@@ -128,12 +139,7 @@ class GoodViewers {
         for (int i = 0; i < good_viewers; ++i) {
             viewers_.push_back(std::make_unique<SoakViewer>(port, true, i));
         }
-        // The first iterations are coarse and cheap: what is compared comes after them.
-        for (int i = 0; i < most_warm_up_s &&
-                        !(metric(port, "raybundle_iterations_total") >= coarse_iterations);
-             ++i) {
-            sleep_s(1.0);
-        }
+        warm_up(port);
         begin();
     }
 
