@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/environment.h"
+#include "transport/patch_area.h"
 
 namespace raybundle {
 
@@ -11,22 +12,14 @@ void CarriedLight::update(const Scene& scene, const PatchMesh& mesh) {
     flux_.assign(scene.objects.size(), 0.0);
     total_ = 0.0;
     other_light_ = has_sky(scene) || !scene.punctual_lights.empty();
-    std::vector<glm::mat3> world_from_object;
-    for (const Object& object : scene.objects) {
-        world_from_object.emplace_back(object.world_from_object());
-    }
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
         if (mesh.emission[i] == glm::vec3(0.0F)) {
             continue;
         }
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
-        const std::uint32_t object = mesh.vertex_object[t.x];
-        const glm::mat3& m = world_from_object[object];
-        const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
-        const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);
-        const float flux = glm::length(glm::cross(e1, e2)) * luminance(mesh.emission[i]);
-        flux_[object] += static_cast<double>(flux);
-        total_ += static_cast<double>(flux);
+        const double flux =
+            world_area(scene, mesh, i) * static_cast<double>(luminance(mesh.emission[i]));
+        flux_[mesh.vertex_object[mesh.triangles[mesh.patch_triangle[i]].x]] += flux;
+        total_ += flux;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "gpu/egl_context.h"
+#include "transport/patch_area.h"
 
 namespace raybundle {
 
@@ -29,18 +30,10 @@ constexpr float least_iterate_age = 3.0F;  // after a change, in samples
 
 /// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
 float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
-    std::vector<glm::mat3> world_from_object;
-    for (const Object& object : scene.objects) {
-        world_from_object.emplace_back(object.world_from_object());
-    }
     double sum = 0.0;
     double total = 0.0;
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
-        const glm::mat3& m = world_from_object[mesh.vertex_object[t.x]];
-        const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
-        const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);
-        const auto area = static_cast<double>(glm::length(glm::cross(e1, e2)));
+        const double area = world_area(scene, mesh, i);
         const glm::vec3& albedo = mesh.base_colour[i];
         sum += area * static_cast<double>(std::max({albedo.r, albedo.g, albedo.b}));
         total += area;

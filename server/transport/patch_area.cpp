@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transport/patch_area.h"
+
+namespace raybundle {
+
+double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t patch) {
+    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::mat3 m(scene.objects[mesh.vertex_object[t.x]].world_from_object());
+    const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
+    const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);
+    return 0.5 * static_cast<double>(glm::length(glm::cross(e1, e2)));
+}
+
+}  // namespace raybundle

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Area of a patch where its object stands in the scene, m².
+double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t patch);
+
+}  // namespace raybundle
