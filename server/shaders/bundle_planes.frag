@@ -44,6 +44,9 @@ void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     pixel.y -= ahead ? bundle.resolution.y : 0u;
     vec4 plane = texelFetch(facet_texels, int(4u * (facet + facet_base)));
+    if (folded_over(surface, plane)) {
+        discard;
+    }
     float from_plane = ordering_depth(plane, surface, window_point(pixel)) - bundle.axis_x.w;
     if (ahead != (from_plane >= 0.0)) {
         discard;

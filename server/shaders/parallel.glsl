@@ -12,6 +12,21 @@ vec3 window_point(uvec2 pixel) {
 /// that is counter-clockwise in the window has its front towards +z.
 bool faces_far(uint surface) { return (surface & 1u) == 0u; }
 
+/// Mark of a surface that the rasteriser has turned over (folded_over) and that is turned back. It receives
+/// with the opposite sign.
+const uint turned_over = 1u << 31;
+
+bool is_turned_over(uint surface) { return surface >= turned_over && surface != NO_HIT; }
+
+uint facet_of(uint surface) { return surface >> 1 & 0x3fffffffu; }
+
+/// The rasteriser rounds corners to fractions of a pixel, which turns over triangles that are hardly as wide:
+/// their fragments say that the surface faces the other way. Taken at their word they would carry light
+/// through walls.
+bool folded_over(uint surface, vec4 plane) {
+    return (dot(plane.xyz, bundle.axis_z.xyz) > 0.0) != faces_far(surface);
+}
+
 /// Where a line along the axis meets a facet's plane: distance from `point` along the axis. A plane seen
 /// edge-on has no projected area, so that what its depth is does not matter.
 float plane_depth(vec4 plane, vec3 point) {

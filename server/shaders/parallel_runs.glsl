@@ -66,7 +66,10 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
         return run;
     }
     vec3 axis = bundle.axis_z.xyz;
-    Facet facet = load_facet(facet_base + (surface >> 1));
+    Facet facet = load_facet(facet_base + facet_of(surface));
+    if (folded_over(surface, facet.plane)) {
+        return run;
+    }
     run.depth = plane_depth(facet.plane, point);
     run.depth_step = plane_depth(facet.plane, point + pixel_step) - run.depth;
     run.cosine = abs(dot(facet.plane.xyz, axis));
@@ -120,7 +123,8 @@ void deposit(Run run, float pixel_area) {
     if (run.patch_id == NO_PATCH || run.received == vec3(0.0)) {
         return;
     }
-    vec3 value = run.received * (pixel_area * patch_attributes(patch_base + run.patch_id).y * bundle.weights.x);
+    float sign = is_turned_over(run.surface) ? -1.0 : 1.0;
+    vec3 value = run.received * (sign * pixel_area * patch_attributes(patch_base + run.patch_id).y * bundle.weights.x);
     accumulate(run.patch_id, 0u, value.r);
     accumulate(run.patch_id, 1u, value.g);
     accumulate(run.patch_id, 2u, value.b);

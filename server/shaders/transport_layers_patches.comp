@@ -8,6 +8,11 @@
 // never shows: of faces that repeat one another the one with the lower number is seen from its front,
 // as by every other bundle. Were it now this one and now that one, each would get a part of the light, and
 // send it only where it is the one that is seen.
+//
+// Of a mesh that the rasteriser has folded (folded_over) a line meets one sheet more for each that is turned
+// over: both are taken out, which leaves one sheet within the mesh and none outside of it. One that is met alone
+// takes as much from its patch as others brought too much: in the mean a triangle, however small, gets the light
+// of its area.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 uniform uint first_column;  // the rectangle of the window that is transferred
@@ -71,8 +76,9 @@ bool before(Hit a, Hit b) {
 }
 
 Hit make_hit(uint surface, vec3 point, vec3 pixel_step) {
-    vec4 plane = facet_plane(facet_base + (surface >> 1));
+    vec4 plane = facet_plane(facet_base + facet_of(surface));
     float depth = plane_depth(plane, point);
+    surface = surface < turned_over && folded_over(surface, plane) ? (surface ^ 1u) | turned_over : surface;
     return Hit(depth, plane_depth(plane, point + pixel_step) - depth, surface);
 }
 
@@ -84,11 +90,13 @@ void order(inout Hit a, inout Hit b) {
     }
 }
 
-/// True where two surfaces are one plane, back to back.
-bool coincide(uint surface_a, uint surface_b) {
-    vec4 a = facet_plane(facet_base + (surface_a >> 1));
-    vec4 b = facet_plane(facet_base + (surface_b >> 1));
-    return dot(a.xyz, b.xyz) < -0.999999 && abs(a.w + b.w) <= bundle.sky.w;
+/// True where two surfaces are one plane, back to back. It is measured on the line: the plane of a sliver is
+/// true to it there, but not far away.
+bool coincide(Hit a, Hit b) {
+    vec3 normal_a = facet_plane(facet_base + facet_of(a.surface)).xyz;
+    vec3 normal_b = facet_plane(facet_base + facet_of(b.surface)).xyz;
+    float cosine = max(abs(dot(normal_a, bundle.axis_z.xyz)), abs(dot(normal_b, bundle.axis_z.xyz)));
+    return dot(normal_a, normal_b) < -0.9999 && abs(a.depth - b.depth) * cosine <= bundle.sky.w;
 }
 
 /// Depths of coinciding surfaces may differ by this much, m: rounding, magnified at grazing angles.
@@ -98,7 +106,7 @@ float coincidence_range() { return 16.0 * bundle.weights.z; }
 void order_coincident(inout Hit a, inout Hit b) {
 #ifdef THIN_WALLS
     if (faces_far(a.surface) && !faces_far(b.surface) && b.depth <= a.depth + coincidence_range() &&
-        coincide(a.surface, b.surface)) {
+        coincide(a, b)) {
         uint surface = a.surface;
         a.surface = b.surface;
         b.surface = surface;
@@ -126,10 +134,51 @@ void hold(uint pixel, uint place, vec3 point) {
     held_place[k] = place;
 }
 
-/// Insertion sort of a list that is longer than four, in memory too. Returns its first four. Neighbouring
-/// pixels mostly have the same surfaces, which have come in the same order: taken as the last list was in the
-/// end, few are out of place.
-uvec4 sort_long_list(uint pixel, uint count, vec3 point) {
+/// Number of the nearest surface that looks as number k does, from the same place but for what a fold may
+/// be wide, or k.
+uint other_sheet(uint k, uint count) {
+    uint nearest = k;
+    float distance = bundle.weights.z;
+    for (uint i = 0u; i < count; ++i) {
+        uint surface = held_surface[i];
+        float apart = abs(held_depth[i] - held_depth[k]);
+        if (surface != NO_HIT && surface < turned_over && (surface & 1u) == (held_surface[k] & 1u) && apart < distance) {
+            nearest = i;
+            distance = apart;
+        }
+    }
+    return nearest;
+}
+
+/// Takes every surface that is turned over out of the held ones, together with the sheet that it folds, if
+/// there is one. Returns how many are left. The places stay: they only tell the next list's order.
+uint unfold(uint count) {
+    bool folded = false;
+    for (uint k = 0u; k < count; ++k) {
+        for (bool turned = is_turned_over(held_surface[k]); turned; turned = false) {
+            uint other = other_sheet(k, count);
+            held_surface[other] = other == k ? held_surface[k] : NO_HIT;
+            held_surface[k] = held_surface[other];
+            folded = true;
+        }
+    }
+    if (!folded) {
+        return count;
+    }
+    uint left = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        if (held_surface[k] != NO_HIT) {
+            held_depth[left] = held_depth[k];
+            held_surface[left++] = held_surface[k];
+        }
+    }
+    return left;
+}
+
+/// Insertion sort of a list that is longer than four, or folded, in memory too. Returns its first four.
+/// Neighbouring pixels mostly have the same surfaces, which have come in the same order: taken as the last
+/// list was in the end, few are out of place.
+uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
     uint known = held_count;
     held_count = 0u;
     for (uint k = 0u; k < known; ++k) {
@@ -140,6 +189,11 @@ uvec4 sort_long_list(uint pixel, uint count, vec3 point) {
     }
     for (uint place = known; place < count; ++place) {
         hold(pixel, place, point);
+    }
+    uint left = unfold(count);
+    for (bool fewer = left < count; fewer; fewer = false) {
+        count = left;
+        layer_counts[pixel] = count;
     }
 #ifdef THIN_WALLS
     for (uint i = 0u; i + 1u < count; ++i) {
@@ -158,13 +212,15 @@ uvec4 sort_long_list(uint pixel, uint count, vec3 point) {
     for (uint k = 0u; k < count; ++k) {
         layer_surfaces[layer_slot(k, pixel)] = held_surface[k];
     }
-    return uvec4(held_surface[0], held_surface[1], held_surface[2], held_surface[3]);
+    return uvec4(count > 0u ? held_surface[0] : NO_HIT, count > 1u ? held_surface[1] : NO_HIT,
+                 count > 2u ? held_surface[2] : NO_HIT, count > 3u ? held_surface[3] : NO_HIT);
 }
 
 /// Up to four surfaces of a line. The next pixel of the row often has the same ones in the same order.
 struct ShortList {
     uvec4 unsorted;
     Hit h0, h1, h2, h3;
+    bool folded;
 };
 
 void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
@@ -178,6 +234,8 @@ void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
     for (bool more = list.unsorted.w != NO_HIT; more; more = false) {
         list.h3 = make_hit(list.unsorted.w, point, pixel_step);
     }
+    list.folded = is_turned_over(list.h0.surface) || is_turned_over(list.h1.surface) ||
+                  is_turned_over(list.h2.surface) || is_turned_over(list.h3.surface);
     order(list.h0, list.h1);
     order(list.h2, list.h3);
     order(list.h0, list.h2);
@@ -212,7 +270,7 @@ Pairs sort_lists(ivec2 first, int end) {
     vec3 point = window_point(uvec2(first));
     vec3 pixel_step = bundle.weights.z * bundle.axis_x.xyz;
     Pairs pairs = Pairs(0u, -1);
-    ShortList list = ShortList(uvec4(NO_HIT), no_hit, no_hit, no_hit, no_hit);
+    ShortList list = ShortList(uvec4(NO_HIT), no_hit, no_hit, no_hit, no_hit, false);
     for (ivec2 texel = first; texel.x < end; ++texel.x, point += pixel_step) {
         uint pixel = pixel_index(texel);
         uint count = layer_counts[pixel];
@@ -232,7 +290,8 @@ Pairs sort_lists(ivec2 first, int end) {
             }
             sorted = uvec4(list.h0.surface, list.h1.surface, list.h2.surface, list.h3.surface);
         }
-        for (bool in_memory = count > 4u; in_memory; in_memory = false) {
+        bool folded = list.folded && count > 1u && count <= 4u;
+        for (bool in_memory = count > 4u || folded; in_memory; in_memory = false) {
             sorted = sort_long_list(pixel, count, point);
         }
         sorted_lists[texel.x - first.x] = sorted;

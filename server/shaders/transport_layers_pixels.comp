@@ -30,7 +30,11 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
 #ifdef SKY
         seen.own = seen.own || surface >> 1 == x.surface >> 1;
 #endif
-        float along = plane_depth(facet_plane(facet_base + (surface >> 1)), line) - x_depth;
+        vec4 plane = facet_plane(facet_base + facet_of(surface));
+        if (is_turned_over(surface) || folded_over(surface, plane)) {
+            continue;
+        }
+        float along = plane_depth(plane, line) - x_depth;
         float ahead = far ? along : -along;
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
         bool close = abs(ahead) <= footprint;

@@ -60,12 +60,18 @@ std::vector<std::uint32_t> find_creases(const PatchMesh& mesh) {
     const auto pack = [](std::uint32_t a, std::uint32_t b) {
         return static_cast<std::uint64_t>(a) << 32U | b;
     };
-    std::unordered_map<std::uint64_t, std::uint32_t> triangle_of_edge;
-    triangle_of_edge.reserve(3 * mesh.triangles.size());
+    struct Edge {
+        std::uint32_t triangle = 0;
+        bool shared = false;  // by two triangles, in the same direction
+    };
+    std::unordered_map<std::uint64_t, Edge> edges;
+    edges.reserve(3 * mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             const auto [a, b] = edge_key(i, k);
-            triangle_of_edge.try_emplace(pack(a, b), static_cast<std::uint32_t>(i));
+            const auto [edge, first] =
+                edges.try_emplace(pack(a, b), Edge{static_cast<std::uint32_t>(i)});
+            edge->second.shared |= !first;
         }
     }
     std::vector<std::uint32_t> creases(mesh.triangles.size(), 0);
@@ -73,10 +79,11 @@ std::vector<std::uint32_t> find_creases(const PatchMesh& mesh) {
         const glm::vec3 normal = unit_normal(mesh, i);
         for (int k = 0; k < 3; ++k) {
             const auto [a, b] = edge_key(i, k);
-            const auto neighbour = triangle_of_edge.find(pack(b, a));
+            const auto neighbour = edges.find(pack(b, a));
             const bool smooth =
-                neighbour != triangle_of_edge.end() &&
-                glm::dot(normal, unit_normal(mesh, neighbour->second)) >= smallest_cosine;
+                neighbour != edges.end() && !neighbour->second.shared &&
+                !edges.find(pack(a, b))->second.shared &&
+                glm::dot(normal, unit_normal(mesh, neighbour->second.triangle)) >= smallest_cosine;
             creases[i] |= smooth ? 0U : 1U << static_cast<unsigned>(k);
         }
     }

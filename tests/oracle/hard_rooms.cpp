@@ -236,7 +236,7 @@ KnownScene corner() {
 }
 
 KnownScene hall_with_small_patches() {
-    constexpr float side = 1e-3F;
+    constexpr std::uint32_t cells = 200;
     KnownScene scene;
     SceneBuilder& b = scene.builder;
     b.set_transform(odd_rotation());
@@ -244,14 +244,55 @@ KnownScene hall_with_small_patches() {
     b.add_box({0, 0, 0}, {4, 4, 100}, true, 8, walls);
     const auto black = b.add_material(glm::vec3(0.0F));
     const std::size_t first = b.mesh.patch_count();
+    b.add_quad({1.9F, 0.1F, 50}, {0, 0, 0.2F}, {0.2F, 0, 0}, cells, cells, black);
+    scene.known.push_back(
+        {first, b.mesh.patch_count(), pi * static_cast<double>(furnace_emission)});
+    return scene;
+}
+
+KnownScene room_with_slivers() {
+    KnownScene scene;
+    SceneBuilder& b = scene.builder;
+    b.set_transform(odd_rotation());
+    const auto walls = b.add_material(glm::vec3(0.0F), glm::vec3(furnace_emission));
+    b.add_box({0, 0, 0}, {4, 4, 4}, true, 8, walls);
+    const auto black = b.add_material(glm::vec3(0.0F));
+    const std::size_t first = b.mesh.patch_count();
     std::mt19937 random(1);
-    std::uniform_real_distribution<float> across(0.05F, 3.95F);
-    std::uniform_real_distribution<float> along(0.05F, 99.95F);
-    for (int i = 0; i < 100'000; ++i) {
-        b.add_quad({across(random), 0.1F, along(random)}, {0, 0, side}, {side, 0, 0}, 1, 1, black);
+    std::uniform_real_distribution<float> across(1.1F, 2.9F);
+    for (int i = 0; i < 200; ++i) {
+        const float angle = 2.0F * glm::pi<float>() * 0.618F * static_cast<float>(i);
+        const glm::vec3 along(std::cos(angle), 0, std::sin(angle));
+        const glm::vec3 width = 3e-4F * glm::vec3(along.z, 0, -along.x);
+        const float x = across(random);
+        const glm::vec3 corner(x, 1.5F + 1e-3F * static_cast<float>(i), across(random));
+        b.add_triangle(corner, corner + along, corner + width, black);
     }
     scene.known.push_back(
         {first, b.mesh.patch_count(), pi * static_cast<double>(furnace_emission)});
+    return scene;
+}
+
+StripedWall striped_wall(float thickness, std::uint32_t strips) {
+    StripedWall scene;
+    SceneBuilder& b = scene.builder;
+    b.set_transform(odd_rotation());
+    constexpr float w = 4.0F;
+    b.add_box({0, 0, 0}, glm::vec3(w), true, 5,
+              b.add_material(glm::vec3(0.0F), glm::vec3(furnace_emission)));
+    scene.first_dark = b.mesh.patch_count();
+    const auto black = b.add_material(glm::vec3(0.0F));
+    const float x = w + thickness;
+    b.add_quad({x, 0, 0}, {0, 0, w}, {w, 0, 0}, 5, 5, black);
+    b.add_quad({x, w, 0}, {w, 0, 0}, {0, 0, w}, 5, 5, black);
+    b.add_quad({x, 0, 0}, {w, 0, 0}, {0, w, 0}, 5, 5, black);
+    b.add_quad({x, 0, w}, {0, w, 0}, {w, 0, 0}, 5, 5, black);
+    b.add_quad({x + w, 0, 0}, {0, 0, w}, {0, w, 0}, 5, 5, black);
+    for (std::uint32_t i = 0; i < strips; ++i) {
+        const float z = w * static_cast<float>(i) / static_cast<float>(strips);
+        const float next = w * static_cast<float>(i + 1) / static_cast<float>(strips);
+        b.add_quad({x, 0, z}, {0, w, 0}, {0, 0, next - z}, 1, 1, black);
+    }
     return scene;
 }
 

@@ -42,8 +42,21 @@ KnownScene bright_and_dim_room();
 /// patch along the common edge, by the factor of Lambert's polygon formula.
 KnownScene corner();
 
-/// A hall of 100 x 4 x 4 m that emits everywhere and is black; scattered over its floor, 10 cm
-/// above it, 100 000 black squares of 1 mm. Known: the mean over the squares, pi Le.
+/// A hall of 100 x 4 x 4 m that emits everywhere and is black; 10 cm above its floor a black square
+/// of 20 cm that consists of triangles of 1 mm. Known: the mean over them, pi Le.
 KnownScene hall_with_small_patches();
+
+/// A cube of 4 m that emits everywhere and is black, with 200 loose black slivers in it: 1 m long,
+/// 0.3 mm wide, every which way. Known: the mean over them, pi Le. In a window of 64 pixels the
+/// rasteriser turns many of them over, and counts 6.6 % more area than they have.
+KnownScene room_with_slivers();
+
+/// Two cubes of 4 m, black; one emits everywhere, of the other the wall between them consists of
+/// strips of 4 m times 4 m / strips.
+struct StripedWall {
+    SceneBuilder builder;
+    std::size_t first_dark = 0;  ///< patch of the dark room
+};
+StripedWall striped_wall(float thickness, std::uint32_t strips);
 
 }  // namespace raybundle

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
+
+#include "hard_rooms.h"
+#include "methods.h"
 
 namespace raybundle {
 namespace {
@@ -81,6 +86,20 @@ INSTANTIATE_TEST_SUITE_P(
                     ThinWallCase{all_three, 1e-3F}, ThinWallCase{all_three, 0.1F},
                     ThinWallCase{only_perspective, 0.0F}, ThinWallCase{only_perspective, 1e-6F},
                     ThinWallCase{only_perspective, 1e-3F}, ThinWallCase{only_perspective, 0.1F}));
+
+/// Slivers that the rasteriser turns over face the lit room behind the wall.
+TEST(ThinWallOfSlivers, KeepsTheDarkRoomExactlyDark) {
+    const StripedWall wall = striped_wall(0.0F, 1500);
+    for (const Method& method : {layered(), plane(), perspective()}) {
+        OracleSettings settings;
+        settings.iterations = 256;
+        const auto found = irradiance_by(method, wall.builder, settings);
+        EXPECT_GT(found[0], 0.0) << "no light that could leak";
+        EXPECT_TRUE(std::all_of(found.begin() + static_cast<std::ptrdiff_t>(wall.first_dark),
+                                found.end(), [](double e) { return e == 0.0; }))
+            << method.name;
+    }
+}
 
 TEST(Determinism, AnotherSeedGivesOtherBits) {
     // Guards the comparison itself: it must be able to see a difference.
