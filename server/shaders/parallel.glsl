@@ -22,7 +22,7 @@ uint facet_of(uint surface) { return surface >> 1 & 0x3fffffffu; }
 
 /// The rasteriser rounds corners to fractions of a pixel, which turns over triangles that are hardly as wide:
 /// their fragments say that the surface faces the other way. Taken at their word they would carry light
-/// through walls.
+/// through walls. Where triangles are wide it happens at the most grazing angles only.
 bool folded_over(uint surface, vec4 plane) {
     return (dot(plane.xyz, bundle.axis_z.xyz) > 0.0) != faces_far(surface);
 }

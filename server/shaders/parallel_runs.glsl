@@ -3,7 +3,8 @@
 // of pixels that stay on the same two patches:
 //   irradiance_i += L(y) (pixel area / A_i) / d(omega)   (cos_x dA_x = pixel area).
 // Lines that meet nothing on one side carry the sky's radiance to the other.
-// The including shader declares uvec2 load_pair(ivec2 texel): surface behind, surface ahead, or NO_HIT.
+// The including shader declares uvec2 load_pair(ivec2 texel): surface behind, surface ahead, or NO_HIT. It defines
+// AS_RASTERISED where that may return surfaces that the rasteriser has turned over (folded_over).
 #include "accumulator.glsl"
 #include "density.glsl"
 #include "scene_geometry.glsl"
@@ -67,9 +68,11 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     }
     vec3 axis = bundle.axis_z.xyz;
     Facet facet = load_facet(facet_base + facet_of(surface));
+#ifdef AS_RASTERISED
     if (folded_over(surface, facet.plane)) {
         return run;
     }
+#endif
     run.depth = plane_depth(facet.plane, point);
     run.depth_step = plane_depth(facet.plane, point + pixel_step) - run.depth;
     run.cosine = abs(dot(facet.plane.xyz, axis));

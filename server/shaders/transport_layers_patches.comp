@@ -78,7 +78,11 @@ bool before(Hit a, Hit b) {
 Hit make_hit(uint surface, vec3 point, vec3 pixel_step) {
     vec4 plane = facet_plane(facet_base + facet_of(surface));
     float depth = plane_depth(plane, point);
+#ifdef FOLDS
     surface = surface < turned_over && folded_over(surface, plane) ? (surface ^ 1u) | turned_over : surface;
+#elif defined(THIN_WALLS)
+    surface = folded_over(surface, plane) ? surface ^ 1u : surface;
+#endif
     return Hit(depth, plane_depth(plane, point + pixel_step) - depth, surface);
 }
 
@@ -119,6 +123,7 @@ float held_depth[LONGEST_LIST];
 uint held_surface[LONGEST_LIST];
 uint held_place[LONGEST_LIST];
 uint held_count = 0u;
+bool held_folded = false;  // some are turned over
 
 /// Puts the surface at a place of the unsorted list among those that are held.
 void hold(uint pixel, uint place, vec3 point) {
@@ -132,6 +137,9 @@ void hold(uint pixel, uint place, vec3 point) {
     held_depth[k] = hit.depth;
     held_surface[k] = hit.surface;
     held_place[k] = place;
+#ifdef FOLDS
+    held_folded = held_folded || is_turned_over(hit.surface);
+#endif
 }
 
 /// Number of the nearest surface that looks as number k does, from the same place but for what a fold may
@@ -153,17 +161,12 @@ uint other_sheet(uint k, uint count) {
 /// Takes every surface that is turned over out of the held ones, together with the sheet that it folds, if
 /// there is one. Returns how many are left. The places stay: they only tell the next list's order.
 uint unfold(uint count) {
-    bool folded = false;
     for (uint k = 0u; k < count; ++k) {
         for (bool turned = is_turned_over(held_surface[k]); turned; turned = false) {
             uint other = other_sheet(k, count);
             held_surface[other] = other == k ? held_surface[k] : NO_HIT;
             held_surface[k] = held_surface[other];
-            folded = true;
         }
-    }
-    if (!folded) {
-        return count;
     }
     uint left = 0u;
     for (uint k = 0u; k < count; ++k) {
@@ -181,6 +184,7 @@ uint unfold(uint count) {
 uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
     uint known = held_count;
     held_count = 0u;
+    held_folded = false;
     for (uint k = 0u; k < known; ++k) {
         uint place = held_place[k];
         for (bool there = place < count; there; there = false) {
@@ -190,11 +194,12 @@ uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
     for (uint place = known; place < count; ++place) {
         hold(pixel, place, point);
     }
-    uint left = unfold(count);
-    for (bool fewer = left < count; fewer; fewer = false) {
-        count = left;
+#ifdef FOLDS
+    for (bool folded = held_folded; folded; folded = false) {
+        count = unfold(count);
         layer_counts[pixel] = count;
     }
+#endif
 #ifdef THIN_WALLS
     for (uint i = 0u; i + 1u < count; ++i) {
         Hit a = Hit(held_depth[i], 0.0, held_surface[i]);
@@ -220,7 +225,7 @@ uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
 struct ShortList {
     uvec4 unsorted;
     Hit h0, h1, h2, h3;
-    bool folded;
+    bool folded;  // some are turned over
 };
 
 void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
@@ -234,8 +239,10 @@ void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
     for (bool more = list.unsorted.w != NO_HIT; more; more = false) {
         list.h3 = make_hit(list.unsorted.w, point, pixel_step);
     }
+#ifdef FOLDS
     list.folded = is_turned_over(list.h0.surface) || is_turned_over(list.h1.surface) ||
                   is_turned_over(list.h2.surface) || is_turned_over(list.h3.surface);
+#endif
     order(list.h0, list.h1);
     order(list.h2, list.h3);
     order(list.h0, list.h2);

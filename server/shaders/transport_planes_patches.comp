@@ -5,6 +5,7 @@
 layout(local_size_x = 64) in;
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 uniform uint run_columns;  // runs of run_length pixels a row
+#define AS_RASTERISED
 #include "parallel_runs.glsl"
 
 uvec2 load_pair(ivec2 texel) {

@@ -281,6 +281,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     // A line that meets nothing lacks the constant.
     define_if(has_sky_ || constant_radiance_, "SKY");
     define_if(thin_walls_, "THIN_WALLS");
+    define_if(has_slivers(scene, mesh), "FOLDS");
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");
     define_if(specular_rays_ != nullptr, "MIRRORS");

@@ -70,12 +70,13 @@ class GpuScene {
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
     /// VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour, or are
-    /// unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, SPECULAR (some albedo depends on the angle),
-    /// GLOSSY (some radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES
-    /// (some with profiles), TRANSMISSION (some patches send light that arrives on their other
-    /// side), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view
-    /// rays go on from some surfaces), GLASS (bundles pass some), CAUSTICS (lamps shine on such
-    /// surfaces). What is absent is not even compiled.
+    /// unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, FOLDS (the rasteriser may turn facets over in
+    /// ways that matter), SPECULAR (some albedo depends on the angle), GLOSSY (some radiance
+    /// depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with profiles),
+    /// TRANSMISSION (some patches send light that arrives on their other side), ENVIRONMENT (a sky
+    /// that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays go on from some
+    /// surfaces), GLASS (bundles pass some), CAUSTICS (lamps shine on such surfaces). What is
+    /// absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;

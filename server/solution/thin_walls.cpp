@@ -12,7 +12,8 @@ namespace raybundle {
 
 namespace {
 
-constexpr float thin_share = 2e-4F;  // of the scene's diameter
+constexpr float thin_share = 2e-4F;      // of the scene's diameter
+constexpr float sliver_share = 2.5e-3F;  // of the scene's diameter
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -104,6 +105,19 @@ bool has_thin_walls(const Scene& scene, const PatchMesh& mesh) {
         }
     }
     return false;
+}
+
+bool has_slivers(const Scene& scene, const PatchMesh& mesh) {
+    const std::vector<glm::vec3> positions = world_positions(scene, mesh);
+    const float limit = sliver_share * glm::length(scene.bounds.extent());
+    const std::vector<glm::uvec3>& facets = mesh.facets.empty() ? mesh.triangles : mesh.facets;
+    return std::any_of(facets.begin(), facets.end(), [&](const glm::uvec3& t) {
+        const glm::vec3 a = positions[t.y] - positions[t.x];
+        const glm::vec3 b = positions[t.z] - positions[t.x];
+        const float longest = std::max(
+            {glm::length(a), glm::length(b), glm::length(positions[t.z] - positions[t.y])});
+        return glm::length(glm::cross(a, b)) < limit * longest;
+    });
 }
 
 }  // namespace raybundle
