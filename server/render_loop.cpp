@@ -357,6 +357,12 @@ bool RenderLoop::solve() {
     solver_->step(receivers_);
     const double cost = milliseconds_since(start);
     last_step_ms_ = cost;
+    if (!solver_->last_strategy()) {
+        ++phase_slices_;
+        if (!solver_->correcting()) {
+            phase_budget_.note_phase(milliseconds_since(phase_since_), phase_slices_);
+        }
+    }
     if (frames_pressed_) {
         solving_.charge(cost);
     }

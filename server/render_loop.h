@@ -14,6 +14,7 @@
 #include "change_queue.h"
 #include "loop_metrics.h"
 #include "net/server.h"
+#include "phase_budget.h"
 #include "review_board.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
@@ -82,6 +83,7 @@ class RenderLoop {
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
     void gather_all();
+    void begin_phase();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
@@ -150,6 +152,9 @@ class RenderLoop {
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
+    PhaseBudget phase_budget_;
+    unsigned phase_slices_ = 0;  // done, of the running special phase
+    Clock::time_point phase_since_{};
     LoopMetrics metrics_;
     FrameEncoder encoder_;
     ReviewBoard review_;

@@ -105,6 +105,20 @@ void RenderLoop::gather_all() {
     }
 }
 
+/// Before a change is made: how much time its special phase has.
+void RenderLoop::begin_phase() {
+    double target = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        if (session->target_error() > 0.0) {
+            target =
+                target > 0.0 ? std::min(target, session->target_error()) : session->target_error();
+        }
+    }
+    solver_->set_special(phase_budget_.settings(target, !changes_.empty()));
+    phase_slices_ = 0;
+    phase_since_ = Clock::now();
+}
+
 void RenderLoop::announce(const PendingChange& pending) {
     iterations_at_change_ = solver_->iterations();
     v1::ServerMessage message;
@@ -130,6 +144,7 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
         return;
     }
     gather_all();
+    begin_phase();
     solver_->move_objects(moves, receivers_);
     for (const PendingChange& p : pending) {
         announce(p);
@@ -157,6 +172,7 @@ void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     }
     if (covered) {
         gather_all();
+        begin_phase();
         solver_->change_surfaces(scene_, mesh_, materials, reflecting, receivers_);
     } else {
         refresh_surfaces(scene_, materials, mesh_);

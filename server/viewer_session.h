@@ -97,6 +97,7 @@ class ViewerSession {
     void follow(ViewerId leader) { following_ = leader; }
     [[nodiscard]] v1::Role role() const { return role_; }
     void set_role(v1::Role role) { role_ = role; }
+    [[nodiscard]] double target_error() const { return target_error_; }  ///< 0: none
     [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
 
   private:

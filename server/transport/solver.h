@@ -89,6 +89,8 @@ class Solver {
     void take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
                    std::span<BundleReceiver* const> receivers);
     [[nodiscard]] bool correcting() const { return phase_.has_value(); }
+    /// How further changes are worked in.
+    void set_special(const SpecialSettings& special) { settings_.special = special; }
     /// Bundles of the last special phase's first stage, 0 before any.
     [[nodiscard]] unsigned special_bundles() const { return special_bundles_; }
 

@@ -31,7 +31,6 @@ constexpr float unseen_bounce = 2.0F;
 constexpr float unseen_carried = 1.0F;
 constexpr float much_changed = 0.5F;      // a smaller share mostly cancels: shadows go and come
 constexpr float sample_deviation = 0.4F;  // as in corrected_weight.glsl
-constexpr double relevant_noise = 0.01;   // of increments, relative to the irradiance
 
 /// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
 /// heuristic.
@@ -188,8 +187,8 @@ void SpecialPhase::step_source(std::span<BundleReceiver* const> receivers) {
 void SpecialPhase::end_source(std::span<BundleReceiver* const> receivers) {
     if (bundles_ == settings_.bundles && settings_.most_bundles >= 2 * bundles_) {
         const ChangeNoise noise = change_.noise(bundles_);
-        const double wanted = std::max(static_cast<double>(settings_.noise),
-                                       relevant_noise / std::max(noise.change, 1e-6));
+        const double wanted = std::max<double>(
+            settings_.noise, settings_.relevant_noise / std::max(noise.change, 1e-6));
         unsigned more = bundles_;
         for (double error = noise.relative; error > wanted && 2 * more <= settings_.most_bundles;
              error /= std::sqrt(2.0)) {

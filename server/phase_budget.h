@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "transport/scene_change.h"
+
+namespace raybundle {
+
+/// How many bundles a special phase (ch. 7.4) gets where somebody waits for the first frame after a
+/// change: as many as there is time for until its deadline, by what earlier phases took, of which
+/// the phase itself uses the more the more there is to correct. Has no clock of its own.
+class PhaseBudget {
+  public:
+    /// Of the 150 ms from a change to its frame what is left beside composing and encoding it.
+    static constexpr double deadline_ms = 110.0;
+    /// Fewer cannot tell how wrong they are.
+    static constexpr unsigned least_bundles = 4;
+    /// More have no numbers of their own in the phase's sequences.
+    static constexpr unsigned most_bundles = 64;
+
+    /// A phase has taken so long, waiting included, for so many bundles of both stages.
+    void note_phase(double milliseconds, unsigned bundles);
+
+    /// target: smallest relative error that a viewer asks for, 0 where none does. hurried: the next
+    /// change waits already, as in a drag, so that what this one leaves is soon corrected anyway.
+    [[nodiscard]] SpecialSettings settings(double target, bool hurried) const;
+
+  private:
+    double bundle_ms_ = 0.0;  // 0: not known
+};
+
+}  // namespace raybundle

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "phase_budget.h"
+
+#include <gtest/gtest.h>
+
+namespace raybundle {
+namespace {
+
+PhaseBudget with_bundles_of(double milliseconds) {
+    PhaseBudget budget;
+    budget.note_phase(8.0 * milliseconds, 8);
+    return budget;
+}
+
+TEST(PhaseBudget, IsTheUsualOneAsLongAsNothingIsKnown) {
+    const SpecialSettings settings = PhaseBudget().settings(0.0, false);
+    const SpecialSettings usual = interactive_special();
+    EXPECT_EQ(settings.bundles, usual.bundles);
+    EXPECT_EQ(settings.most_bundles, usual.bundles);
+    EXPECT_EQ(settings.bounces, 0U);
+}
+
+TEST(PhaseBudget, UsesAFastDevice) {
+    const SpecialSettings settings = with_bundles_of(1.0).settings(0.0, false);
+    EXPECT_EQ(settings.bundles, 8U) << "the noise decides how many more";
+    EXPECT_EQ(settings.most_bundles, PhaseBudget::most_bundles);
+    EXPECT_GT(settings.bounces, 0U);
+}
+
+TEST(PhaseBudget, KeepsTheDeadlineOfAMediumOne) {
+    for (const double each : {2.0, 3.0, 4.0, 6.0}) {
+        const SpecialSettings settings = with_bundles_of(each).settings(0.0, false);
+        EXPECT_LE(each * (settings.most_bundles + settings.bounces), PhaseBudget::deadline_ms);
+        EXPECT_GT(settings.most_bundles, 8U) << each;
+    }
+}
+
+TEST(PhaseBudget, HalvesTheBundlesOfALargeScene) {
+    EXPECT_EQ(with_bundles_of(14.0).settings(0.0, false).bundles, 8U);
+    const SpecialSettings settings = with_bundles_of(30.0).settings(0.0, false);
+    EXPECT_EQ(settings.bundles, PhaseBudget::least_bundles);
+    EXPECT_EQ(settings.most_bundles, PhaseBudget::least_bundles);
+    EXPECT_EQ(settings.bounces, 0U);
+}
+
+TEST(PhaseBudget, SparesWhatTheNextChangeCorrects) {
+    const SpecialSettings settings = with_bundles_of(1.0).settings(0.0, true);
+    EXPECT_EQ(settings.bundles, settings.most_bundles);
+    EXPECT_EQ(settings.bounces, 0U);
+}
+
+TEST(PhaseBudget, IsMoreCarefulForATarget) {
+    const PhaseBudget budget = with_bundles_of(1.0);
+    const float usual = budget.settings(0.0, false).relevant_noise;
+    EXPECT_EQ(budget.settings(0.05, false).relevant_noise, usual);
+    EXPECT_LT(budget.settings(0.01, false).relevant_noise, usual);
+    EXPECT_GT(budget.settings(1e-6, false).relevant_noise, 0.0F);
+}
+
+TEST(PhaseBudget, FollowsWhatPhasesTake) {
+    PhaseBudget budget = with_bundles_of(30.0);
+    for (int i = 0; i < 20; ++i) {
+        budget.note_phase(8.0, 8);
+    }
+    EXPECT_GT(budget.settings(0.0, false).most_bundles, 8U);
+    budget.note_phase(1.0, 0);  // tells nothing
+    EXPECT_GT(budget.settings(0.0, false).most_bundles, 8U);
+}
+
+}  // namespace
+}  // namespace raybundle
