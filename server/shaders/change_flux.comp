@@ -3,18 +3,15 @@
 // (luminance, of either sign alike, as far as the increments can be trusted), y = that they reflect of all light.
 #include "layouts.glsl"
 layout(local_size_x = 256) in;
+#include "group_sum.glsl"
+#include "luminance.glsl"
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_INCREMENTS) readonly buffer IncrementBuffer { vec4 increments[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
-shared vec2 sums[256];
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
-
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     vec2 sum = vec2(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;
     for (uint i = gl_GlobalInvocationID.x; i < patch_count; i += stride) {
@@ -25,14 +22,8 @@ void main() {
         sum += vec2(trusted * luminance(reflecting * abs(increment)),
                     luminance(reflecting * max(irradiance[i].rgb + trusted * increment, 0.0)));
     }
-    sums[lane] = sum;
-    for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-        barrier();
-        if (lane < half_width) {
-            sums[lane] += sums[lane + half_width];
-        }
-    }
-    if (lane == 0u) {
-        partial[gl_WorkGroupID.x] = vec4(sums[0], 0.0, 0.0);
+    vec4 total = group_sum(vec4(sum, 0.0, 0.0));
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[gl_WorkGroupID.x] = total;
     }
 }

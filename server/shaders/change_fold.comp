@@ -3,13 +3,12 @@
 // of that mean as the bundles show it.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "luminance.glsl"
 layout(std430, binding = BINDING_INCREMENTS) buffer IncrementBuffer { vec4 increments[]; };
 layout(std430, binding = BINDING_STAGE) buffer StageBuffer { vec4 stage[]; };
 uniform uint patch_count;
 uniform float bundles;  // K
 uniform float unseen;   // share of the mean that may be missing: its square joins the variance
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

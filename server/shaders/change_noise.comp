@@ -3,18 +3,15 @@
 // bundles, y = their variance, z = squared irradiance that they come to (luminance).
 #include "layouts.glsl"
 layout(local_size_x = 256) in;
+#include "group_sum.glsl"
+#include "luminance.glsl"
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_STAGE) readonly buffer StageBuffer { vec4 stage[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
 uniform float bundles;  // K
-shared vec4 sums[256];
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
-
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     vec4 sum = vec4(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;
     for (uint i = gl_GlobalInvocationID.x; i < patch_count; i += stride) {
@@ -24,14 +21,8 @@ void main() {
         float variance = max(stage[i].w / bundles - l * l, 0.0) / max(bundles - 1.0, 1.0);
         sum += patches[i].area * vec4(l * l, variance, now * now, 0.0);
     }
-    sums[lane] = sum;
-    for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-        barrier();
-        if (lane < half_width) {
-            sums[lane] += sums[lane + half_width];
-        }
-    }
-    if (lane == 0u) {
-        partial[gl_WorkGroupID.x] = sums[0];
+    vec4 total = group_sum(sum);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[gl_WorkGroupID.x] = total;
     }
 }

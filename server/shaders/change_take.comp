@@ -2,6 +2,7 @@
 // End of one bundle of a special phase: its sums join those of the stage.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "luminance.glsl"
 #include "accumulator.glsl"
 layout(std430, binding = BINDING_STAGE) buffer StageBuffer { vec4 stage[]; };
 uniform uint patch_count;
@@ -14,7 +15,7 @@ void main() {
     }
     vec3 c = factor * vec3(take_accumulated(i, 0u), take_accumulated(i, 1u), take_accumulated(i, 2u));
     if (c != vec3(0.0)) {
-        float l = dot(abs(c), vec3(0.2126, 0.7152, 0.0722));
+        float l = luminance(abs(c));
         stage[i] += vec4(c, l * l);
     }
 }

@@ -6,7 +6,7 @@
 //   z  variance of the phase's increment over the square of that, 0: nothing has come in
 //   w  two halves: the error that a phase has left, relative to the mean, and the weight that the mean kept
 
-float luminance_of(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+#include "luminance.glsl"
 
 /// Upper halves of two floats: their range with a precision of 0.4 %.
 float pack_pair(vec2 v) {

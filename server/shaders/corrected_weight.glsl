@@ -2,14 +2,13 @@
 // What a special phase adds to a mean, and how much it leaves of the mean's weight. A weight is a precision:
 // the mean of weight w has the variance (s E)^2 / w; see solution_correct.comp.
 
+#include "luminance.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 uniform uint place_before;  // first vertex of the place before
 uniform float far_move;     // m: so far away the light is another one
 
 const float sample_deviation = 0.4;  // s: of a sample of weight 1, relative to the mean
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 /// Share of an increment to add, so that the squared error is small: signal^2 / (signal^2 + noise^2) (Wiener 1949), where
 /// r is the variance of the increment over its square, which holds the noise already. The square of the signal alone,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+#include "luminance.glsl"
 
 /// Polynomial fit of the perceptually even map "turbo" (A. Mikhailov 2019, Google), logarithmic over
 /// three decades below `maximum`.

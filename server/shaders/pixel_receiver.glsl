@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels of a viewer as receivers of a bundle (design: the image estimate M L of ch. 2.6 evaluated per
 // pixel): each looks its surface point up in the bundle, as in a shadow map.
+#include "luminance.glsl"
 #include "octahedral.glsl"
 // A condition that few pixels meet as a loop that runs once: a software rasteriser skips loops that no lane
 // enters, but not conditions. Where most pixels enter, the loop costs more than it saves.
@@ -166,7 +167,7 @@ void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
         uvec2 at = uvec2(index % view.size.x, index / view.size.x);
         if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
             uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
-            pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * dot(seen, vec3(0.2126, 0.7152, 0.0722));
+            pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * luminance(seen);
         }
 #endif
     }

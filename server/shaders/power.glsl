@@ -2,6 +2,7 @@
 // Selection probability of shooting patches (ch. 5.3): proportional to luminance power, with a
 // defensive share for area and for emitting area, so that no light is starved, however dim beside others,
 // and a black scene still samples.
+#include "luminance.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
@@ -21,8 +22,6 @@ const float defensive_share = 0.0;
 #else
 const float defensive_share = 0.1;
 #endif
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 /// Where a patch is larger: at the present place or, in a special phase, before. What shrinks to nothing still
 /// has its old light to take back.

@@ -2,7 +2,8 @@
 // Of every scout_stride-th patch: sums of the squared deviations of single samples from the mean irradiance
 // (luminance, radiance units), x of parallel, y of perspective bundles.
 
+#include "luminance.glsl"
 layout(std430, binding = BINDING_SCATTER) buffer ScatterBuffer { vec2 scatter[]; };
 uniform uint scout_stride;
 
-float deviation_of(vec3 value, vec3 mean) { return dot(value - mean, vec3(0.2126, 0.7152, 0.0722)); }
+float deviation_of(vec3 value, vec3 mean) { return luminance(value - mean); }

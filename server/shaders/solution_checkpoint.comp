@@ -14,7 +14,7 @@ void main() {
     if (i >= patch_count) {
         return;
     }
-    float now = luminance_of(irradiance[i].rgb);
+    float now = luminance(irradiance[i].rgb);
     float weight = irradiance[i].w;
     vec4 c = checkpoint[i];
     if (!unsettled || weight <= 0.0) {

@@ -5,6 +5,7 @@
 // samples are.
 #include "layouts.glsl"
 layout(local_size_x = 256) in;
+#include "group_sum.glsl"
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec4 checkpoint[]; };
@@ -15,16 +16,13 @@ uniform float relevance;         // changes below this share of the value count 
 
 #include "checkpoint.glsl"
 
-shared vec4 sums[256];
-
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     vec4 sum = vec4(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;
     for (uint i = gl_GlobalInvocationID.x; i < patch_count; i += stride) {
-        float now = luminance_of(irradiance[i].rgb);
+        float now = luminance(irradiance[i].rgb);
         float weight = irradiance[i].w;
-        float astray = luminance_of(source[i].rgb) - now;
+        float astray = luminance(source[i].rgb) - now;
         sum.z += patches[i].area * now * now;
         sum.w += patches[i].area * astray * astray;
         vec4 c = checkpoint[i];
@@ -34,14 +32,8 @@ void main() {
             sum.y += patches[i].area * correction_left(c, now, weight);
         }
     }
-    sums[lane] = sum;
-    for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-        barrier();
-        if (lane < half_width) {
-            sums[lane] += sums[lane + half_width];
-        }
-    }
-    if (lane == 0u) {
-        partial[gl_WorkGroupID.x] = sums[0];
+    vec4 total = group_sum(sum);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[gl_WorkGroupID.x] = total;
     }
 }

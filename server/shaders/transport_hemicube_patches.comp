@@ -7,6 +7,7 @@
 // The radiance of a glossy shooter (SHOOTER_GLOSSY) differs from pixel to pixel.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "luminance.glsl"
 #include "accumulator.glsl"
 #include "density.glsl"
 #include "scene_geometry.glsl"
@@ -125,8 +126,6 @@ void deposit(Run run, Sum sum) {
     accumulate(run.patch_id, 0u, sum);
 #endif
 }
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
     if (gl_GlobalInvocationID.x == 0u) {

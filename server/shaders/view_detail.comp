@@ -6,13 +6,12 @@
 //  z: squared radiance
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "group_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(std430, binding = BINDING_FRAME) readonly buffer FrameBuffer { vec4 frame[]; };           // at the centres, row 0 at the top
 layout(std430, binding = BINDING_SMOOTHED) readonly buffer SmoothedBuffer { vec4 smoothed[]; };  // or the same
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
-shared vec4 sums[64];
-
 const uint nothing = 0u;
 const uint surface = 1u;
 const uint emitter = 2u;
@@ -58,20 +57,13 @@ vec4 detail(uint index) {
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     uint pixels = view.size.x * view.size.y;
     vec4 sum = vec4(0.0);
     for (uint index = gl_GlobalInvocationID.x; index < pixels; index += gl_NumWorkGroups.x * 64u) {
         sum += detail(index);
     }
-    sums[lane] = sum;
-    for (uint half_width = 32u; half_width > 0u; half_width /= 2u) {
-        barrier();
-        if (lane < half_width) {
-            sums[lane] += sums[lane + half_width];
-        }
-    }
-    if (lane == 0u) {
-        partial[gl_NumWorkGroups.x + gl_WorkGroupID.x] = sums[0];
+    vec4 total = group_sum(sum);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
     }
 }

@@ -4,6 +4,7 @@
 //  y: squared luminance, z: logarithm of luminance, w: pixels counted
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "group_sum.glsl"
 #include "view_radiance.glsl"
 layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
@@ -12,8 +13,6 @@ uniform float logarithm_floor;   // radiance units
 uniform float unsampled_error;   // relative error to assume where no batches exist yet
 uniform float variance_of_mean;  // of all batches over the mean square deviation of single ones: view/error_interval.h
 uniform float fresh_share;       // batches with less than this share of the weight say nothing
-shared vec4 sums[64];
-
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
     if (at.x >= view.size.x || at.y >= view.size.y) {
@@ -60,20 +59,13 @@ vec4 probe_statistics(uint probe) {
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x;
     uint probes = view.size.z * view.size.w;
     vec4 sum = vec4(0.0);
     for (uint probe = gl_GlobalInvocationID.x; probe < probes; probe += gl_NumWorkGroups.x * 64u) {
         sum += probe_statistics(probe);
     }
-    sums[lane] = sum;
-    for (uint half_width = 32u; half_width > 0u; half_width /= 2u) {
-        barrier();
-        if (lane < half_width) {
-            sums[lane] += sums[lane + half_width];
-        }
-    }
-    if (lane == 0u) {
-        partial[gl_WorkGroupID.x] = sums[0];
+    vec4 total = group_sum(sum);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[gl_WorkGroupID.x] = total;
     }
 }
