@@ -42,7 +42,7 @@ float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
 }
 
 StrategyMix choose_mix(const SolverSettings& settings, const Scene& scene) {
-    return {settings.adapt_probabilities ? with_sky(settings.probabilities, scene)
+    return {settings.adapt_probabilities ? suited_to(scene, settings.probabilities)
                                          : settings.probabilities,
             settings.adapt_probabilities};
 }

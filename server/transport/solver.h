@@ -43,7 +43,8 @@ struct SolverSettings {
     bool caustics = true;
     /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
     bool random_faces = false;
-    /// Probabilities follow the sky and what is measured, see with_sky() and StrategyMix.
+    /// Probabilities follow the kinds of light and what is measured, see suited_to() and
+    /// StrategyMix.
     bool adapt_probabilities = true;
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
     SpecialSettings special;            ///< how changes are worked in

@@ -66,14 +66,28 @@ void StrategyMix::adapt(const std::array<double, 2>& scatter_sums) {
     now_.perspective = 1.0F - now_.layered;
 }
 
-StrategyProbabilities with_sky(StrategyProbabilities probabilities, const Scene& scene) {
-    if (!has_sky(scene) || probabilities.layered == 0.0F || probabilities.perspective == 0.0F) {
+namespace {
+float least_layered(const Scene& scene) {
+    if (has_sky(scene)) {
+        return has_emitter(scene) ? 0.4F : 0.75F;
+    }
+    const bool patches_emit =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return m.emission != glm::vec3(0.0F); });
+    return !scene.punctual_lights.empty() && !patches_emit ? 0.5F : 0.0F;
+}
+}  // namespace
+
+StrategyProbabilities suited_to(const Scene& scene, StrategyProbabilities probabilities) {
+    const float least = least_layered(scene);
+    if (least == 0.0F || probabilities.layered == 0.0F || probabilities.perspective == 0.0F) {
         return probabilities;
     }
-    const float least = has_emitter(scene) ? 0.4F : 0.75F;
     probabilities.layered = std::max(probabilities.layered, least);
-    probabilities.plane = 0.0F;  // their pixels cannot tell whether a line passes beside a room
-    probabilities.perspective = 1.0F - probabilities.layered;
+    if (has_sky(scene)) {
+        probabilities.plane = 0.0F;  // their pixels cannot tell whether a line passes beside a room
+    }
+    probabilities.perspective = 1.0F - probabilities.layered - probabilities.plane;
     return probabilities;
 }
 

@@ -46,8 +46,11 @@ class StrategyMix {
     unsigned since_ = 0;               // bundles, since adapt()
 };
 
-/// Only parallel bundles see the sky: more of them where a sky lights the scene, and more yet where
-/// it does so alone. Probabilities without one of layered and perspective stay as they are.
-StrategyProbabilities with_sky(StrategyProbabilities probabilities, const Scene& scene);
+/// Where to start from. Only parallel bundles see the sky: more of them where a sky lights the
+/// scene, and more yet where it does so alone. Of punctual lights bundles carry what surfaces
+/// reflect, which is spread more evenly than what lamps send: half of the bundles are parallel ones
+/// where there is nothing else. Probabilities without one of layered and perspective stay as they
+/// are.
+StrategyProbabilities suited_to(const Scene& scene, StrategyProbabilities probabilities);
 
 }  // namespace raybundle

@@ -84,10 +84,24 @@ TEST(StrategyMix, StaysWhereNothingIsKnown) {
 TEST(StrategyMix, ASkyAsksForParallelBundles) {
     SceneBuilder b;
     b.scene.sky_radiance = glm::vec3(100.0F);
-    const StrategyProbabilities p = with_sky({0.3F, 0.0F, 0.7F}, b.scene);
+    const StrategyProbabilities p = suited_to(b.scene, {0.3F, 0.0F, 0.7F});
     expect_distribution(p);
     EXPECT_FLOAT_EQ(p.layered, 0.75F);
-    EXPECT_FLOAT_EQ(with_sky({0.0F, 0.0F, 1.0F}, b.scene).perspective, 1.0F);
+    EXPECT_FLOAT_EQ(suited_to(b.scene, {0.0F, 0.0F, 1.0F}).perspective, 1.0F);
+}
+
+TEST(StrategyMix, PunctualLightsAloneAskForHalfOfThem) {
+    SceneBuilder b;
+    b.scene.punctual_lights.emplace_back();
+    for (const StrategyProbabilities& given :
+         {StrategyProbabilities{0.3F, 0.0F, 0.7F}, StrategyProbabilities{0.15F, 0.15F, 0.7F}}) {
+        const StrategyProbabilities p = suited_to(b.scene, given);
+        expect_distribution(p);
+        EXPECT_FLOAT_EQ(p.layered, 0.5F);
+        EXPECT_FLOAT_EQ(p.plane, given.plane);
+    }
+    b.add_material(glm::vec3(0.0F), glm::vec3(1.0F));
+    EXPECT_FLOAT_EQ(suited_to(b.scene, {0.3F, 0.0F, 0.7F}).layered, 0.3F);
 }
 
 Solver furnace(const SceneBuilder& b, std::uint64_t iterations) {
