@@ -188,6 +188,18 @@ TEST(ServeSettings, BeyondThisMachineNeedsTokensOrPermission) {
     EXPECT_FALSE(server_settings(options).access.tokens.empty());
 }
 
+TEST(ServeSettings, OnThisMachineWithoutTokensNamesOfOthersAreNotTrusted) {
+    Options options;
+    options.listen = "127.0.0.1:1";
+    EXPECT_TRUE(server_settings(options).access.origins.no_foreign_names);
+    options.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
+    EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
+    options.tokens.clear();
+    options.listen = "0.0.0.0:1";
+    options.allow_remote = true;
+    EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
+}
+
 TEST(ServeSettings, CertificateAndKeyBelongTogether) {
     Options options;
     options.tls_cert = "certificate.pem";
