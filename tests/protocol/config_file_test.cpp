@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -160,6 +162,18 @@ TEST(ConfigFile, IsReadAgainUnderTheSameCommandLine) {
     EXPECT_EQ(after.max_connections, 9);
     EXPECT_EQ(after.seed, 7U);
     EXPECT_EQ(after.scene, "a.gltf");
+}
+
+/// It would be waited for, and no signal heard meanwhile.
+TEST(ConfigFile, APipeIsNotReadAgain) {
+    const auto file = std::filesystem::temp_directory_path() / "raybundle_pipe_test.json";
+    std::filesystem::remove(file);
+    std::ofstream(file) << R"({"maxViewers":3})";
+    const Options before = parsed({"serve", "a.gltf", "--config", file.string()});
+    std::filesystem::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    EXPECT_THROW(reread_config(before), UsageError);
+    std::filesystem::remove(file);
 }
 
 TEST(ConfigFile, TheCommandLineIsCheckedByTheSameTable) {
