@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -306,6 +307,10 @@ Options reread_config(const Options& options) {
         fresh.scene = options.scene;
     }
     if (!fresh.config.empty()) {
+        std::error_code missing;
+        if (std::filesystem::is_fifo(fresh.config, missing)) {
+            throw UsageError(fresh.config + ": is a pipe, which cannot be read again");
+        }
         apply_config_file(fresh.config, fresh);
     }
     return fresh;

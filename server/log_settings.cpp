@@ -27,21 +27,30 @@ class JsonMessage : public spdlog::custom_flag_formatter {
     }
 };
 
+/// Whether a byte is a control character, or the second one of U+0080 to U+009F in UTF-8: some
+/// terminals take U+009B for the beginning of a command.
+bool speaks(unsigned before, unsigned code) {
+    constexpr unsigned first_printable = 0x20;
+    constexpr unsigned delete_character = 0x7F;
+    return code < first_printable || code == delete_character ||
+           (before == 0xC2 && code >= 0x80 && code <= 0x9F);
+}
+
 /// The message on one line: a viewer's name or an address cannot forge another line, nor speak to
 /// the terminal.
 class PlainMessage : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& line, const std::tm& /*time*/,
                 spdlog::memory_buf_t& out) override {
-        constexpr unsigned char first_printable = 0x20;
-        constexpr unsigned char delete_character = 0x7F;
+        unsigned before = 0;
         for (const char letter : line.payload) {
             const auto code = static_cast<unsigned char>(letter);
-            if (code < first_printable || code == delete_character) {
+            if (speaks(before, code)) {
                 fmt::format_to(std::back_inserter(out), "\\x{:02x}", code);
             } else {
                 out.push_back(letter);
             }
+            before = code;
         }
     }
     [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {

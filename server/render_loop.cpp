@@ -83,10 +83,9 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
             rehearse(size);
         }
     }
+    bool idle = true;
     while (!stop) {
-        for (const ClientEvent& event : server_.inbox().drain()) {
-            handle(event);
-        }
+        hear_viewers(idle);
         start_pending_change();
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;
@@ -97,7 +96,8 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         send_presence(Clock::now());
         const bool smoothed = smooth_pictures();
         const bool solved = solve();
-        if (!sent && !smoothed && !solved) {
+        idle = !sent && !smoothed && !solved;
+        if (idle) {
             server_.inbox().wait_for(idle_wait);
         }
     }
@@ -149,6 +149,7 @@ void RenderLoop::handle(const ClientEvent& event) {
     if (event.kind == ClientEvent::Kind::left) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
+        requests_.forget(event.viewer);
         snapshots_.forget(event.viewer);
         drop_image(*found->second);
         first_look_of_ = first_look_of_ == event.viewer ? 0 : first_look_of_;
@@ -158,7 +159,9 @@ void RenderLoop::handle(const ClientEvent& event) {
     }
     const auto start = Clock::now();
     handle_message(*found->second, event);
-    scheduler_.charge_besides(event.viewer, milliseconds_since(start));
+    const double cost_ms = milliseconds_since(start);
+    scheduler_.charge_besides(event.viewer, cost_ms);
+    requests_.charge(event.viewer, cost_ms, sessions_.size());
 }
 
 void RenderLoop::join(const ClientEvent& event) {

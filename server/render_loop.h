@@ -23,6 +23,7 @@
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
 #include "stream/receiver_rota.h"
+#include "stream/request_share.h"
 #include "stream/time_budget.h"
 #include "target_book.h"
 #include "transport/solver.h"
@@ -71,6 +72,7 @@ class RenderLoop {
     static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
     void rehearse(const glm::uvec2& size);
+    void hear_viewers(bool idle);
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
     void join(const ClientEvent& event);
@@ -148,6 +150,7 @@ class RenderLoop {
     double receiver_pixels_ = 0.0;
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
+    RequestShare requests_;
     ReceiverRota rota_;
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     bool frames_pressed_ = false;  // those that move take most of the time

@@ -49,6 +49,20 @@ std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instea
                 : ", nothing would fit now");
 }
 
+/// What has come in by now, but of nobody more than its share where the time is wanted for frames
+/// and iterations (`idle`: it is not).
+void RenderLoop::hear_viewers(bool idle) {
+    Inbox& inbox = server_.inbox();
+    for (std::size_t left = inbox.size(); left > 0; --left) {
+        const auto event =
+            inbox.take(idle ? std::set<ViewerId>() : requests_.exhausted(Server::now_ms()));
+        if (!event) {
+            return;
+        }
+        handle(*event);
+    }
+}
+
 /// Who takes part in the next group of iterations: of those who look, or of all where nobody does,
 /// as many as an iteration has time for. They must stay the same within a group and within a
 /// special phase.

@@ -72,6 +72,11 @@ bool NewSceneFile::keep_as(const std::string& name) {
     const bool replaced = fs::exists(fs::symlink_status(target));
     fs::rename(path_, target);
     path_.clear();
+    const int folder = open(target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        fsync(folder);  // its name survives a power cut, too; where that fails the file is there
+        close(folder);
+    }
     return replaced;
 }
 

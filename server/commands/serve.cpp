@@ -207,10 +207,13 @@ class SceneServer {
 
     void open(OpenedScene& scene) {
         control_.opener->announce(scene.progress, v1::SceneOpening::COMPILING);
-        const std::string problem =
-            replace(std::move(scene.loaded), [&] { control_.opener->accept(scene); });
+        // On disk before anybody is told.
+        const auto shown = [&](ChangeLog& log) {
+            log.remember_scene(options_.scene, scene.progress.name());
+            control_.opener->accept(scene);
+        };
+        const std::string problem = replace(std::move(scene.loaded), shown);
         if (problem.empty()) {
-            served_->log.remember_scene(options_.scene, scene.progress.name());
             shown_file_ = scene.file;
             watch(scene.file);
         } else {
@@ -245,9 +248,10 @@ class SceneServer {
     }
 
     /// Builds the next scene beside the present one, which stays where that fails. The reason in
-    /// that case, else empty; `shown` is called before viewers are told to come back.
+    /// that case, else empty; `shown` is called, with the new scene's log, before viewers are told
+    /// to come back.
     std::string replace(
-        LoadedScene next, const std::function<void()>& shown = [] {}) {
+        LoadedScene next, const std::function<void(ChangeLog&)>& shown = [](ChangeLog&) {}) {
         served_->log.suspend();
         std::unique_ptr<ServedScene> fresh;
         try {
@@ -259,7 +263,7 @@ class SceneServer {
             return "the server has no room for it";
         }
         server_.set_ready(false);
-        shown();
+        shown(fresh->log);
         served_->loop.refuse_waiting();
         server_.close_all(CloseCode::service_restart, "the scene has been replaced");
         served_ = std::move(fresh);

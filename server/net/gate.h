@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include "net/access_tokens.h"
+#include "net/upgrade_check.h"
 #include "net/viewer_link.h"
 #include "net/wire_codec.h"
 
@@ -19,8 +19,7 @@ namespace raybundle {
 /// Who may come in; replaced as a whole when the settings are read again.
 struct Access {
     AccessTokens tokens;
-    /// Origins of pages besides the server's own, e.g. "https://a.example".
-    std::vector<std::string> allowed_origins;
+    OriginRules origins;
 };
 
 /// What a viewer got for its token.

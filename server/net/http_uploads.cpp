@@ -9,7 +9,7 @@ namespace raybundle {
 
 std::optional<HttpResponse> HttpUploads::begin(lws* connection, const UploadRequest& request) {
     const UploadLimits limits{state_.settings.max_upload_bytes, running_.size()};
-    auto refusal = refuse_upload(request, limits, state_.gate.access()->allowed_origins);
+    auto refusal = refuse_upload(request, limits, state_.gate.access()->origins);
     if (refusal) {
         return refusal;
     }

@@ -112,6 +112,25 @@ std::vector<ClientEvent> Inbox::drain() {
     return events;
 }
 
+std::optional<ClientEvent> Inbox::take(const std::set<ViewerId>& to_wait) {
+    const std::lock_guard lock(mutex_);
+    const auto found =
+        std::find_if(events_.begin(), events_.end(), [&to_wait](const ClientEvent& event) {
+            return event.kind != ClientEvent::Kind::message || !to_wait.contains(event.viewer);
+        });
+    if (found == events_.end()) {
+        return std::nullopt;
+    }
+    ClientEvent event = std::move(*found);
+    events_.erase(found);
+    return event;
+}
+
+std::size_t Inbox::size() const {
+    const std::lock_guard lock(mutex_);
+    return events_.size();
+}
+
 bool Inbox::wait_for(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, timeout, [this] { return interrupted_ || !events_.empty(); });

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <deque>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "net/client_event.h"
@@ -36,6 +38,12 @@ class Inbox {
     /// Takes everything that waits, in order of arrival.
     std::vector<ClientEvent> drain();
 
+    /// Takes what has waited longest, but no message of those who are to wait.
+    std::optional<ClientEvent> take(const std::set<ViewerId>& to_wait);
+
+    /// Events that wait.
+    [[nodiscard]] std::size_t size() const;
+
     /// Waits until something waits, interrupt() is called or the time is up. True: something waits.
     bool wait_for(std::chrono::milliseconds timeout);
 
@@ -48,7 +56,7 @@ class Inbox {
     Events::iterator find_mergeable(ViewerId viewer, const v1::ClientMessage& message);
 
     std::size_t max_waiting_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     Events events_;
     bool interrupted_ = false;

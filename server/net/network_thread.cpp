@@ -273,7 +273,7 @@ bool NetworkThread::confirm_upgrade(lws* connection) {
     const UpgradeRequest request{header(connection, WSI_TOKEN_GET_URI),
                                  header(connection, WSI_TOKEN_ORIGIN),
                                  header(connection, WSI_TOKEN_HOST)};
-    const int status = refusal_status(request, state_.gate.access()->allowed_origins);
+    const int status = refusal_status(request, state_.gate.access()->origins);
     if (status == 0) {
         return true;
     }

@@ -6,6 +6,7 @@
 #include <openssl/ssl.h>
 
 #include <array>
+#include <filesystem>
 #include <stdexcept>
 
 namespace raybundle {
@@ -29,6 +30,10 @@ struct ChainDeleter {
 };
 
 BioPtr open(const std::string& file) {
+    std::error_code missing;
+    if (std::filesystem::is_fifo(file, missing)) {  // nobody might ever write to it
+        throw std::runtime_error(file + ": is a pipe, not a file");
+    }
     BioPtr bio(BIO_new_file(file.c_str(), "r"));
     ERR_clear_error();
     if (!bio) {

@@ -26,24 +26,36 @@ std::string_view authority(std::string_view origin) {
     return {};
 }
 
-}  // namespace
-
-bool origin_allowed(std::string_view origin, std::string_view host,
-                    std::span<const std::string> allowed_origins) {
-    const std::string_view page = authority(origin);
-    if (origin.empty() || (!page.empty() && equal_ignoring_case(page, host))) {
+/// Whether "host" or "host:port" is an IPv4 or IPv6 address or localhost, so that no name server
+/// has a say in what it means. No name of the DNS ends in a label of digits only (RFC 3696, 2).
+bool is_fixed(std::string_view host) {
+    if (host.starts_with('[')) {
         return true;
     }
-    return std::any_of(
-        allowed_origins.begin(), allowed_origins.end(),
-        [&](const std::string& allowed) { return equal_ignoring_case(allowed, origin); });
+    host = host.substr(0, host.find(':'));
+    constexpr std::string_view kLocal = "localhost";
+    return equal_ignoring_case(host, kLocal) ||
+           (!host.empty() && host.find_first_not_of("0123456789.") == std::string_view::npos);
 }
 
-int refusal_status(const UpgradeRequest& request, std::span<const std::string> allowed_origins) {
+}  // namespace
+
+bool origin_allowed(std::string_view origin, std::string_view host, const OriginRules& rules) {
+    const std::string_view page = authority(origin);
+    const bool own = !page.empty() && equal_ignoring_case(page, host);
+    if (origin.empty() || (own && (!rules.no_foreign_names || is_fixed(host)))) {
+        return true;
+    }
+    return std::any_of(rules.allowed.begin(), rules.allowed.end(), [&](const std::string& allowed) {
+        return equal_ignoring_case(allowed, origin);
+    });
+}
+
+int refusal_status(const UpgradeRequest& request, const OriginRules& rules) {
     if (request.path != "/ws") {
         return kNotFound;
     }
-    return origin_allowed(request.origin, request.host, allowed_origins) ? 0 : kForbidden;
+    return origin_allowed(request.origin, request.host, rules) ? 0 : kForbidden;
 }
 
 }  // namespace raybundle

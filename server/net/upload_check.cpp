@@ -4,12 +4,11 @@
 #include <charconv>
 
 #include "net/scene_name.h"
-#include "net/upgrade_check.h"
 
 namespace raybundle {
 
 std::optional<HttpResponse> refuse_upload(const UploadRequest& request, const UploadLimits& limits,
-                                          std::span<const std::string> allowed_origins) {
+                                          const OriginRules& origins) {
     const auto refuse = [](int status, const std::string& text) {
         return text_response({status, text});
     };
@@ -17,7 +16,7 @@ std::optional<HttpResponse> refuse_upload(const UploadRequest& request, const Up
     if (name.empty() || limits.max_bytes == 0) {
         return refuse(405, "Only GET and HEAD");
     }
-    if (!origin_allowed(request.origin, request.host, allowed_origins)) {
+    if (!origin_allowed(request.origin, request.host, origins)) {
         return refuse(403, "A page of another origin may not upload");
     }
     if (!request.role) {

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "net/http_response.h"
+#include "net/upgrade_check.h"
 #include "net/upload.h"
 #include "raybundle.pb.h"
 
@@ -29,7 +29,7 @@ struct UploadLimits {
 
 /// The refusal, or nothing where the upload may begin.
 std::optional<HttpResponse> refuse_upload(const UploadRequest& request, const UploadLimits& limits,
-                                          std::span<const std::string> allowed_origins);
+                                          const OriginRules& origins);
 
 /// Length in bytes of a Content-Length header; nothing unless it is a plain decimal number.
 std::optional<std::uint64_t> parse_length(std::string_view header);

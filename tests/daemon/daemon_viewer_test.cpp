@@ -128,6 +128,31 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
     }
 }
 
+TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
+    constexpr int kRequests = 60;  // fewer than may wait
+    JsonViewer moving(daemon_->port());
+    ASSERT_TRUE(moving.join().contains("welcome"));
+    JsonViewer greedy(daemon_->port());
+    ASSERT_TRUE(greedy.join().contains("welcome"));
+    for (int id = 2; id < 2 + kRequests; ++id) {
+        const Json resize = {{"id", id}, {"setViewport", {{"width", 640 + id}, {"height", 360}}}};
+        const Json probe = {{"id", id}, {"probe", {{"pixel", {{"x", 9}, {"y", 9}}}}}};
+        greedy.send(id % 2 == 0 ? resize : probe);
+    }
+    for (int turn = 1; turn <= 5; ++turn) {
+        moving.send({{"id", turn},
+                     {"setCamera",
+                      {{"eye", {{"x", 2.7 + 0.1 * turn}, {"y", 2.7}, {"z", -7.5}}},
+                       {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+        EXPECT_FALSE(
+            moving.next_frame([&](const Json& f) { return f["cameraId"] == turn; }).empty());
+    }
+    for (unsigned id = 2; id < 2 + kRequests; ++id) {
+        const Json answer = greedy.answer_to(id);
+        EXPECT_TRUE(answer.contains(id % 2 == 0 ? "ok" : "probeResult")) << id << answer.dump();
+    }
+}
+
 TEST(SilentViewersTest, WhoNeverAcknowledgesGetsOneFrameAndHoldsNoPicture) {
     constexpr double kPictures = 6.0;
     constexpr double kLeastBytes = 1280.0 * 720.0 * 60.0;  // of one picture

@@ -266,9 +266,16 @@ TEST(ScenesOverARestart, TheOneThatWasOpenedIsShownAgainAsItWas) {
         EXPECT_EQ(welcome.at("epoch"), 2);
         EXPECT_NE(welcome.dump().find("second box"), std::string::npos);
         EXPECT_TRUE(viewer.request({{"openScene", {{"name", "first.gltf"}}}}).contains("ok"));
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL) << "as soon as it has said so";
+    }
+    {
+        Daemon daemon(folder.path("first.gltf"), options);
+        JsonViewer viewer(daemon.port());
+        EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 1) << "the first session goes on";
+        EXPECT_TRUE(viewer.request({{"openScene", {{"name", "second.gltf"}}}}).contains("ok"));
         EXPECT_EQ(viewer.close_code(), 1012);
         JsonViewer again(daemon.port());
-        EXPECT_EQ(again.join().at("welcome").at("epoch"), 1) << "the first session goes on";
+        EXPECT_EQ(again.join().at("welcome").at("epoch"), 2) << "and the second";
         EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
     }
     std::filesystem::remove(folder.path("first.gltf"));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -162,6 +164,18 @@ TEST(ConfigFile, IsReadAgainUnderTheSameCommandLine) {
     EXPECT_EQ(after.scene, "a.gltf");
 }
 
+/// It would be waited for, and no signal heard meanwhile.
+TEST(ConfigFile, APipeIsNotReadAgain) {
+    const auto file = std::filesystem::temp_directory_path() / "raybundle_pipe_test.json";
+    std::filesystem::remove(file);
+    std::ofstream(file) << R"({"maxViewers":3})";
+    const Options before = parsed({"serve", "a.gltf", "--config", file.string()});
+    std::filesystem::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    EXPECT_THROW(reread_config(before), UsageError);
+    std::filesystem::remove(file);
+}
+
 TEST(ConfigFile, TheCommandLineIsCheckedByTheSameTable) {
     EXPECT_THROW(parsed({"serve", "a.gltf", "--max-viewers", "0"}), UsageError);
     EXPECT_THROW(parsed({"serve", "a.gltf", "--log-format", "xml"}), UsageError);
@@ -186,6 +200,18 @@ TEST(ServeSettings, BeyondThisMachineNeedsTokensOrPermission) {
     options.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
     EXPECT_NO_THROW(server_settings(options));
     EXPECT_FALSE(server_settings(options).access.tokens.empty());
+}
+
+TEST(ServeSettings, OnThisMachineWithoutTokensNamesOfOthersAreNotTrusted) {
+    Options options;
+    options.listen = "127.0.0.1:1";
+    EXPECT_TRUE(server_settings(options).access.origins.no_foreign_names);
+    options.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
+    EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
+    options.tokens.clear();
+    options.listen = "0.0.0.0:1";
+    options.allow_remote = true;
+    EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
 }
 
 TEST(ServeSettings, CertificateAndKeyBelongTogether) {

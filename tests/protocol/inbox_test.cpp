@@ -85,6 +85,25 @@ TEST(Inbox, RefusesAFlood) {
     EXPECT_TRUE(inbox.push(1, probe()));
 }
 
+TEST(Inbox, ThoseWhoAreToWaitKeepTheirOrderAndHoldUpNobody) {
+    Inbox inbox;
+    inbox.joined(1, {});
+    ASSERT_TRUE(inbox.push(1, camera(1, 1)));
+    ASSERT_TRUE(inbox.push(1, probe()));
+    ASSERT_TRUE(inbox.push(2, probe()));
+    EXPECT_EQ(inbox.size(), 4U);
+    EXPECT_EQ(inbox.take({1})->kind, ClientEvent::Kind::joined) << "no message";
+    EXPECT_EQ(inbox.take({1})->viewer, 2U);
+    EXPECT_FALSE(inbox.take({1}).has_value());
+    EXPECT_TRUE(inbox.take({})->message.has_set_camera());
+    EXPECT_TRUE(inbox.take({2})->message.has_probe());
+    EXPECT_FALSE(inbox.take({}).has_value());
+    ASSERT_TRUE(inbox.push(1, probe()));
+    inbox.left(1);
+    EXPECT_EQ(inbox.take({1})->kind, ClientEvent::Kind::left);
+    EXPECT_EQ(inbox.size(), 0U);
+}
+
 TEST(Inbox, BoundsTheIdsOfMergedRequests) {
     Inbox inbox(4);
     std::uint32_t id = 1;

@@ -21,15 +21,18 @@ std::string logged(const std::string& format) {
     Options options;
     options.log_format = format;
     set_log(options);
-    spdlog::warn("viewer '{}' joined", "a\"\\\n[error] b\x1b[2J \xc3\xa4 \xff");
+    spdlog::warn("viewer '{}' joined",
+                 "a\"\\\n[error] b\x1b[2J \xc3\xa4 \xc2\xa9 \xc2\x9b\x32J \xff");
     spdlog::set_default_logger(before);
     return out.str();
 }
 
 TEST(LogSettings, NobodyForgesALine) {
     const std::string text = logged("text");
-    EXPECT_NE(text.find("[test] [warning] viewer 'a\"\\\\x0a[error] b\\x1b[2J \xc3\xa4"),
-              std::string::npos)
+    EXPECT_NE(
+        text.find(
+            "[test] [warning] viewer 'a\"\\\\x0a[error] b\\x1b[2J \xc3\xa4 \xc2\xa9 \xc2\\x9b2J"),
+        std::string::npos)
         << text;
     EXPECT_EQ(text.find('\n'), text.size() - 1);
     EXPECT_EQ(text.find('\x1b'), std::string::npos);

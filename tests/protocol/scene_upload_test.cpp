@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "net/scene_name.h"
 #include "net/snapshot_store.h"
@@ -12,8 +11,8 @@ namespace raybundle {
 namespace {
 
 int status_of(const UploadRequest& request, const UploadLimits& limits = {1000}) {
-    const std::vector<std::string> allowed{"https://friend.example"};
-    const auto refusal = refuse_upload(request, limits, allowed);
+    const OriginRules origins{{"https://friend.example"}};
+    const auto refusal = refuse_upload(request, limits, origins);
     return refusal ? refusal->status : 0;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>
+#include <sys/stat.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -233,6 +235,9 @@ TEST_F(ServerTlsTest, ABrokenRenewalKeepsTheOldCertificate) {
     } catch (const std::runtime_error& error) {
         EXPECT_TRUE(has(error.what(), certificate_.certificate())) << error.what();
     }
+    std::filesystem::remove(certificate_.certificate());
+    ASSERT_EQ(mkfifo(certificate_.certificate().c_str(), 0600), 0);
+    EXPECT_THROW(server_->reload_certificate(), std::runtime_error) << "a pipe nobody writes to";
     EXPECT_TRUE(https_get(server_->port(), "/", kept).has_value());
 }
 

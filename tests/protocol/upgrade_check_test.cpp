@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include <string>
 
 namespace raybundle {
 namespace {
@@ -25,9 +25,24 @@ TEST(UpgradeCheck, PagesOfOtherOriginsAreRefused) {
 }
 
 TEST(UpgradeCheck, AllowedOriginsAreAccepted) {
-    const std::vector<std::string> allowed{"https://review.example"};
-    EXPECT_EQ(refusal_status({"/ws", "https://Review.example", "a:8080"}, allowed), 0);
-    EXPECT_EQ(refusal_status({"/ws", "http://review.example", "a:8080"}, allowed), 403);
+    const OriginRules rules{{"https://review.example"}};
+    EXPECT_EQ(refusal_status({"/ws", "https://Review.example", "a:8080"}, rules), 0);
+    EXPECT_EQ(refusal_status({"/ws", "http://review.example", "a:8080"}, rules), 403);
+}
+
+TEST(UpgradeCheck, ANameThatWasMadeToMeanThisMachineIsNotItsOwn) {
+    const OriginRules rules{{"https://review.example"}, true};
+    for (const char* host : {"127.0.0.1:8080", "127.0.0.1", "localhost:8080", "LOCALHOST",
+                             "[::1]:8080", "192.0.2.7:80"}) {
+        EXPECT_EQ(refusal_status({"/ws", std::string("http://") + host, host}, rules), 0) << host;
+    }
+    for (const char* host :
+         {"evil.example:8080", "localhost.evil.example", "127.0.0.1.evil.example", "1.2.3.4a",
+          "a:8080", ":8080", "review.example"}) {
+        EXPECT_EQ(refusal_status({"/ws", std::string("http://") + host, host}, rules), 403) << host;
+    }
+    EXPECT_EQ(refusal_status({"/ws", "https://review.example", "review.example"}, rules), 0);
+    EXPECT_EQ(refusal_status({"/ws", "", "evil.example"}, rules), 0) << "no page, so no browser";
 }
 
 }  // namespace
