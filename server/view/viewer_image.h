@@ -34,7 +34,9 @@ struct ColourScale {
 
 /// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).
 struct ImageStatistics {
-    bool known = false;  ///< enough samples for an estimate
+    /// Enough samples for an estimate, in this picture and since objects, lights or materials
+    /// changed.
+    bool known = false;
     /// Taken since camera or scene changed when this was requested; 0: it is of before that.
     std::uint64_t samples = 0;
     double relative_error = 1.0;  ///< estimated relRMSE of luminance
@@ -212,6 +214,7 @@ class ViewerImage : public BundleReceiver {
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void restart_batches();
+    void begin_change();
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
     void measure_detail();

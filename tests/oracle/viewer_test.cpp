@@ -168,5 +168,48 @@ TEST(ViewerImage, ProbeReadsIlluminanceAndPlace) {
     EXPECT_NEAR(glm::length(probe->normal), 1.0F, 1e-3F);
 }
 
+/// What is known of the error belongs to a scene: after a change nothing is, until samples have
+/// come.
+TEST(ViewerImage, AfterAChangeTheErrorIsUnknownUntilThereAreSamples) {
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.6F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_box({0, 0, 0}, {4, 3, 5}, true, 6, wall);
+    b.add_quad({1.5F, 2.9F, 2}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+    SolverSettings settings;
+    settings.coarse = {128, 400};
+    Solver solver(b.scene, b.mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, {64, 48});
+    Camera camera;
+    camera.eye = {0.5F, 1.5F, 0.5F};
+    camera.target = {3.0F, 0.5F, 4.0F};
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    const auto known_after = [&](int iterations) {
+        for (int i = 0; i < iterations; ++i) {
+            solver.step(receivers);
+        }
+        image.request_statistics();
+        image.finish_statistics();
+        return image.statistics().known;
+    };
+    EXPECT_TRUE(known_after(64));
+    b.scene.materials[lamp].emission *= glm::vec3(0.2F, 0.5F, 0.9F);
+    const std::vector<std::uint32_t> materials = {lamp};
+    solver.change_surfaces(b.scene, b.mesh, materials, {}, receivers);
+    EXPECT_FALSE(image.statistics().known);
+    while (solver.correcting()) {
+        solver.step(receivers);
+    }
+    EXPECT_FALSE(known_after(0));
+    EXPECT_FALSE(known_after(4));
+    EXPECT_TRUE(known_after(2 * BATCHES));
+    // A camera that moves shows the same scene.
+    camera.target.x = 2.8F;
+    image.set_camera(camera);
+    EXPECT_TRUE(known_after(0));
+}
+
 }  // namespace
 }  // namespace raybundle
