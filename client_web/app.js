@@ -4,7 +4,7 @@
 
 import {framedFov, project, rayThrough} from './camera.js';
 import {CameraControl} from './camera_control.js';
-import {CameraLink} from './camera_link.js';
+import {CameraLink, askForDepths} from './camera_link.js';
 import {ObjectMover} from './drag.js';
 import {byId} from './elements.js';
 import {Overlay} from './overlay.js';
@@ -74,6 +74,7 @@ export class RaybundleApp extends EventTarget {
         this.mover = new ObjectMover(this.client);
         this.overlay = new Overlay(byId('overlay', SVGSVGElement));
         this.readouts = new Readouts();
+        this.readouts.redraw = this.picture.redrawMs;
         this.status = new Status(this.client);
         this.#listenToServer();
         this.#listenToUser();
@@ -302,6 +303,7 @@ export class RaybundleApp extends EventTarget {
         this.#viewportChanged();
         this.mover.forget();
         this.link.reset();
+        askForDepths(this.client, this.picture);
         this.readouts.reset();
         this.camera.fit(welcome.scene.bounds);
         this.status.showWelcome(welcome, this.scene.title, this.frame !== null);
@@ -317,8 +319,8 @@ export class RaybundleApp extends EventTarget {
     }
 
     /** @param {Frame} frame */
-    #arrived({header, image, decodeMs}) {
-        this.picture.draw(image);
+    #arrived({header, image, depths, decodeMs}) {
+        this.picture.draw(image, depths);
         this.frame = header;
         this.readouts.frame(header, decodeMs, this.link.answered(header.cameraId));
         this.status.showPicture();

@@ -3,6 +3,7 @@
 // that comes back which view it shows and how long it took.
 
 import {sameView} from './camera.js';
+import {DEPTH_COLUMNS} from './depth_warp.js';
 import {FrameThrottle} from './frame_throttle.js';
 
 /**
@@ -12,6 +13,18 @@ import {FrameThrottle} from './frame_throttle.js';
 
 /** Views on their way; more than this are not answered any more. */
 const MAX_PENDING = 256;
+
+/**
+ * Asks for frames with depths, if they are of use. A server that knows of none goes on without.
+ *
+ * @param {RaybundleClient} client
+ * @param {import('./picture.js').Picture} picture
+ */
+export function askForDepths(client, picture) {
+    if (picture.takesDepths) {
+        client.request({setDepths: {columns: DEPTH_COLUMNS}}).answer.catch(() => {});
+    }
+}
 
 export class CameraLink {
     /** @type {Map<number, {view: View, sent: number}>} by id of the setCamera, in order */

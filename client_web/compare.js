@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Before and after: a picture that is kept, wiped against the light now from the same camera.
+// Before and after: a picture that is kept, or one that the server renders of the light before a change,
+// wiped against the light now from the same camera.
 
 import {sameView} from './camera.js';
 import {byId, showValue} from './elements.js';
+import {snapshotSize} from './snapshot_panel.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./display_panel.js').DisplayPanel} DisplayPanel
+ * @typedef {import('./history.js').ChangeList} ChangeList
+ * @typedef {import('./history.js').LogEntry} LogEntry
  * @typedef {import('./protocol.js').View} View
- * @typedef {{view: View, epoch: number, exposure: number, time: Date}} KeptPicture
+ * @typedef {{view: View, epoch: number, exposure: number, name: string}} KeptPicture
  */
+
+/** Changes that can be chosen, the newest ones. */
+const MOST_CHOICES = 30;
+/** Errors to ask an earlier picture for: that of the one on screen, within these. */
+const ERRORS = {least: 0.03, most: 0.15};
+/** Until the server knows how the picture is exposed, milliseconds. */
+const EXPOSURE_MS = 60;
+
+/**
+ * What can be compared with: the scene before each change, and as it was loaded.
+ *
+ * @param {LogEntry[]} entries  oldest first
+ * @param {number} epoch  now
+ * @returns {{epoch: number, name: string}[]}
+ */
+export function choicesOf(entries, epoch) {
+    const newest = entries
+        .slice(-MOST_CHOICES)
+        .reverse()
+        .map(({before, by, text}) => ({epoch: before, name: `before ${by} ${text}`}));
+    const loaded = newest.some((choice) => choice.epoch === 0);
+    return epoch > 0 && !loaded ? [...newest, {epoch: 0, name: 'as it was loaded'}] : newest;
+}
 
 export class Compare {
     /** @type {KeptPicture | null} */
@@ -18,16 +45,23 @@ export class Compare {
     #wipe = byId('wipe', HTMLElement);
     #at = byId('wipe-at', HTMLInputElement);
     #button = byId('compare', HTMLButtonElement);
+    #choice = byId('earlier-epoch', HTMLSelectElement);
+    #earlier = byId('earlier', HTMLButtonElement);
+    /** Whether exposure was automatic before the comparison. */
+    #automatic = false;
 
     /**
      * @param {RaybundleApp} app
      * @param {DisplayPanel} display
+     * @param {ChangeList} changes
      */
-    constructor(app, display) {
+    constructor(app, display, changes) {
         this.app = app;
         this.display = display;
+        this.changes = changes;
         byId('keep-picture', HTMLElement).addEventListener('click', () => this.keep());
         this.#button.addEventListener('click', () => this.show(this.#wipe.hidden));
+        this.#earlier.addEventListener('click', () => this.showEarlier(Number(this.#choice.value)));
         this.#at.addEventListener('input', () => this.#cut());
         app.on('view', (/** @type {View} */ view) => {
             if (!this.#wipe.hidden && this.kept && !sameView(view, this.kept.view)) {
@@ -35,6 +69,8 @@ export class Compare {
             }
         });
         app.picture.addEventListener('resize', () => this.show(false));
+        app.on('sceneChanged', () => this.#list());
+        app.on('welcome', () => this.#list());
     }
 
     /** Keeps the picture that is on screen. */
@@ -44,14 +80,49 @@ export class Compare {
         if (!frame || !link.shown) {
             return;
         }
-        this.#canvas.width = canvas.width;
-        this.#canvas.height = canvas.height;
-        this.#canvas.getContext('2d')?.drawImage(canvas, 0, 0);
+        const time = new Date().toLocaleTimeString([], {timeStyle: 'short'});
         const {epoch, exposure} = frame;
-        this.kept = {view: link.shown, epoch, exposure, time: new Date()};
-        this.#button.disabled = false;
-        const time = this.kept.time.toLocaleTimeString([], {timeStyle: 'short'});
-        showValue('compareState', `Kept at ${time}, epoch ${epoch}.`);
+        this.#take(canvas, {view: link.shown, epoch, exposure, name: `kept at ${time}`});
+        showValue('compareState', `Kept at ${time}. Change something, then compare.`);
+    }
+
+    /**
+     * Asks the server for the picture of an earlier epoch from this camera, and compares with it.
+     *
+     * @param {number} epoch
+     */
+    async showEarlier(epoch) {
+        const {app} = this;
+        const {view} = app;
+        const name = this.#choice.selectedOptions[0]?.textContent ?? `epoch ${epoch}`;
+        this.#fixExposure();
+        this.#earlier.disabled = true;
+        showValue('compareState', `The light ${name} is being computed; go on meanwhile.`);
+        await new Promise((resolve) => setTimeout(resolve, EXPOSURE_MS));
+        const {limits, viewport} = app.picture;
+        const error = app.stats.errorHigh ?? ERRORS.most;
+        const snapshot = {
+            ...snapshotSize(0, viewport, limits),
+            relativeError: Math.min(Math.max(error, ERRORS.least), ERRORS.most),
+            format: 'PNG',
+            epoch,
+        };
+        const ready = (await app.ask({snapshot}))?.snapshotReady;
+        const image = ready ? await imageAt(ready.url) : null;
+        this.#list();
+        if (!ready || !image) {
+            this.#releaseExposure();
+            showValue('compareState', 'The earlier light could not be had.');
+            return;
+        }
+        this.#take(image, {view, epoch: ready.epoch, exposure: ready.exposure, name});
+        if (sameView(view, app.view)) {
+            showValue('compareState', `Left: ${name}. Right: now.`);
+            this.show(true);
+        } else {
+            this.#releaseExposure();
+            showValue('compareState', `The picture ${name} is there: Compare shows it.`);
+        }
     }
 
     /** @param {boolean} on  from the camera of the kept picture */
@@ -60,11 +131,10 @@ export class Compare {
         const shown = on && kept !== null;
         if (shown && kept) {
             this.app.view = kept.view;
-            // The same exposure, or the comparison would be of exposures.
-            if (this.display.autoExposure) {
-                this.display.autoExposure = false;
-                this.display.setExposure(Math.round(kept.exposure * 4) / 4);
-            }
+            this.#fixExposure(kept.exposure);
+            byId('wipe-before', HTMLElement).textContent = kept.name;
+        } else if (!this.#wipe.hidden) {
+            this.#releaseExposure();
         }
         this.#wipe.hidden = !shown;
         this.#canvas.hidden = !shown;
@@ -72,10 +142,70 @@ export class Compare {
         this.#cut();
     }
 
+    /**
+     * @param {HTMLCanvasElement | ImageBitmap} image
+     * @param {KeptPicture} kept
+     */
+    #take(image, kept) {
+        this.#canvas.width = image.width;
+        this.#canvas.height = image.height;
+        this.#canvas.getContext('2d')?.drawImage(image, 0, 0);
+        this.kept = kept;
+        this.#button.disabled = false;
+    }
+
+    /**
+     * The same exposure on both sides, or the comparison would be of exposures.
+     *
+     * @param {number | undefined} exposure  stops; absent: as on screen
+     */
+    #fixExposure(exposure = this.app.frame?.exposure) {
+        if (this.display.autoExposure) {
+            this.#automatic = true;
+            this.display.autoExposure = false;
+            this.display.setExposure(Math.round((exposure ?? 0) * 4) / 4);
+        }
+    }
+
+    #releaseExposure() {
+        if (this.#automatic) {
+            this.#automatic = false;
+            this.display.autoExposure = true;
+            this.display.setExposure(0);
+        }
+    }
+
+    /** Offers what can be compared with. */
+    #list() {
+        const chosen = this.#choice.value;
+        const choices = choicesOf(this.changes.entries, this.app.scene?.epoch ?? 0);
+        const options = choices.map(({epoch, name}) => new Option(name, String(epoch)));
+        this.#choice.replaceChildren(...options);
+        this.#choice.disabled = this.#earlier.disabled = choices.length === 0;
+        if (choices.length === 0) {
+            this.#choice.replaceChildren(new Option('nothing has changed yet', ''));
+        } else if (choices.some(({epoch}) => String(epoch) === chosen)) {
+            this.#choice.value = chosen;
+        }
+    }
+
     #cut() {
         const share = Number(this.#at.value);
         this.#canvas.style.clipPath = `inset(0 ${(100 * (1 - share)).toFixed(1)}% 0 0)`;
         this.#wipe.style.setProperty('--at', `${(100 * share).toFixed(1)}%`);
         this.#at.setAttribute('aria-valuetext', `${Math.round(100 * share)} % earlier`);
+    }
+}
+
+/**
+ * @param {string} url  path on the server
+ * @returns {Promise<ImageBitmap | null>}
+ */
+async function imageAt(url) {
+    try {
+        const answer = await fetch(new URL(url.replace(/^\//, ''), location.href));
+        return answer.ok ? await createImageBitmap(await answer.blob()) : null;
+    } catch {
+        return null;
     }
 }

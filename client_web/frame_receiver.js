@@ -2,10 +2,16 @@
 // Binary messages to pictures: header parsing, decoding off the main thread, acknowledgement after
 // decoding. While one frame is being decoded only the newest of those that arrive is kept.
 
+import {decodeDepths} from './depths.js';
+
 /**
  * @typedef {import('./protocol.js').FrameHeader} FrameHeader
- * @typedef {{header: FrameHeader, image: ImageBitmap, decodeMs: number}} Frame  `image` belongs to
- *     the receiver: draw it at once, it is closed afterwards
+ * @typedef {import('./depths.js').Depths} Depths
+ * @typedef {object} Frame
+ * @property {FrameHeader} header
+ * @property {ImageBitmap} image  belongs to the receiver: draw it at once, it is closed afterwards
+ * @property {Depths | null} depths  where they have been asked for
+ * @property {number} decodeMs
  * @typedef {object} FrameSink
  * @property {(frame: Frame) => void} show
  * @property {(frame: number, decodeMs: number) => void} acknowledge
@@ -18,11 +24,12 @@ const MAX_HEADER_BYTES = 65536;
 const MIME_TYPES = {JPEG: 'image/jpeg', PNG: 'image/png'};
 
 /**
- * Takes a binary message apart: u32 little-endian header length, header as JSON, encoded image.
+ * Takes a binary message apart: u32 little-endian header length, header as JSON, encoded image,
+ * and depths if the header says so.
  *
  * @param {ArrayBuffer} message
- * @returns {{header: FrameHeader, image: Uint8Array<ArrayBuffer>}} `image` shares the message's
- *     memory
+ * @returns {{header: FrameHeader, image: Uint8Array<ArrayBuffer>, depths: Uint8Array<ArrayBuffer>}}
+ *     both share the message's memory
  * @throws {Error} if the message is not a frame
  */
 export function parseFrame(message) {
@@ -41,7 +48,13 @@ export function parseFrame(message) {
     if (!Number.isInteger(header?.frame) || !(header.codec in MIME_TYPES)) {
         throw new Error('frame: header lacks frame number or a known codec');
     }
-    return {header, image: new Uint8Array(message, 4 + headerBytes)};
+    const depthBytes = header.depthBytes ?? 0;
+    const end = message.byteLength - depthBytes;
+    if (!(depthBytes >= 0 && end >= 4 + headerBytes)) {
+        throw new Error(`frame: depths of ${depthBytes} bytes do not fit`);
+    }
+    const image = new Uint8Array(message, 4 + headerBytes, end - 4 - headerBytes);
+    return {header, image, depths: new Uint8Array(message, end)};
 }
 
 export class FrameReceiver {
@@ -101,10 +114,15 @@ export class FrameReceiver {
         try {
             parsed = parseFrame(message);
             const blob = new Blob([parsed.image], {type: MIME_TYPES[parsed.header.codec]});
-            const image = await createImageBitmap(blob);
+            const coming = parsed.depths.length > 0 ? decodeDepths(parsed.header, parsed.depths) : null;
+            // Without its depths the picture is as good as ever.
+            const [image, depths] = await Promise.all([
+                createImageBitmap(blob),
+                coming?.catch(() => null) ?? null,
+            ]);
             const decodeMs = performance.now() - start;
             if (generation === this.#generation) {
-                this.sink.show({header: parsed.header, image, decodeMs});
+                this.sink.show({header: parsed.header, image, depths, decodeMs});
             }
             image.close();
         } catch (error) {

@@ -79,13 +79,20 @@ export class History extends EventTarget {
 /**
  * What has changed in the scene since this page came to it.
  *
- * @typedef {{time: Date, epoch: number, by: string, text: string}} LogEntry
+ * @typedef {object} LogEntry
+ * @property {Date} time
+ * @property {number} epoch
+ * @property {number} before  epoch of the scene before it, and before the steps of a drag
+ * @property {string} by
+ * @property {string} text
  */
 const MAX_ENTRIES = 1000;
 
 export class ChangeList {
     /** @type {LogEntry[]} */
     entries = [];
+    /** Epochs before the drags that are under way, by object. @type {Map<number, number>} */
+    #dragged = new Map();
 
     /**
      * @param {RaybundleApp} app
@@ -93,16 +100,33 @@ export class ChangeList {
      */
     constructor(app, nameOf) {
         app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
-            const unfinished = change.moveObject && change.moveObject.final === false;
-            if (unfinished) {
+            const before = this.#before(change);
+            if (before === null) {
                 return;
             }
             const text = describeChange(app, change);
             const by = nameOf(change.by);
-            this.entries.push({time: new Date(), epoch: change.epoch, by, text});
+            this.entries.push({time: new Date(), epoch: change.epoch, before, by, text});
             this.entries.splice(0, this.entries.length - MAX_ENTRIES);
             showValue('lastChange', `${by}: ${text}`);
         });
+    }
+
+    /**
+     * @param {import('./protocol.js').SceneChanged} change
+     * @returns {number | null} epoch before it; null: a step of a drag that goes on
+     */
+    #before({epoch, moveObject}) {
+        if (!moveObject) {
+            return epoch - 1;
+        }
+        const before = this.#dragged.get(moveObject.object) ?? epoch - 1;
+        if (moveObject.final === false) {
+            this.#dragged.set(moveObject.object, before);
+            return null;
+        }
+        this.#dragged.delete(moveObject.object);
+        return before;
     }
 }
 

@@ -55,7 +55,7 @@ const measuring = new Measuring(app, marks, display);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
 const changes = new ChangeList(app, (viewer) => people.name(viewer));
-const compare = new Compare(app, display);
+const compare = new Compare(app, display, changes);
 const showTab = addTabs(/** @type {HTMLElement} */ (document.querySelector('[role="tablist"]')));
 new ScenePanel(app, grabbing);
 new SceneFiles(app);

@@ -52,6 +52,10 @@ export class Samples {
         }
     }
 
+    get count() {
+        return this.#values.length;
+    }
+
     /** Forgets everything. */
     clear() {
         this.#values = [];

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture: shows frames, and says how large they should be.
 
+import {sameView} from './camera.js';
+import {DepthWarp} from './depth_warp.js';
+import {FrameThrottle} from './frame_throttle.js';
+import {Samples} from './meters.js';
 import {cssMatrix, homography} from './view_warp.js';
 
+/** @typedef {import('./depths.js').Depths} Depths */
 /** @typedef {import('./protocol.js').Viewport} Viewport */
 /** @typedef {import('./protocol.js').View} View */
 
@@ -19,6 +24,10 @@ export const PICTURE_SIZES = Object.freeze({
 /** @typedef {keyof typeof PICTURE_SIZES} PictureSize */
 
 const MIN_SIDE = 16;
+/** One redraw in so many is measured: the page waits for it. */
+const MEASURED = 16;
+const REDRAWS_KEPT = 9;
+const FEWEST_MEASURED = 3;
 const SETTLE_MS = 150;
 
 /**
@@ -54,6 +63,20 @@ export class Picture extends EventTarget {
     #size = 'standard';
     /** @type {HTMLCanvasElement} */
     #backdrop;
+    /** Draws pictures that have depths, where the browser can. @type {DepthWarp | null} */
+    #warp = null;
+    /** Of the picture on screen. @type {Depths | null} */
+    #depths = null;
+    /** Whether they and the picture are in #warp. */
+    #loaded = false;
+    /** @type {{shown: View, view: View} | null} */
+    #wanted = null;
+    #throttle = new FrameThrottle(() => this.redraw());
+    #redraws = 0;
+    /** What a redraw takes, as measured now and then, until it is done. */
+    redrawMs = new Samples(REDRAWS_KEPT);
+    /** Where redraws take longer, because a processor draws them, pictures are flat ones, ms. */
+    slowestRedrawMs = 60;
 
     /**
      * @param {HTMLElement} element
@@ -73,6 +96,7 @@ export class Picture extends EventTarget {
         this.#backdrop.className = 'backdrop';
         this.#backdrop.width = this.#backdrop.height = BACKDROP_SIDE;
         element.prepend(this.#backdrop);
+        this.#addWarp();
         new ResizeObserver(() => this.#resized()).observe(element);
         this.#watchPixelRatio();
     }
@@ -107,13 +131,24 @@ export class Picture extends EventTarget {
         return fitViewport(clientWidth, clientHeight, devicePixelRatio, maxPixels, this.limits);
     }
 
+    /** Whether depths are of use to it. */
+    get takesDepths() {
+        return this.#warp !== null;
+    }
+
+    /** What it draws from other places, while that is on screen. */
+    get warped() {
+        return this.#warp && !this.#warp.canvas.hidden ? this.#warp.canvas : null;
+    }
+
     /**
      * Shows a frame. Setting a canvas's size clears it, but nothing is painted before the drawing
      * that follows, so the old picture stays until the new one is there.
      *
      * @param {ImageBitmap} image
+     * @param {Depths | null} depths
      */
-    draw(image) {
+    draw(image, depths = null) {
         if (this.canvas.width !== image.width || this.canvas.height !== image.height) {
             this.canvas.width = image.width;
             this.canvas.height = image.height;
@@ -121,19 +156,80 @@ export class Picture extends EventTarget {
         this.context.drawImage(image, 0, 0);
         const small = this.#backdrop.getContext('2d', {alpha: false});
         small?.drawImage(image, 0, 0, BACKDROP_SIDE, BACKDROP_SIDE);
+        this.#depths = depths;
+        this.#loaded = false;
         this.element.classList.add('has-picture');
     }
 
     /**
-     * Puts the picture where it belongs in a view, until the server's picture of it is there.
+     * Puts the picture where it belongs in a view, until the server's picture of it is there: by its
+     * depths, where it has any, else as a flat one.
      *
      * @param {View} shown  that the picture was made for
      * @param {View} view  wanted now
      */
     warp(shown, view) {
-        const {clientWidth, clientHeight} = this.element;
-        const matrix = homography(shown, this.shownAspect, view, this.aspect);
-        this.canvas.style.transform = matrix ? cssMatrix(matrix, clientWidth, clientHeight) : '';
+        const able = this.#depths !== null && this.#warp?.usable === true && !this.#slow;
+        const deep = able && !sameView(shown, view);
+        this.#wanted = deep ? {shown, view} : null;
+        if (deep) {
+            this.#throttle.run();
+        } else {
+            this.#throttle.cancel();
+            const {clientWidth, clientHeight} = this.element;
+            const matrix = homography(shown, this.shownAspect, view, this.aspect);
+            this.canvas.style.transform = matrix ? cssMatrix(matrix, clientWidth, clientHeight) : '';
+            this.#showWarped(false);
+        }
+    }
+
+    get #slow() {
+        const {count} = this.redrawMs;
+        return count >= FEWEST_MEASURED && (this.redrawMs.quantile(0.5) ?? 0) > this.slowestRedrawMs;
+    }
+
+    /** Draws the picture by its depths as warp() wants it. */
+    redraw() {
+        const warp = this.#warp;
+        if (!this.#wanted || !this.#depths || !warp?.usable) {
+            return;
+        }
+        const start = performance.now();
+        const {shown, view} = this.#wanted;
+        if (!this.#loaded) {
+            const {width, height} = this.canvas;
+            Object.assign(warp.canvas, {width, height});
+            warp.load(this.canvas, this.#depths);
+            this.#loaded = true;
+        }
+        warp.draw(shown, this.shownAspect, view, this.aspect, this.#depths.nearest);
+        this.#showWarped(true);
+        if (++this.#redraws % MEASURED === 0) {
+            warp.finish();
+            this.redrawMs.add(performance.now() - start);
+        }
+    }
+
+    /** @param {boolean} warped */
+    #showWarped(warped) {
+        if (this.#warp && this.#warp.canvas.hidden === warped) {
+            this.#warp.canvas.hidden = !warped;
+            this.canvas.style.visibility = warped ? 'hidden' : '';
+        }
+    }
+
+    #addWarp() {
+        const canvas = document.createElement('canvas');
+        canvas.hidden = true;
+        canvas.className = 'warped';
+        try {
+            this.#warp = new DepthWarp(canvas);
+        } catch {
+            return;  // flat, then
+        }
+        canvas.addEventListener('webglcontextlost', () => this.#showWarped(false));
+        canvas.addEventListener('webglcontextrestored', () => (this.#loaded = false));
+        this.canvas.after(canvas);
     }
 
     #resized() {

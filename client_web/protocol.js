@@ -105,6 +105,10 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} exposure  EV (log2)
  * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
  * @property {number} serverTimeMs
+ * @property {number} [depthBytes]  at the end of the message; absent: the frame has no depths
+ * @property {number} [depthColumns]
+ * @property {number} [depthRows]
+ * @property {number} [depthNearest]  metres
  */
 
 /** @typedef {{object: number, transform: Transform, final?: boolean}} MoveObject */
@@ -204,7 +208,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {ProbeGridResult} [probeGridResult]
  * @property {{scenes: SceneFile[], current: string, maxUploadBytes: number}} [sceneList]
  * @property {SceneOpening} [sceneOpening]
- * @property {{url: string, relativeError: number, epoch: number}} [snapshotReady]
+ * @property {{url: string, relativeError: number, epoch: number, exposure: number}} [snapshotReady]
  */
 
 /** An `error` message of the server, as an exception. */

@@ -3,7 +3,7 @@
 // visitor look around. RaybundleClient is the connection alone. See example.html.
 
 import {CameraControl} from './camera_control.js';
-import {CameraLink} from './camera_link.js';
+import {CameraLink, askForDepths} from './camera_link.js';
 import {framedFov} from './camera.js';
 import {Picture} from './picture.js';
 import {PointerControl} from './pointer_control.js';
@@ -120,13 +120,14 @@ export class RaybundleView extends HTMLElement {
             picture.limits = welcome.limits;
             control.fit(welcome.scene.bounds);
             link.reset();
+            askForDepths(client, picture);
             this.#firstView(control, picture, welcome);
             link.show(control.view);
             this.dispatchEvent(new CustomEvent('welcome', {detail: welcome}));
         });
         client.addEventListener('frame', (event) => {
-            const {header, image} = /** @type {CustomEvent} */ (event).detail;
-            picture.draw(image);
+            const {header, image, depths} = /** @type {CustomEvent} */ (event).detail;
+            picture.draw(image, depths);
             link.answered(header.cameraId);
             warp();
             this.dispatchEvent(new CustomEvent('frame', {detail: header}));

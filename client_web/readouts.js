@@ -32,6 +32,8 @@ export class Readouts {
     /** Relative error that is wanted, where one is. @type {number | null} */
     target = null;
     #bar = byId('settled', HTMLProgressElement);
+    /** What redraws take in this page, ms. @type {Samples | null} */
+    redraw = null;
 
     constructor() {
         setInterval(() => this.#refresh(), REFRESH_MS);
@@ -88,6 +90,7 @@ export class Readouts {
             latencyP95Ms: this.#latency.quantile(0.95),
             roundTripMs: this.#roundTrip.quantile(0.5),
             decodeMs: this.#decode.quantile(0.5),
+            redrawMs: this.redraw?.quantile(0.5) ?? null,
         };
     }
 
@@ -104,6 +107,7 @@ export class Readouts {
         showValue('latencyP95', milliseconds(stats.latencyP95Ms));
         showValue('roundTrip', milliseconds(stats.roundTripMs));
         showValue('decode', milliseconds(stats.decodeMs));
+        showValue('redraw', milliseconds(stats.redrawMs));
         showValue('settled', this.#header || this.#solution ? progress(settled) : '–');
         this.#bar.value = settled;
         this.#bar.classList.toggle('done', settled >= SETTLED);

@@ -87,6 +87,8 @@ class RenderLoop {
     void gather_all();
     void begin_phase();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
+    void add_snapshot(const ViewerSession& session, const ClientEvent& event);
+    [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
     bool set_target(ViewerSession& session, const ClientEvent& event);

@@ -169,8 +169,9 @@ bool RenderLoop::collect_frames() {
     bool any = false;
     for (const auto& [id, session] : sessions_) {
         if (session->frame_finished()) {
+            DepthMap depths = session->take_depths();
             auto [header, pixels] = session->take_frame();
-            encoder_.submit({id, header, {pixels.begin(), pixels.end()}, false});
+            encoder_.submit({id, header, {pixels.begin(), pixels.end()}, false, std::move(depths)});
             any = true;
         }
     }
@@ -317,7 +318,7 @@ void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, double sli
             first_look_of_ = wanted.viewer;
             auto [header, pixels] =
                 session.render_first(*first_look_, wanted.advice, figures(), start);
-            encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false});
+            encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false, {}});
         } catch (const GpuError& error) {
             refuse_picture(session, error.what());
         }

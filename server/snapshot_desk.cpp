@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint64_t least_samples = 32;  // before an error is believed
 constexpr std::chrono::hours most_time(1);
 constexpr std::chrono::milliseconds statistics_interval(100);
+constexpr double earlier_slice_ms = 40.0;          // of iterations of an earlier scene at once
+constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
 
 double milliseconds_since(SnapshotDesk::Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(SnapshotDesk::Clock::now() - start).count();
@@ -32,35 +34,47 @@ struct SnapshotDesk::Finished {
     std::vector<std::uint8_t> pixels;  ///< of PNG, likewise, RGBA
     float relative_error = 1.0F;
     std::uint32_t epoch = 0;
+    float exposure = 0.0F;
 };
 
-SnapshotDesk::SnapshotDesk(Server& server) : server_(server) {}
+SnapshotDesk::SnapshotDesk(Server& server, MakeEarlier make_earlier)
+    : server_(server), make_earlier_(std::move(make_earlier)) {}
 
 SnapshotDesk::~SnapshotDesk() = default;
 
-void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, float exposure) {
+void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const PictureLook& look) {
     if (requests_.size() >= max_waiting) {
         server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED,
                             "too many snapshots wait already");
         return;
     }
-    requests_.push_back({request, camera, exposure});
+    requests_.push_back({request, camera, look});
+    if (!request.message.snapshot().has_epoch()) {
+        requests_.back().look = {DisplayMode::photo, look.exposure, {}};
+    }
 }
 
 void SnapshotDesk::forget(ViewerId viewer) {
     if (!requests_.empty() && requests_.front().event.viewer == viewer) {
-        restart();
+        drop_picture();
     }
     std::erase_if(requests_, [viewer](const Request& r) { return r.event.viewer == viewer; });
 }
 
 void SnapshotDesk::restart() {
+    if (!apart_) {
+        drop_picture();
+    }
+}
+
+void SnapshotDesk::drop_picture() {
     image_.reset();
     taking_part_ = false;
+    apart_ = false;
 }
 
 void SnapshotDesk::refuse_all() {
-    restart();
+    drop_picture();
     for (const Request& request : requests_) {
         server_.reply_error(request.event, v1::Error::INTERNAL, "the server is stopping");
     }
@@ -88,7 +102,7 @@ void SnapshotDesk::drop(const GpuError& error) {
     spdlog::error("no snapshot for viewer {}: {}", event.viewer, error.what());
     server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED,
                         "the server has no memory for a picture of this size");
-    restart();
+    drop_picture();
     requests_.pop_front();
 }
 
@@ -108,7 +122,14 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
                                          const ViewPrograms& programs, std::uint32_t epoch,
                                          bool alone) {
     taking_part_ = false;
+    if (earlier_ && requests_.empty() && Clock::now() - earlier_used_ > earlier_kept) {
+        earlier_.reset();
+    }
     if (requests_.empty() || (!alone && !share_.may())) {
+        return nullptr;
+    }
+    if (wants_earlier(epoch)) {
+        work_on_earlier(alone);
         return nullptr;
     }
     const auto start = Clock::now();
@@ -136,11 +157,82 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
 
 void SnapshotDesk::note_iteration(double cost_ms) {
     share_.note_iteration(cost_ms, taking_part_);
+    if (taking_part_) {
+        refresh_statistics();
+    }
+}
+
+void SnapshotDesk::refresh_statistics() {
     const auto now = Clock::now();
-    if (taking_part_ && now - last_statistics_ >= statistics_interval) {
+    if (now - last_statistics_ >= statistics_interval) {
         last_statistics_ = now;
         image_->request_statistics();
     }
+}
+
+/// The next picture is not of the present scene, whose epoch this is.
+bool SnapshotDesk::wants_earlier(std::uint32_t epoch) const {
+    const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
+    return apart_ || (wanted.has_epoch() && wanted.epoch() != epoch);
+}
+
+/// False where it cannot be had: the request is answered. Others wait while shaders are compiled.
+bool SnapshotDesk::prepare_earlier() {
+    const std::uint32_t epoch = requests_.front().event.message.snapshot().epoch();
+    if (earlier_ && earlier_->epoch() == epoch) {
+        return true;
+    }
+    earlier_.reset();
+    try {
+        earlier_ = make_earlier_(epoch);
+    } catch (const GpuError& error) {
+        drop(error);
+        return false;
+    }
+    if (!earlier_) {
+        server_.reply_error(requests_.front().event, v1::Error::NOT_FOUND,
+                            "snapshot.epoch: what was there is not known any more");
+        drop_picture();
+        requests_.pop_front();
+    }
+    return earlier_ != nullptr;
+}
+
+/// Some iterations of the earlier scene, as far as there is time for them.
+void SnapshotDesk::work_on_earlier(bool alone) {
+    if (!image_) {
+        if (!prepare_earlier() ||
+            !begin(earlier_->solver().scene(), earlier_->solver().store(), earlier_->programs())) {
+            return;
+        }
+        apart_ = true;
+    }
+    earlier_used_ = Clock::now();
+    try {
+        do {
+            const auto start = Clock::now();
+            if (!image_->smoothed()) {
+                image_->smooth_step();
+            }
+            earlier_->step(*image_);
+            refresh_statistics();
+            share_.charge(milliseconds_since(start));
+            if (earlier_->between_groups() && finish_earlier()) {
+                return;
+            }
+        } while ((alone || share_.may()) && milliseconds_since(earlier_used_) < earlier_slice_ms);
+    } catch (const GpuError& error) {
+        drop(error);
+    }
+}
+
+/// Delivers the picture where it is done. True if it has been.
+bool SnapshotDesk::finish_earlier() {
+    if (!done() || delivery_.busy()) {
+        return false;
+    }
+    deliver(earlier_->epoch());
+    return true;
 }
 
 void SnapshotDesk::deliver(std::uint32_t epoch) {
@@ -152,11 +244,13 @@ void SnapshotDesk::deliver(std::uint32_t epoch) {
     if (picture->event.message.snapshot().format() == v1::Snapshot::EXR) {
         picture->radiance = image_->read_radiance();
     } else {
-        image_->compose(DisplayMode::photo, requests_.front().exposure);
+        const PictureLook& look = requests_.front().look;
+        image_->compose(look.mode, look.exposure, image_->size(), look.scale);
+        picture->exposure = look.exposure;
         const std::span<const std::uint8_t> pixels = image_->take();
         picture->pixels.assign(pixels.begin(), pixels.end());
     }
-    restart();
+    drop_picture();
     requests_.pop_front();
     delivery_.submit(std::move(picture));
 }
@@ -187,6 +281,7 @@ void SnapshotDesk::encode(Finished& picture, Server& server) {
     answer.mutable_snapshot_ready()->set_url(*url);
     answer.mutable_snapshot_ready()->set_relative_error(picture.relative_error);
     answer.mutable_snapshot_ready()->set_epoch(picture.epoch);
+    answer.mutable_snapshot_ready()->set_exposure(picture.exposure);
     if (!picture.event.message.has_id()) {
         server.send(picture.event.viewer, answer);
     }

@@ -180,9 +180,10 @@ FrameDemand ViewerSession::demand(Clock::time_point now) const {
     return {moving(now), lossless_ && !moving(now), pixels()};
 }
 
-float ViewerSession::picture_exposure() const {
-    return shown_exposure_.value_or((image_ ? image_->automatic_exposure() : 0.0F) +
-                                    exposure_offset_);
+PictureLook ViewerSession::look() const {
+    const float automatic = auto_exposure_ && image_ ? image_->automatic_exposure() : 0.0F;
+    const float exposure = shown_exposure_.value_or(automatic + exposure_offset_);
+    return {mode_, exposure, colour_scale(exposure)};
 }
 
 float ViewerSession::exposure(const ViewerImage& image) {
@@ -208,7 +209,24 @@ void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& fig
                            Clock::time_point now) {
     apply_view();
     compose(*image_, advice, figures, now);
+    depths_coming_ = depth_columns_ > 0;
+    if (depths_coming_) {
+        image_->request_depths(depth_columns_);
+    }
     rendering_ = true;
+}
+
+bool ViewerSession::frame_finished() {
+    return rendering_ && image_->finished() && (!depths_coming_ || image_->depths()->ready());
+}
+
+DepthMap ViewerSession::take_depths() {
+    if (!depths_coming_) {
+        return {};
+    }
+    DepthGrid& grid = *image_->depths();
+    const std::span<const float> inverse = grid.take();
+    return {grid.points().x, grid.points().y, {inverse.begin(), inverse.end()}};
 }
 
 std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::render_first(

@@ -10,6 +10,7 @@
 #include "net/client_event.h"
 #include "raybundle.pb.h"
 #include "stream/congestion_window.h"
+#include "stream/depth_code.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -46,6 +47,8 @@ class ViewerSession {
     void drop_image();
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
+    /// Frames carry depths on a grid with so many columns; 0: none.
+    void set_depths(std::uint32_t columns) { depth_columns_ = columns; }
 
     /// One slice of antialiasing where the picture has been at rest for a while. True if there was
     /// something to do.
@@ -67,7 +70,9 @@ class ViewerSession {
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> render_first(
         ViewerImage& shared, const FrameAdvice& advice, const v1::FrameHeader& figures,
         Clock::time_point now);
-    [[nodiscard]] bool frame_finished() const { return rendering_ && image_->finished(); }
+    [[nodiscard]] bool frame_finished();
+    /// Its depths, before take_frame(); empty where none were asked for.
+    [[nodiscard]] DepthMap take_depths();
     /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
@@ -88,8 +93,8 @@ class ViewerSession {
     void note_acknowledged() { acknowledged_ = true; }
 
     [[nodiscard]] double pixels() const;
-    /// EV of the pictures it shows now.
-    [[nodiscard]] float picture_exposure() const;
+    /// Of the pictures it shows now.
+    [[nodiscard]] PictureLook look() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Viewer whose camera it follows, 0: none.
@@ -128,6 +133,8 @@ class ViewerSession {
     std::uint32_t frame_ = 0;
     bool changed_ = true;
     bool rendering_ = false;
+    std::uint32_t depth_columns_ = 0;
+    bool depths_coming_ = false;  // with the frame that is being rendered
     bool paused_ = false;
     bool acknowledged_ = false;
     v1::FrameHeader header_;

@@ -28,6 +28,7 @@ constexpr std::size_t kMaxToken = 1024;
 constexpr float kMaxExposure = 30.0F;  ///< EV
 constexpr float kMaxSeconds = 86400.0F;
 constexpr std::uint64_t kMaxGridPoints = 1024;
+constexpr std::uint32_t kMaxDepthColumns = 512;
 
 /// Collects the first violation; later checks are skipped.
 class Checker {
@@ -168,6 +169,12 @@ void check_body(const v1::SetDisplay& display, Checker& check) {
                   "must be -30..30");
     check.require(display.scale_maximum() >= 0.0F, "setDisplay.scaleMaximum",
                   "must not be negative");
+}
+
+void check_body(const v1::SetDepths& depths, Checker& check) {
+    const std::uint32_t columns = depths.columns();
+    check.require(columns == 0 || (columns >= 2 && columns <= kMaxDepthColumns),
+                  "setDepths.columns", "must be 0 or 2..512");
 }
 
 void check_body(const v1::MoveObject& move, Checker& check) {
@@ -313,6 +320,8 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
             return check_body(message.probe_grid(), check);
         case Body::kOpenScene:
             return check_body(message.open_scene(), check);
+        case Body::kSetDepths:
+            return check_body(message.set_depths(), check);
         case Body::kFollow:
         case Body::kPing:
         case Body::kUndo:

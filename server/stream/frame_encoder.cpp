@@ -25,6 +25,17 @@ std::vector<std::uint8_t> encode(JpegEncoder& jpeg, const EncodeJob& job) {
     return jpeg.encode(pixels, static_cast<int>(job.header.quality()), chroma);
 }
 
+/// Puts the depths behind the image, and their figures into the header.
+void append_depths(const DepthMap& depths, v1::FrameHeader& header,
+                   std::vector<std::uint8_t>& bytes) {
+    const EncodedDepths encoded = encode_depths(depths);
+    header.set_depth_bytes(static_cast<std::uint32_t>(encoded.bytes.size()));
+    header.set_depth_columns(depths.columns);
+    header.set_depth_rows(depths.rows);
+    header.set_depth_nearest(encoded.nearest);
+    bytes.insert(bytes.end(), encoded.bytes.begin(), encoded.bytes.end());
+}
+
 }  // namespace
 
 FrameEncoder::FrameEncoder(int threads, Deliver deliver) : deliver_(std::move(deliver)) {
@@ -95,6 +106,9 @@ void FrameEncoder::work() {
         lock.unlock();
         try {
             auto bytes = encode(jpeg, job);
+            if (!job.depths.empty()) {
+                append_depths(job.depths, job.header, bytes);
+            }
             deliver_({viewer, std::move(job.header), std::move(bytes)});
         } catch (const std::exception& error) {
             spdlog::error("frame {} of viewer {} was dropped: {}", job.header.frame(), viewer,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "raybundle.pb.h"
+#include "stream/depth_code.h"
 #include "stream/viewer_id.h"
 
 namespace raybundle {
@@ -23,12 +24,13 @@ struct EncodeJob {
     v1::FrameHeader header;
     std::vector<std::uint8_t> pixels;  ///< width * height * 4: R, G, B, ignored; sRGB
     bool bottom_up = true;             ///< first row is the lowest, as OpenGL reads it
+    DepthMap depths;                   ///< to go with it; empty: none
 };
 
 struct EncodedFrame {
     ViewerId viewer = 0;
     v1::FrameHeader header;
-    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> bytes;  ///< the image, then the depths
 };
 
 /// Encodes frames on its own threads. At most one job of a viewer runs and one waits; a newer one

@@ -86,6 +86,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
       detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
+      depths({"view_depths.comp"}),
       hemicube_pixels(make_receive_hemicube(scene, variant)),
       hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
       layers_pixels(make_receive("transport_layers_pixels.comp", scene, variant)),
@@ -481,6 +482,14 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
                              frame_bytes_);
 }
 
+void ViewerImage::request_depths(std::uint32_t columns) {
+    const glm::uvec2 points = DepthGrid::points_for(columns, size_);
+    if (!depth_grid_ || depth_grid_->points() != points) {
+        depth_grid_.emplace(points);
+    }
+    depth_grid_->request(programs_.depths, depths_, near_share * scene_.diameter());
+}
+
 void ViewerImage::refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight) {
     ends_ = &ends;
     camera_ = camera;
@@ -668,7 +677,8 @@ float ViewerImage::automatic_exposure() const {
 
 std::size_t ViewerImage::bytes() const {
     std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes() +
-                      (continued_ ? continued_->bytes() : 0);
+                      (continued_ ? continued_->bytes() : 0) +
+                      (depth_grid_ ? depth_grid_->bytes() : 0);
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
           &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {

@@ -16,6 +16,7 @@
 #include "transport/bundle_receiver.h"
 #include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
+#include "view/depth_grid.h"
 #include "view/edge_filter.h"
 #include "view/error_interval.h"
 #include "view/specular_groups.h"
@@ -32,9 +33,18 @@ struct ColourScale {
     bool isolines = false;
 };
 
+/// How a picture for people shows radiance. exposure: EV.
+struct PictureLook {
+    DisplayMode mode = DisplayMode::photo;
+    float exposure = 0.0F;
+    ColourScale scale;
+};
+
 /// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).
 struct ImageStatistics {
-    bool known = false;  ///< enough samples for an estimate
+    /// Enough samples for an estimate, in this picture and since objects, lights or materials
+    /// changed.
+    bool known = false;
     /// Taken since camera or scene changed when this was requested; 0: it is of before that.
     std::uint64_t samples = 0;
     double relative_error = 1.0;  ///< estimated relRMSE of luminance
@@ -80,6 +90,7 @@ struct ViewPrograms {
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
+    ShaderProgram depths;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
@@ -155,6 +166,10 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] bool finished() const { return frame_readback_->ready(); }
     /// RGBA bytes, row 0 at the top; valid until the next compose().
     std::span<const std::uint8_t> take();
+    /// Queues the depths of the picture on a grid with so many columns, for whoever wants them.
+    void request_depths(std::uint32_t columns);
+    /// Of the depths that were requested last; null before.
+    [[nodiscard]] DepthGrid* depths() { return depth_grid_ ? &*depth_grid_ : nullptr; }
     /// Linear radiance of all pixels, cd/m², row 0 at the top: at their centres, or once smoothed()
     /// means over their areas. Synchronous.
     std::vector<glm::vec4> read_radiance();
@@ -212,6 +227,7 @@ class ViewerImage : public BundleReceiver {
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void restart_batches();
+    void begin_change();
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
     void measure_detail();
@@ -242,6 +258,7 @@ class ViewerImage : public BundleReceiver {
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<EdgeFilter> edges_;           // always
+    std::optional<DepthGrid> depth_grid_;       // only for who asks for depths
     std::optional<AffectedTiles> affected_;     // always
     std::optional<SpecularGroups> specular_;    // only where the scene is specular
     std::unique_ptr<ContinuedView> continued_;  // only where it has mirrors or glass

@@ -12,7 +12,14 @@ void ViewerImage::clear_increments() const {
     }
 }
 
+/// What was known of the error was of another scene.
+void ViewerImage::begin_change() {
+    statistics_.known = false;
+    requested_samples_ = 0;
+}
+
 void ViewerImage::begin_special() {
+    begin_change();
     if (has_picture_ && store_.first_shot() == nullptr) {
         refresh_moved();
     } else {
@@ -118,6 +125,7 @@ void ViewerImage::receive_special(const ViewPrograms::Receive& programs, const C
 
 void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::uint32_t> reflecting,
                                  bool redraw) {
+    begin_change();
     if (redraw) {
         refresh_geometry(1.0F);
     }

@@ -30,6 +30,15 @@ describe('a binary message', () => {
         assert.deepEqual([...image], [9, 8]);
     });
 
+    it('may have depths at its end', () => {
+        const {image, depths} = parseFrame(message({frame: 7, codec: 'PNG', depthBytes: 2}, [9, 8, 7]));
+        assert.deepEqual([[...image], [...depths]], [[9], [8, 7]]);
+        assert.equal(parseFrame(frame(1)).depths.length, 0);
+        for (const depthBytes of [4, -1]) {
+            assert.throws(() => parseFrame(message({frame: 7, codec: 'PNG', depthBytes}, [9, 8, 7])));
+        }
+    });
+
     it('is refused where it is no frame', () => {
         const tooLong = message({frame: 1, codec: 'JPEG'});
         new DataView(tooLong).setUint32(0, 4000, true);

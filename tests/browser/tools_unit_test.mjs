@@ -6,6 +6,7 @@ import {describe, it} from 'node:test';
 
 import {goTo, look, project, walk} from '../../client_web/camera.js';
 import * as colour from '../../client_web/colour.js';
+import {choicesOf} from '../../client_web/compare.js';
 import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf} from '../../client_web/grid.js';
 import {History} from '../../client_web/history.js';
 import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
@@ -286,6 +287,22 @@ describe('changes', () => {
         assert.equal(changeOf({change: 0.09}), '');
         assert.equal(changeOf({}), '');
         assert.equal(changeOf({change: -0.24}), '−24 % since');
+    });
+});
+
+describe('what can be compared with', () => {
+    const entry = (epoch, before, text) => ({time: new Date(), epoch, before, by: 'Ann', text});
+
+    it('is the light before each change, newest first, and as it was loaded', () => {
+        assert.deepEqual(choicesOf([], 0), []);
+        assert.deepEqual(choicesOf([], 4), [{epoch: 0, name: 'as it was loaded'}]);
+        const entries = [entry(1, 0, 'set lamp'), entry(9, 1, 'moved box')];
+        assert.deepEqual(choicesOf(entries, 9), [
+            {epoch: 1, name: 'before Ann moved box'},
+            {epoch: 0, name: 'before Ann set lamp'},
+        ]);
+        const later = choicesOf([entry(9, 8, 'moved box')], 9);
+        assert.deepEqual(later.map(({epoch}) => epoch), [8, 0]);
     });
 });
 

@@ -153,6 +153,28 @@ TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
     }
 }
 
+TEST_F(ViewersTest, DepthsGoToWhoAsksForThemAndToNobodyElse) {
+    JsonViewer asks(daemon_->port());
+    JsonViewer other(daemon_->port());
+    asks.join("", 160, 120);
+    other.join("", 160, 120);
+    EXPECT_TRUE(asks.request({{"setDepths", {{"columns", 41}}}}).contains("ok"));
+    const auto has_depths = [](const Json& frame) { return frame.contains("depthBytes"); };
+    const Json frame = asks.next_frame(has_depths);
+    EXPECT_EQ(frame.value("depthColumns", 0), 41);
+    EXPECT_EQ(frame.value("depthRows", 0), 31);
+    EXPECT_GT(frame.value("depthNearest", 0.0), 7.5);  // the room begins there
+    EXPECT_LT(frame.value("depthNearest", 0.0), 9.5);
+    EXPECT_LT(frame.value("depthBytes", 0), 2 * 41 * 31 + 64);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_FALSE(has_depths(other.next_frame([](const Json&) { return true; })));
+    }
+    asks.request({{"setDepths", {{"columns", 0}}}});
+    EXPECT_FALSE(asks.next_frame([&](const Json& f) { return !has_depths(f); }).empty());
+    EXPECT_EQ(asks.request({{"setDepths", {{"columns", 1}}}}).at("error").at("code"),
+              "INVALID_ARGUMENT");
+}
+
 TEST(SilentViewersTest, WhoNeverAcknowledgesGetsOneFrameAndHoldsNoPicture) {
     constexpr double kPictures = 6.0;
     constexpr double kLeastBytes = 1280.0 * 720.0 * 60.0;  // of one picture

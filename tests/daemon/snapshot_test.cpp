@@ -113,5 +113,80 @@ TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
     EXPECT_TRUE(answer.contains("snapshotReady")) << answer.dump();
 }
 
+/// Mean luminance of a picture whose radiance is read from an address.
+double mean_luminance(const std::string& exr) {
+    const TestFolder folder;
+    folder.write("picture.exr", exr);
+    const LinearPicture picture = read_exr(folder.path("picture.exr"));
+    double sum = 0.0;
+    for (const glm::vec3& pixel : picture.radiance) {
+        sum += 0.2126 * pixel.r + 0.7152 * pixel.g + 0.0722 * pixel.b;
+    }
+    return sum / static_cast<double>(picture.radiance.size());
+}
+
+Json of_epoch(int epoch, const std::string& format = "EXR") {
+    Json request = snapshot(format, width, height, 0.08);
+    request["snapshot"]["epoch"] = epoch;
+    return request;
+}
+
+TEST_F(SnapshotTest, OfAnEarlierEpochShowsTheLightOfThatTime) {
+    JsonViewer viewer(daemon_.port());
+    const double before =
+        viewer.join("", width, height)["welcome"]["scene"]["lights"][0]["intensity"];
+    be_content(viewer);
+    viewer.request({{"setLight", {{"light", 1}, {"intensity", 0.25 * before}}}});
+    viewer.request({{"setLight", {{"light", 1}, {"intensity", 0.5 * before}}}});
+    const Json loaded = viewer.request(of_epoch(0)).at("snapshotReady");
+    const Json first = viewer.request(of_epoch(1)).at("snapshotReady");
+    const Json present = viewer.request(of_epoch(2)).at("snapshotReady");
+    EXPECT_EQ(loaded.at("epoch"), 0);
+    EXPECT_EQ(first.at("epoch"), 1);
+    EXPECT_EQ(present.at("epoch"), 2);
+    EXPECT_LE(loaded.at("relativeError").get<double>(), 0.08);
+    // All light comes from this one, so pictures are proportional to it.
+    const double bright = mean_luminance(get(loaded.at("url")));
+    EXPECT_NEAR(mean_luminance(get(first.at("url"))) / bright, 0.25, 0.25 * 0.08);
+    EXPECT_NEAR(mean_luminance(get(present.at("url"))) / bright, 0.5, 0.5 * 0.08);
+    // The present scene has not been touched.
+    viewer.request({{"setLight", {{"light", 1}, {"on", true}}}});
+    EXPECT_EQ(viewer.request(of_epoch(9)).at("error").at("code"), "INVALID_ARGUMENT");
+}
+
+/// Changes meanwhile neither disturb it nor show in it.
+TEST_F(SnapshotTest, OfAnEarlierEpochIsFinishedWhileTheSceneChanges) {
+    JsonViewer viewer(daemon_.port());
+    viewer.join("", width, height);
+    be_content(viewer);
+    const auto move = [&](double x) {
+        return Json{{"moveObject",
+                     {{"object", 2},
+                      {"transform", {{"translation", {{"x", x}, {"y", 0.825}, {"z", 1.7}}}}}}}};
+    };
+    viewer.request(move(2.0));
+    Json earlier = of_epoch(0, "PNG");
+    earlier["id"] = 5;
+    viewer.send(earlier);
+    for (int i = 1; i <= 4; ++i) {
+        Json change = move(2.0 + 0.1 * i);
+        change["id"] = 10 + i;
+        viewer.send(change);
+    }
+    bool answered = false;
+    int changed = 0;
+    while (!answered || changed < 4) {
+        const Json message = viewer.next([](const Json& m) { return m.contains("replyTo"); });
+        ASSERT_FALSE(message.empty());
+        changed += message.contains("sceneChanged") ? 1 : 0;
+        if (message["replyTo"] == 5) {
+            ASSERT_TRUE(message.contains("snapshotReady")) << message.dump();
+            EXPECT_EQ(message["snapshotReady"]["epoch"], 0);
+            EXPECT_TRUE(get(message["snapshotReady"]["url"]).starts_with("\x89PNG"));
+            answered = true;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace raybundle

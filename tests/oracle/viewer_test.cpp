@@ -168,5 +168,82 @@ TEST(ViewerImage, ProbeReadsIlluminanceAndPlace) {
     EXPECT_NEAR(glm::length(probe->normal), 1.0F, 1e-3F);
 }
 
+TEST(ViewerImage, DepthsAreThoseOfTheSurfaces) {
+    FurnaceView view(0.5F, {}, 800, {120, 90});
+    Camera camera;
+    camera.eye = {2.0F, 1.5F, 0.5F};
+    camera.target = {2.0F, 1.5F, 4.0F};
+    camera.vertical_fov = 1.4F;
+    view.image->set_camera(camera);
+    EXPECT_EQ(view.image->depths(), nullptr);
+    view.image->request_depths(31);
+    DepthGrid& grid = *view.image->depths();
+    ASSERT_EQ(grid.points(), glm::uvec2(31, 24));
+    const auto inverse = grid.take();
+    ASSERT_EQ(inverse.size(), 31U * 24U);
+    // Walls x = 0 and 4, floor 0, ceiling 3, far wall z = 5: the nearest that the ray meets.
+    const double reach = std::tan(0.7);
+    for (unsigned row = 0; row < 24; ++row) {
+        for (unsigned column = 0; column < 31; ++column) {
+            const double x = reach * 120.0 / 90.0 * (2.0 * column / 30.0 - 1.0);
+            const double y = reach * (1.0 - 2.0 * row / 23.0);
+            const double expected = std::max({1.0 / 4.5, std::abs(x) / 2.0, std::abs(y) / 1.5});
+            // A point lies somewhere in its pixel: 1.3 / 45 is a pixel's height at distance 1.
+            EXPECT_NEAR(static_cast<double>(inverse[row * 31 + column]), expected, 0.02)
+                << column << ", " << row;
+        }
+    }
+}
+
+TEST(ViewerImage, GridsOfDepthsHaveSquareCellsAndBoundedSizes) {
+    EXPECT_EQ(DepthGrid::points_for(161, {800, 600}), glm::uvec2(161, 121));
+    EXPECT_EQ(DepthGrid::points_for(512, {64, 48}), glm::uvec2(64, 48));
+    EXPECT_EQ(DepthGrid::points_for(512, {16, 2160}), glm::uvec2(16, 1024));
+    EXPECT_EQ(DepthGrid::points_for(2, {1, 1}), glm::uvec2(2, 2));
+}
+
+/// What is known of the error belongs to a scene: after a change nothing is, until samples have
+/// come.
+TEST(ViewerImage, AfterAChangeTheErrorIsUnknownUntilThereAreSamples) {
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.6F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_box({0, 0, 0}, {4, 3, 5}, true, 6, wall);
+    b.add_quad({1.5F, 2.9F, 2}, {1, 0, 0}, {0, 0, 1}, 2, 2, lamp);
+    SolverSettings settings;
+    settings.coarse = {128, 400};
+    Solver solver(b.scene, b.mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, {64, 48});
+    Camera camera;
+    camera.eye = {0.5F, 1.5F, 0.5F};
+    camera.target = {3.0F, 0.5F, 4.0F};
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    const auto known_after = [&](int iterations) {
+        for (int i = 0; i < iterations; ++i) {
+            solver.step(receivers);
+        }
+        image.request_statistics();
+        image.finish_statistics();
+        return image.statistics().known;
+    };
+    EXPECT_TRUE(known_after(64));
+    b.scene.materials[lamp].emission *= glm::vec3(0.2F, 0.5F, 0.9F);
+    const std::vector<std::uint32_t> materials = {lamp};
+    solver.change_surfaces(b.scene, b.mesh, materials, {}, receivers);
+    EXPECT_FALSE(image.statistics().known);
+    while (solver.correcting()) {
+        solver.step(receivers);
+    }
+    EXPECT_FALSE(known_after(0));
+    EXPECT_FALSE(known_after(4));
+    EXPECT_TRUE(known_after(2 * BATCHES));
+    // A camera that moves shows the same scene.
+    camera.target.x = 2.8F;
+    image.set_camera(camera);
+    EXPECT_TRUE(known_after(0));
+}
+
 }  // namespace
 }  // namespace raybundle

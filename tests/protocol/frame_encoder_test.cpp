@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <turbojpeg.h>
+#include <zlib.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -181,6 +182,99 @@ TEST(FrameEncoder, FramesOfAViewerStayInOrder) {
     }
     EXPECT_TRUE(ordered);
     EXPECT_EQ(last, 200U);
+}
+
+/// What a client does with the bytes; see protocol/README.md.
+std::vector<double> decode_depths(const v1::FrameHeader& header, const Bytes& bytes) {
+    const std::size_t columns = header.depth_columns();
+    const std::size_t points = columns * header.depth_rows();
+    Bytes rest(2 * points);
+    uLongf size = rest.size();
+    EXPECT_EQ(uncompress(rest.data(), &size, bytes.data(), bytes.size()), Z_OK);
+    EXPECT_EQ(size, rest.size());
+    std::vector<std::uint16_t> values(points);
+    std::vector<double> inverse(points);
+    const auto at = [&](std::size_t column, std::size_t row) {
+        return column == 0 || row == 0 ? 0 : int{values[(row - 1) * columns + column - 1]};
+    };
+    for (std::size_t i = 0; i < points; ++i) {
+        const int zigzag = rest[i] | (rest[points + i] << 8);
+        const int difference = (zigzag >> 1) ^ -(zigzag & 1);
+        const std::size_t column = i % columns + 1;
+        const std::size_t row = i / columns + 1;
+        const int left = at(column - 1, row);
+        values[i] = static_cast<std::uint16_t>(left + at(column, row - 1) -
+                                               at(column - 1, row - 1) + difference);
+        inverse[i] = values[i] / 65535.0 / static_cast<double>(header.depth_nearest());
+    }
+    return inverse;
+}
+
+EncodedFrame encoded_with(DepthMap depths) {
+    std::promise<EncodedFrame> promise;
+    FrameEncoder encoder(1, [&](EncodedFrame frame) { promise.set_value(std::move(frame)); });
+    EncodeJob job{7, {}, two_colours(32, 16), false, std::move(depths)};
+    job.header.set_codec(v1::JPEG);
+    job.header.set_quality(80);
+    job.header.set_width(32);
+    job.header.set_height(16);
+    encoder.submit(std::move(job));
+    return promise.get_future().get();
+}
+
+/// A floor seen at a slant, a box before it, and nothing above.
+DepthMap floor_and_box() {
+    DepthMap depths{160, 120, {}};
+    for (unsigned row = 0; row < depths.rows; ++row) {
+        for (unsigned column = 0; column < depths.columns; ++column) {
+            const bool box = column > 40 && column < 90 && row > 30 && row < 80;
+            const float floor = 0.004F * static_cast<float>(row) - 0.1F;
+            depths.inverse.push_back(box ? 0.5F : std::max(floor, 0.0F));
+        }
+    }
+    return depths;
+}
+
+TEST(FrameEncoder, DepthsFollowTheImageAndComeOutAsTheyWentIn) {
+    const DepthMap depths = floor_and_box();
+    const EncodedFrame frame = encoded_with(depths);
+    const std::size_t length = frame.header.depth_bytes();
+    ASSERT_LT(length, frame.bytes.size());
+    EXPECT_EQ(frame.header.depth_columns(), depths.columns);
+    EXPECT_EQ(frame.header.depth_rows(), depths.rows);
+    EXPECT_NEAR(static_cast<double>(frame.header.depth_nearest()), 1.0 / 0.5, 1e-6);
+    EXPECT_LT(length, 3000U) << "planes and silhouettes are all there is to tell";
+    const auto middle = frame.bytes.end() - static_cast<std::ptrdiff_t>(length);
+    const auto inverse = decode_depths(frame.header, Bytes(middle, frame.bytes.end()));
+    for (std::size_t i = 0; i < inverse.size(); ++i) {
+        ASSERT_NEAR(inverse[i], static_cast<double>(depths.inverse[i]), 0.5 / 65535.0) << i;
+    }
+    EXPECT_EQ(decode_jpeg(Bytes(frame.bytes.begin(), middle), 32, 16).size(), 32U * 16U * 3U);
+}
+
+TEST(FrameEncoder, DepthsOfNothingAtAllAndOfNoiseAreDepthsToo) {
+    DepthMap nothing{3, 2, std::vector<float>(6, 0.0F)};
+    const EncodedFrame empty = encoded_with(nothing);
+    EXPECT_EQ(empty.header.depth_nearest(), 0.0F);
+    EXPECT_GT(empty.header.depth_bytes(), 0U);
+    DepthMap noise{64, 64, {}};
+    std::uint32_t state = 1;
+    for (int i = 0; i < 64 * 64; ++i) {
+        state = state * 1664525U + 1013904223U;
+        noise.inverse.push_back(static_cast<float>(state >> 8U) * 0x1p-24F * 7.0F);
+    }
+    const EncodedFrame frame = encoded_with(noise);
+    const auto middle = frame.bytes.end() - static_cast<std::ptrdiff_t>(frame.header.depth_bytes());
+    const auto inverse = decode_depths(frame.header, Bytes(middle, frame.bytes.end()));
+    for (std::size_t i = 0; i < inverse.size(); ++i) {
+        ASSERT_NEAR(inverse[i], static_cast<double>(noise.inverse[i]), 7.0 / 65535.0) << i;
+    }
+}
+
+TEST(FrameEncoder, WithoutDepthsAFrameSaysNothingOfThem) {
+    const EncodedFrame frame = encoded_with({});
+    EXPECT_FALSE(frame.header.has_depth_bytes());
+    EXPECT_FALSE(frame.header.has_depth_nearest());
 }
 
 }  // namespace
