@@ -9,8 +9,8 @@
 namespace raybundle {
 
 /// Per triangle a mask of its creases: bit k is set where the edge opposite to vertex k has no
-/// neighbour in its object that goes on within 30 degrees, or where more than two triangles meet. See
-/// shaders/crease.glsl.
+/// neighbour in its object that goes on within 30 degrees, or where more than two triangles meet.
+/// See shaders/crease.glsl.
 std::vector<std::uint32_t> find_creases(const PatchMesh& mesh);
 
 }  // namespace raybundle
