@@ -74,7 +74,7 @@ export class RaybundleApp extends EventTarget {
         this.mover = new ObjectMover(this.client);
         this.overlay = new Overlay(byId('overlay', SVGSVGElement));
         this.readouts = new Readouts();
-        this.readouts.redraw = this.picture.redrawMs;
+        this.readouts.picture = this.picture;
         this.status = new Status(this.client);
         this.#listenToServer();
         this.#listenToUser();
@@ -306,7 +306,7 @@ export class RaybundleApp extends EventTarget {
         askForDepths(this.client, this.picture);
         this.readouts.reset();
         this.camera.fit(welcome.scene.bounds);
-        this.status.showWelcome(welcome, this.scene.title, this.frame !== null);
+        this.status.showWelcome(welcome, this.scene.title, this.frame !== null && sameScene);
         if (!sameScene && this.#firstView) {
             this.camera.set(this.#firstView);
             this.#firstView = null;

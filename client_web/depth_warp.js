@@ -11,8 +11,8 @@ import {add, dot, scale, sub} from './vector.js';
  * @typedef {import('./depths.js').Depths} Depths
  */
 
-/** Columns of depths to ask the server for: a vertex for some eight pixels. */
-export const DEPTH_COLUMNS = 160;
+/** Columns of depths to ask the server for: a vertex for some four pixels. */
+export const DEPTH_COLUMNS = 256;
 
 /** Nearer to the new eye than this share of the nearest depth nothing is drawn. */
 const NEAREST = 0.05;
@@ -86,7 +86,7 @@ export function gridTriangles(columns, rows) {
     return indices;
 }
 
-/** One canvas that shows warped pictures. Needs WebGL 2. */
+/** One canvas that shows warped pictures. Needs WebGL 2, and a GPU. */
 export class DepthWarp {
     /** @type {WebGL2RenderingContext} */
     #gl;
@@ -97,13 +97,14 @@ export class DepthWarp {
 
     /**
      * @param {HTMLCanvasElement} canvas
-     * @throws {Error} if the browser offers no WebGL 2
+     * @throws {Error} if the browser offers none
      */
     constructor(canvas) {
         this.canvas = canvas;
-        const gl = canvas.getContext('webgl2', {antialias: false, powerPreference: 'low-power'});
+        // A processor would take the time that the next picture needs.
+        const gl = canvas.getContext('webgl2', {antialias: false, failIfMajorPerformanceCaveat: true});
         if (!gl) {
-            throw new Error('This browser offers no WebGL 2.');
+            throw new Error('This browser offers no WebGL 2 that a GPU draws.');
         }
         this.#gl = gl;
         canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());

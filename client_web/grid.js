@@ -134,3 +134,14 @@ export function csvCell(text) {
 
 /** @type {(grid: Grid) => number} */
 export const cellSide = ({stepX, stepY}) => Math.min(length(stepX), length(stepY));
+
+/**
+ * What the points of a grid are typically known to.
+ *
+ * @param {number[]} relativeErrors  standard errors; -1: not known
+ * @returns {number | null} their median; null: none is known
+ */
+export function typicalError(relativeErrors) {
+    const known = relativeErrors.filter((error) => error >= 0).sort((a, b) => a - b);
+    return known.length > 0 ? known[known.length >> 1] : null;
+}

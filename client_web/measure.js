@@ -3,7 +3,8 @@
 
 import {onScale, turbo} from './colour.js';
 import {byId, fileName, saveFile, showValue, smallButton} from './elements.js';
-import {csvCell, gridCsv, gridOn, pointsOf, summaryOf} from './grid.js';
+import {csvCell, gridCsv, gridOn, pointsOf, summaryOf, typicalError} from './grid.js';
+import {SETTLED} from './readouts.js';
 import {illuminance as inLux, inUnit, plusMinus, threeDigits} from './units.js';
 import {length, sub} from './vector.js';
 
@@ -29,7 +30,7 @@ const SVG = 'http://www.w3.org/2000/svg';
 export class Measuring {
     /** @type {MeasuredPoint[]} */
     points = [];
-    /** @type {{grid: import('./grid.js').Grid, result: import('./protocol.js').ProbeGridResult, object: string} | null} */
+    /** @type {{grid: import('./grid.js').Grid, result: import('./protocol.js').ProbeGridResult, object: string, settled: boolean} | null} */
     grid = null;
     /** @type {IlluminanceUnit} */
     unit = 'lx';
@@ -97,7 +98,8 @@ export class Measuring {
             byId('grid-state', HTMLElement).textContent = 'This server cannot measure grids.';
             return;
         }
-        this.grid = {grid, result, object: object?.name ?? 'surface'};
+        const settled = this.app.stats.settled >= SETTLED;
+        this.grid = {grid, result, object: object?.name ?? 'surface', settled};
         this.#showGrid();
     }
 
@@ -215,7 +217,11 @@ export class Measuring {
             const total = grid.columns * grid.rows;
             const step = length(grid.stepX).toFixed(2);
             const seen = `${summary?.measured ?? 0} of ${total} points are in view`;
-            state.textContent = `${object}: ${grid.columns} × ${grid.rows} points, ${step} m apart. ${seen}.`;
+            const error = plusMinus(typicalError(this.grid.result.relativeError));
+            const later = this.grid.settled ? '' : ' The light was still settling: measure again later.';
+            state.textContent =
+                `${object}: ${grid.columns} × ${grid.rows} points, ${step} m apart. ${seen}, ` +
+                `typically ${error}.${later}`;
         }
         if (summary) {
             const show = (/** @type {number} */ lux) =>

@@ -24,7 +24,7 @@ export const PICTURE_SIZES = Object.freeze({
 /** @typedef {keyof typeof PICTURE_SIZES} PictureSize */
 
 const MIN_SIDE = 16;
-/** One redraw in so many is measured: the page waits for it. */
+/** One redraw in so many is measured, and the first ones but one: the page waits for it. */
 const MEASURED = 16;
 const REDRAWS_KEPT = 9;
 const FEWEST_MEASURED = 3;
@@ -75,8 +75,8 @@ export class Picture extends EventTarget {
     #redraws = 0;
     /** What a redraw takes, as measured now and then, until it is done. */
     redrawMs = new Samples(REDRAWS_KEPT);
-    /** Where redraws take longer, because a processor draws them, pictures are flat ones, ms. */
-    slowestRedrawMs = 60;
+    /** Where redraws take longer, pictures are flat ones: there would be no 60 of them a second, ms. */
+    slowestRedrawMs = 12;
 
     /**
      * @param {HTMLElement} element
@@ -169,8 +169,7 @@ export class Picture extends EventTarget {
      * @param {View} view  wanted now
      */
     warp(shown, view) {
-        const able = this.#depths !== null && this.#warp?.usable === true && !this.#slow;
-        const deep = able && !sameView(shown, view);
+        const deep = this.warping === 'by depth' && !sameView(shown, view);
         this.#wanted = deep ? {shown, view} : null;
         if (deep) {
             this.#throttle.run();
@@ -181,6 +180,11 @@ export class Picture extends EventTarget {
             this.canvas.style.transform = matrix ? cssMatrix(matrix, clientWidth, clientHeight) : '';
             this.#showWarped(false);
         }
+    }
+
+    /** How the picture gets to its place: `by depth` or `flat`. */
+    get warping() {
+        return this.#depths !== null && this.#warp?.usable && !this.#slow ? 'by depth' : 'flat';
     }
 
     get #slow() {
@@ -204,7 +208,8 @@ export class Picture extends EventTarget {
         }
         warp.draw(shown, this.shownAspect, view, this.aspect, this.#depths.nearest);
         this.#showWarped(true);
-        if (++this.#redraws % MEASURED === 0) {
+        const early = ++this.#redraws > 1 && this.#redraws <= 1 + FEWEST_MEASURED;
+        if (early || this.#redraws % MEASURED === 0) {
             warp.finish();
             this.redrawMs.add(performance.now() - start);
         }

@@ -57,7 +57,17 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Light[]} lights
  * @property {(View & {name: string})[]} cameras
  * @property {Material[]} materials
- * @property {{name: string, active: boolean, reason: string}[]} effects
+ * @property {Effect[]} effects
+ */
+
+/**
+ * @typedef {object} Effect
+ * @property {string} name
+ * @property {boolean} active
+ * @property {string} reason
+ * @property {string} [pathClass]  Heckbert's notation
+ * @property {number} [shareBound]  0..1
+ * @property {number} [bytesPerPatch]
  */
 
 /**

@@ -32,8 +32,8 @@ export class Readouts {
     /** Relative error that is wanted, where one is. @type {number | null} */
     target = null;
     #bar = byId('settled', HTMLProgressElement);
-    /** What redraws take in this page, ms. @type {Samples | null} */
-    redraw = null;
+    /** Where the last picture is redrawn. @type {import('./picture.js').Picture | null} */
+    picture = null;
 
     constructor() {
         setInterval(() => this.#refresh(), REFRESH_MS);
@@ -76,7 +76,9 @@ export class Readouts {
 
     /** The figures, for scripts. Delays are medians of the last ones, milliseconds. */
     get stats() {
-        const state = this.#solution ?? this.#header;
+        // What was said of the scene before its last change holds no more.
+        const outdated = (this.#solution?.epoch ?? -1) < (this.#header?.epoch ?? -1);
+        const state = outdated ? this.#header : (this.#solution ?? this.#header);
         return {
             framesPerSecond: this.#frames.rate(performance.now()),
             iterations: state?.iterations ?? null,
@@ -90,14 +92,16 @@ export class Readouts {
             latencyP95Ms: this.#latency.quantile(0.95),
             roundTripMs: this.#roundTrip.quantile(0.5),
             decodeMs: this.#decode.quantile(0.5),
-            redrawMs: this.redraw?.quantile(0.5) ?? null,
+            redrawMs: this.picture?.redrawMs.quantile(0.5) ?? null,
         };
     }
 
     #refresh() {
         const stats = this.stats;
         const {errorLow: low, errorHigh: high, settled} = stats;
-        showValue('error', percent(stats.relativeError));
+        const known = this.#header !== null || this.#solution !== null;
+        const unknown = known && stats.relativeError === null;
+        showValue('error', unknown ? 'not known yet' : percent(stats.relativeError));
         const hasInterval = low !== null && high !== null;
         showValue('errorInterval', hasInterval ? `${percent(low)} to ${percent(high)}` : '–');
         showValue('iterations', count(stats.iterations));
@@ -107,11 +111,12 @@ export class Readouts {
         showValue('latencyP95', milliseconds(stats.latencyP95Ms));
         showValue('roundTrip', milliseconds(stats.roundTripMs));
         showValue('decode', milliseconds(stats.decodeMs));
-        showValue('redraw', milliseconds(stats.redrawMs));
+        const warping = this.picture?.warping ?? 'flat';
+        const measured = warping === 'by depth' && stats.redrawMs !== null;
+        showValue('redraw', measured ? `${warping}, ${milliseconds(stats.redrawMs)}` : warping);
         showValue('settled', this.#header || this.#solution ? progress(settled) : '–');
         this.#bar.value = settled;
         this.#bar.classList.toggle('done', settled >= SETTLED);
-        const known = this.#header !== null || this.#solution !== null;
         const done = settled >= SETTLED;
         this.#state.dataset.settled = known && done ? 'yes' : 'no';
         const text = done ? 'Light has settled' : `Light is settling, ${progress(settled)}`;

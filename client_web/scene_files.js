@@ -29,6 +29,25 @@ export function openingText({name, stage, reason}) {
         : `${name} ${STAGES[stage] ?? 'is being opened'}.`;
 }
 
+/** The same as steps, for everybody who watches. */
+const STEPS = /** @type {Record<string, string>} */ ({
+    READING: 'step 1 of 3, reading',
+    PREPARING: 'step 2 of 3, cutting into patches',
+    COMPILING: 'step 3 of 3, the picture stands still for it',
+    READY: 'about to be shown',
+});
+
+/**
+ * How far a scene is that somebody opens, for everybody; empty where it is over.
+ *
+ * @param {SceneOpening} opening
+ * @param {boolean} mine
+ */
+export function progressText({name, byName, stage}, mine) {
+    const who = mine ? 'You open' : `${byName || 'Somebody'} opens`;
+    return STEPS[stage] ? `${who} ${name}: ${STEPS[stage]}` : '';
+}
+
 /**
  * Size for people.
  *
@@ -122,7 +141,9 @@ export class SceneFiles {
         const text = openingText(opening);
         const mine = opening.by === this.app.client.welcome?.viewer;
         this.#say(text, opening.stage === 'REJECTED');
-        if (!mine && ['READING', 'REJECTED'].includes(opening.stage)) {
+        const progress = progressText(opening, mine);
+        this.app.status.showOpening(progress ? opening.name : '', progress);
+        if (!mine && opening.stage === 'REJECTED') {
             const who = opening.byName ? `${opening.byName}: ` : '';
             this.app.status.notify(who + text);
         }

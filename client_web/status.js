@@ -26,9 +26,10 @@ const MAX_NOTICES = 3;
  *
  * @param {StateChange} change
  * @param {boolean} hasPicture
+ * @param {string} opening  scene for which connections are closed and come back; empty: none
  * @returns {{title: string, retry: string, asksForToken: boolean}}  `retry` names the button
  */
-export function bannerOf({state, code}, hasPicture) {
+export function bannerOf({state, code}, hasPicture, opening = '') {
     const asksForToken = state === 'refused' && code === 'UNAUTHENTICATED';
     if (asksForToken) {
         return {title: 'This server asks for an access token', retry: '', asksForToken};
@@ -37,7 +38,8 @@ export function bannerOf({state, code}, hasPicture) {
         const title = 'This page and the server speak different versions';
         return {title, retry: 'Load the page again', asksForToken};
     }
-    const lost = hasPicture ? 'The connection to the server is lost' : 'Waiting for the server';
+    const away = hasPicture ? 'The connection to the server is lost' : 'Waiting for the server';
+    const lost = opening ? `${opening} is about to be shown` : away;
     const titles = {
         idle: 'Disconnected',
         connecting: 'Connecting to the server',
@@ -56,6 +58,8 @@ export class Status {
     #notices = byId('notices', HTMLElement);
     #tokenForm = byId('token-form', HTMLFormElement);
     #preparing = byId('preparing', HTMLElement);
+    /** Scene that somebody opens; empty: none. */
+    #opening = '';
     /** @type {StateChange} */
     #shown = {state: 'idle', reason: '', code: '', retryAt: 0};
 
@@ -86,7 +90,7 @@ export class Status {
         this.#connection.dataset.state = state;
         byId('app', HTMLElement).classList.toggle('offline', state !== 'connected');
         byId('connection-text', HTMLElement).textContent = STATE_TEXTS[state];
-        const {title, retry, asksForToken} = bannerOf(change, hasPicture);
+        const {title, retry, asksForToken} = bannerOf(change, hasPicture, this.#opening);
         byId('banner-title', HTMLElement).textContent = title;
         this.#banner.hidden = state === 'connected';
         this.#banner.classList.toggle('aside', hasPicture);
@@ -106,6 +110,7 @@ export class Status {
         document.title = `${title} – Raybundle`;
         byId('scene-name', HTMLElement).textContent = title;
         showValue('server', welcome.server);
+        this.showOpening('', '');
         this.#preparing.hidden = hasPicture;
         const renderer = byId('renderer', HTMLElement);
         renderer.hidden = !welcome.softwareRendering;
@@ -116,7 +121,20 @@ export class Status {
 
     /** There is a picture now. */
     showPicture() {
-        this.#preparing.hidden = true;
+        this.#preparing.hidden = this.#opening === '';
+    }
+
+    /**
+     * Says how far a scene is that somebody opens.
+     *
+     * @param {string} name  empty: no scene is being opened any more
+     * @param {string} text
+     */
+    showOpening(name, text) {
+        this.#opening = name;
+        this.#preparing.hidden = name === '';
+        this.#preparing.classList.toggle('opening', name !== '');
+        byId('preparing-text', HTMLElement).textContent = text || 'Drawing the first picture';
     }
 
     /**

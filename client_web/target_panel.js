@@ -115,22 +115,46 @@ export class TargetPanel {
 }
 
 /**
- * Lists the effects plan: what the scene calls for, and why or why not.
+ * What an effect of the plan costs and brings.
  *
- * @param {{name: string, active: boolean, reason: string}[]} effects
+ * @param {import('./protocol.js').Effect} effect
+ * @returns {string} empty where nothing is to be said
+ */
+export function effectCost({active, pathClass, shareBound, bytesPerPatch}) {
+    if (!active) {
+        return '';
+    }
+    const share = shareBound !== undefined && shareBound < 1 ? `at most ${percent(shareBound)} of the light` : '';
+    const memory = bytesPerPatch ? `${bytesPerPatch} bytes a patch` : '';
+    return [pathClass ? `paths ${pathClass}` : '', memory, share].filter(Boolean).join(' · ');
+}
+
+/**
+ * Lists the effects plan: what the scene calls for, and why or why not; what is on first.
+ *
+ * @param {import('./protocol.js').Effect[]} effects
  */
 export function showEffects(effects) {
-    const rows = effects.map(({name, active, reason}) => {
+    const rank = (/** @type {import('./protocol.js').Effect} */ {active}) => (active ? 0 : 1);
+    const rows = [...effects].sort((a, b) => rank(a) - rank(b)).map((effect) => {
+        const {name, active, reason} = effect;
         const item = document.createElement('li');
         item.className = active ? 'on' : 'off';
         const title = document.createElement('b');
-        title.textContent = name;
+        title.textContent = name.replaceAll('-', ' ');
         const state = document.createElement('span');
         state.className = 'tag';
         state.textContent = active ? 'on' : 'off';
         const why = document.createElement('p');
         why.textContent = reason;
         item.append(title, state, why);
+        const cost = effectCost(effect);
+        if (cost) {
+            const figures = document.createElement('p');
+            figures.className = 'cost';
+            figures.textContent = cost;
+            item.append(figures);
+        }
         return item;
     });
     byId('effects', HTMLElement).replaceChildren(...rows);

@@ -42,12 +42,15 @@ export const illuminance = (lux, unit) => `${threeDigits(inUnit(lux, unit))} ${u
  * The 95 % interval's half width from a standard error.
  *
  * @param {number | null | undefined} standardError  relative
- * @returns {string} e.g. "± 2.3 %"; says so where it is not known
+ * @returns {string} e.g. "± 2.3 %"; says so where it is not known, or hardly
  */
 export function plusMinus(standardError) {
     if (typeof standardError !== 'number' || !(standardError >= 0)) {
         return '± ?';
     }
     const share = 196 * standardError;
+    if (share >= 100) {
+        return '± > 100 %';  // next to nothing is known: no digits
+    }
     return `± ${share < 9.95 ? share.toFixed(1) : share.toFixed(0)} %`;
 }

@@ -194,8 +194,8 @@ export class FirstHint {
     constructor(app) {
         const touch = matchMedia('(pointer: coarse)').matches;
         const text = touch
-            ? 'Drag to look around · pinch to come nearer · double-tap to go there'
-            : 'Drag to look around · W A S D to walk · double-click to go there';
+            ? 'Drag to look around · double-tap to go there · tap an object to move it'
+            : 'Drag to look around · W A S D to walk · click an object to move it';
         if (remembered('moved')) {
             return;
         }

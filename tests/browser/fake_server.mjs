@@ -81,7 +81,14 @@ export const WELCOME = {
         ],
         effects: [
             {name: 'sky', active: false, reason: 'no sky is set'},
-            {name: 'gloss', active: true, reason: 'one material is glossy'},
+            {
+                name: 'gloss',
+                active: true,
+                reason: 'one material is glossy',
+                pathClass: 'L(D|G)*E',
+                shareBound: 0.5,
+                bytesPerPatch: 56,
+            },
         ],
     },
     limits: {maxWidth: 3840, maxHeight: 2160, maxMessageBytes: 65536},

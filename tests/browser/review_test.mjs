@@ -203,6 +203,42 @@ describe('a review', () => {
         assert.ok(await page.isHidden('#compare-canvas'));
     });
 
+    it('shows the light before a change beside that of now, equally exposed', async () => {
+        const {page} = ann;
+        const dim = (factor) =>
+            page.evaluate(async (times) => {
+                const {client, scene} = window.raybundle;
+                const [{id, intensity}] = scene.lights;
+                await client.request({setLight: {light: id, intensity: intensity * times}}).answer;
+                return scene.epoch;
+            }, factor);
+        await page.waitForFunction(() => window.raybundle.link.shown !== null);
+        const epoch = await dim(0.25);
+        await page.waitForSelector(`#earlier-epoch option[value="${epoch - 1}"]`, {state: 'attached'});
+        await page.selectOption('#earlier-epoch', String(epoch - 1));
+        const automatic = await page.getAttribute('#auto-exposure', 'aria-pressed');
+        await page.click('#earlier');
+        await page.waitForSelector('#compare-canvas', {state: 'visible'});
+        assert.match(await page.textContent('#wipe-before'), /^before .*set /);
+        await frameWith(page, {epoch, settled: 0.9});
+        const brightness = await page.evaluate(() => {
+            const mean = (canvas) => {
+                const context = new OffscreenCanvas(16, 12).getContext('2d');
+                context.drawImage(canvas, 0, 0, 16, 12);
+                const {data} = context.getImageData(0, 0, 16, 12);
+                return data.filter((_, i) => i % 4 !== 3).reduce((sum, value) => sum + value, 0) / 576;
+            };
+            const before = document.getElementById('compare-canvas');
+            return {before: mean(before), now: mean(window.raybundle.picture.canvas)};
+        });
+        assert.ok(brightness.before > 1.3 * brightness.now, JSON.stringify(brightness));
+        await keepScreenshot(page, 'light_before');
+        await page.click('#compare');
+        assert.ok(await page.isHidden('#compare-canvas'));
+        assert.equal(await page.getAttribute('#auto-exposure', 'aria-pressed'), automatic);
+        await frameWith(page, {epoch: await dim(4)});
+    });
+
     it('shows two people each other, and one follows the other', async () => {
         ben = await openClient(browser, `${daemon.url}#name=Ben`, {...SMALL, colorScheme: 'light'});
         await frameWith(ben.page, {});

@@ -85,7 +85,20 @@ describe('the list of scenes', () => {
         assert.notEqual(await ann.page.textContent('#scene-name'), 'broken');
     });
 
-    it('opens a scene for everybody', async () => {
+    it('opens a scene for everybody, who see how far it is', async () => {
+        await ben.page.evaluate(() => {
+            window.seen = [];
+            const [pill, text, title] = ['preparing', 'preparing-text', 'banner-title'].map((id) =>
+                document.getElementById(id),
+            );
+            const note = () => {
+                window.seen.push(pill.hidden ? '' : text.textContent, title.textContent);
+            };
+            for (const element of [pill, text, title]) {
+                const what = {attributes: true, childList: true, characterData: true, subtree: true};
+                new MutationObserver(note).observe(element, what);
+            }
+        });
         await ann.page.click('#scene-file-list button[title="Atelier Süd.glb"]');
         for (const {page} of [ann, ben]) {
             await page.waitForFunction(() =>
@@ -94,5 +107,11 @@ describe('the list of scenes', () => {
             await frameWith(page, {});
         }
         await ann.page.waitForSelector('#scene-file-list button[title="Atelier Süd.glb"][aria-pressed="true"]');
+        const seen = await ben.page.evaluate(() => window.seen);
+        for (const part of ['Ann opens Atelier Süd.glb: step 1 of 3', 'step 2 of 3', 'step 3 of 3']) {
+            assert.ok(seen.some((text) => text.includes(part)), `${part}: ${seen.join(' | ')}`);
+        }
+        assert.ok(!seen.some((text) => text.includes('is lost')), seen.join(' | '));
+        await ben.page.waitForSelector('#preparing', {state: 'hidden'});
     });
 });

@@ -7,19 +7,19 @@ import {describe, it} from 'node:test';
 import {goTo, look, project, walk} from '../../client_web/camera.js';
 import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
-import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf} from '../../client_web/grid.js';
+import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf, typicalError} from '../../client_web/grid.js';
 import {History} from '../../client_web/history.js';
 import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
 import {frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
 import * as placement from '../../client_web/placement.js';
 import {escaped, reportHtml} from '../../client_web/report.js';
-import {openingText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
+import {openingText, progressText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
 import {PlacedObject} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
 import {bannerOf} from '../../client_web/status.js';
-import {duration, targetAt} from '../../client_web/target_panel.js';
+import {duration, effectCost, targetAt} from '../../client_web/target_panel.js';
 import * as units from '../../client_web/units.js';
 import {centre, length, sub, vec3} from '../../client_web/vector.js';
 import {cssMatrix, homography} from '../../client_web/view_warp.js';
@@ -41,6 +41,23 @@ describe('files of scenes', () => {
         const opening = {name: 'a.glb', by: 1, byName: '', reason: 'no'};
         assert.equal(openingText({...opening, stage: 'READING'}), 'a.glb is being read.');
         assert.equal(openingText({...opening, stage: 'REJECTED'}), 'a.glb cannot be opened: no');
+    });
+});
+
+describe('a scene that somebody opens', () => {
+    const opening = {name: 'a.glb', by: 2, byName: 'Ann', stage: 'PREPARING', reason: ''};
+
+    it('tells everybody how far it is, and nothing once it is over', () => {
+        assert.equal(progressText(opening, false), 'Ann opens a.glb: step 2 of 3, cutting into patches');
+        assert.match(progressText({...opening, stage: 'READING'}, true), /^You open a.glb: step 1 of 3/);
+        assert.match(progressText({...opening, byName: ''}, false), /^Somebody opens/);
+        assert.equal(progressText({...opening, stage: 'REJECTED'}, false), '');
+    });
+
+    it('is no lost connection', () => {
+        const away = {state: 'reconnecting', reason: '', code: '', retryAt: 0};
+        assert.equal(bannerOf(away, true, 'a.glb').title, 'a.glb is about to be shown');
+        assert.match(bannerOf(away, true).title, /lost/);
     });
 });
 
@@ -154,6 +171,13 @@ describe('a measuring grid', () => {
     });
 });
 
+describe('the error of a grid', () => {
+    it('is the median of what is known', () => {
+        assert.equal(typicalError([-1, 0.3, 0.1, -1, 0.2]), 0.2);
+        assert.equal(typicalError([-1]), null);
+    });
+});
+
 describe('placing an object', () => {
     const object = () =>
         new PlacedObject({
@@ -242,6 +266,7 @@ describe('colours and units', () => {
         assert.equal(units.illuminance(12345, 'lx'), '12\u202f345 lx');
         assert.equal(units.plusMinus(0.012), '± 2.4 %');
         assert.equal(units.plusMinus(undefined), '± ?');
+        assert.equal(units.plusMinus(0.6), '± > 100 %');
     });
 });
 
@@ -287,6 +312,16 @@ describe('changes', () => {
         assert.equal(changeOf({change: 0.09}), '');
         assert.equal(changeOf({}), '');
         assert.equal(changeOf({change: -0.24}), '−24 % since');
+    });
+});
+
+describe('the effects plan', () => {
+    it('says what an effect costs and how much light comes by it, where it is on', () => {
+        const glossy = {name: 'glossy', active: true, reason: '', pathClass: 'L(D|G)*E', shareBound: 1};
+        assert.equal(effectCost({...glossy, bytesPerPatch: 56}), 'paths L(D|G)*E · 56 bytes a patch');
+        assert.match(effectCost({...glossy, shareBound: 0.25, bytesPerPatch: 0}), /at most 25 % of the light$/);
+        assert.equal(effectCost({...glossy, active: false}), '');
+        assert.equal(effectCost({name: 'sky', active: true, reason: ''}), '');
     });
 });
 
