@@ -117,6 +117,9 @@ void describe_effects(const Scene& scene, v1::Scene* message) {
         out->set_name(effect.name);
         out->set_active(effect.active);
         out->set_reason(effect.reason);
+        out->set_path_class(effect.path_class);
+        out->set_share_bound(static_cast<float>(effect.share_bound));
+        out->set_bytes_per_patch(static_cast<std::uint32_t>(effect.bytes_per_patch));
     }
 }
 
