@@ -17,9 +17,9 @@ struct SpecialSettings {
     unsigned bounces = 6;        ///< bundles that carry the change on to other surfaces
     float noise = 0.15F;         ///< standard error of the increments to be content with, relative
     float relevant_noise = 0.01F;  ///< or with this, relative to the irradiance, where it is more
-    float most_weight = 1e30F;   ///< that any mean keeps, in samples
-    bool scissored = true;       ///< transfer differences only where they are
-    bool skipped = false;        ///< no phase at all: iterate on from the old solution
+    float most_weight = 1e30F;     ///< that any mean keeps, in samples
+    bool scissored = true;         ///< transfer differences only where they are
+    bool skipped = false;          ///< no phase at all: iterate on from the old solution
 };
 
 /// Where somebody waits for the first frame after a change: few bundles, and no carrying on, whose
