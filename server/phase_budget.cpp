@@ -9,8 +9,6 @@ namespace {
 constexpr double newest = 0.3;  // share of the newest phase in the mean
 /// Bundles beside which it pays to carry a change on: their noise would outweigh what few bring.
 constexpr unsigned first_stage_of_two = 24;
-/// Few bundles more than there is time for are better than half as many.
-constexpr unsigned enough_for_usual = 6;
 }  // namespace
 
 void PhaseBudget::note_phase(double milliseconds, unsigned bundles) {
@@ -23,15 +21,13 @@ void PhaseBudget::note_phase(double milliseconds, unsigned bundles) {
 
 SpecialSettings PhaseBudget::settings(double target, bool hurried) const {
     SpecialSettings settings = interactive_special();
-    const unsigned usual = settings.bundles;
     const unsigned carrying = SpecialSettings{}.bounces;
-    const double fit = bundle_ms_ > 0.0 ? deadline_ms / bundle_ms_ : usual;
+    const double fit = bundle_ms_ > 0.0 ? deadline_ms / bundle_ms_ : settings.bundles;
     auto affordable = static_cast<unsigned>(std::clamp(fit, 0.0, double{most_bundles + carrying}));
     if (!hurried && affordable >= first_stage_of_two + carrying) {
         settings.bounces = carrying;
         affordable -= carrying;
     }
-    settings.bundles = affordable >= enough_for_usual ? usual : least_bundles;
     settings.most_bundles =
         hurried ? settings.bundles : std::clamp(affordable, settings.bundles, most_bundles);
     if (target > 0.0) {

@@ -7,13 +7,12 @@ namespace raybundle {
 
 /// How many bundles a special phase (ch. 7.4) gets where somebody waits for the first frame after a
 /// change: as many as there is time for until its deadline, by what earlier phases took, of which
-/// the phase itself uses the more the more there is to correct. Has no clock of its own.
+/// the phase itself uses the more the more there is to correct. Never fewer than usual: of half as
+/// many streaks remain, where light was taken away, for seconds. Has no clock of its own.
 class PhaseBudget {
   public:
     /// Of the 150 ms from a change to its frame what is left beside composing and encoding it.
     static constexpr double deadline_ms = 110.0;
-    /// Fewer cannot tell how wrong they are.
-    static constexpr unsigned least_bundles = 4;
     /// More have no numbers of their own in the phase's sequences.
     static constexpr unsigned most_bundles = 64;
 

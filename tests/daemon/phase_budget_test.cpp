@@ -35,11 +35,10 @@ TEST(PhaseBudget, KeepsTheDeadlineOfAMediumOne) {
     }
 }
 
-TEST(PhaseBudget, HalvesTheBundlesOfALargeScene) {
-    EXPECT_EQ(with_bundles_of(14.0).settings(0.0, false).bundles, 8U);
+TEST(PhaseBudget, IsNeverLessThanTheUsualOne) {
     const SpecialSettings settings = with_bundles_of(30.0).settings(0.0, false);
-    EXPECT_EQ(settings.bundles, PhaseBudget::least_bundles);
-    EXPECT_EQ(settings.most_bundles, PhaseBudget::least_bundles);
+    EXPECT_EQ(settings.bundles, interactive_special().bundles);
+    EXPECT_EQ(settings.most_bundles, settings.bundles);
     EXPECT_EQ(settings.bounces, 0U);
 }
 
