@@ -74,6 +74,19 @@ def haproxy(example, folder, port, backend):
     return ["haproxy", "-db", "-f", str(folder / "haproxy.cfg")]
 
 
+def wait_until_healthy(port, seconds=30.0):
+    """Until the server has a solution to show: a proxy that asks before takes it for broken."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)
+        connection.request("GET", "/healthz")
+        if connection.getresponse().status == 200:
+            return
+        connection.close()
+        time.sleep(0.1)
+    sys.exit(f"the server is not healthy after {seconds} s")
+
+
 class Checks:
     def __init__(self, port, folder):
         self.port = port
@@ -178,6 +191,7 @@ def main():
         proxy = None
         try:
             wait_for_port(backend)
+            wait_until_healthy(backend)
             proxy = subprocess.Popen(command)
             wait_for_port(port, 20.0)
             checks = Checks(port, folder)
