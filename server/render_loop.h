@@ -85,7 +85,7 @@ class RenderLoop {
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
     void gather_all();
-    void begin_phase();
+    void begin_phase(Solver& solver);
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;

@@ -106,7 +106,7 @@ void RenderLoop::gather_all() {
 }
 
 /// Before a change is made: how much time its special phase has.
-void RenderLoop::begin_phase() {
+void RenderLoop::begin_phase(Solver& solver) {
     double target = 0.0;
     for (const auto& [id, session] : sessions_) {
         if (session->target_error() > 0.0) {
@@ -114,7 +114,7 @@ void RenderLoop::begin_phase() {
                 target > 0.0 ? std::min(target, session->target_error()) : session->target_error();
         }
     }
-    solver_->set_special(phase_budget_.settings(target, !changes_.empty()));
+    solver.set_special(phase_budget_.settings(target, !changes_.empty()));
     phase_slices_ = 0;
     phase_since_ = Clock::now();
 }
@@ -144,7 +144,7 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
         return;
     }
     gather_all();
-    begin_phase();
+    begin_phase(*solver_);
     solver_->move_objects(moves, receivers_);
     for (const PendingChange& p : pending) {
         announce(p);
@@ -172,7 +172,7 @@ void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     }
     if (covered) {
         gather_all();
-        begin_phase();
+        begin_phase(*solver_);
         solver_->change_surfaces(scene_, mesh_, materials, reflecting, receivers_);
     } else {
         refresh_surfaces(scene_, materials, mesh_);
@@ -200,6 +200,7 @@ void RenderLoop::replan(std::span<const std::uint32_t> reflecting) {
         }
     }
     gather_all();
+    begin_phase(*next);
     next->take_over(*solver_, reflecting, receivers_);
     solver_ = std::move(next);
     programs_ = std::move(programs);

@@ -11,6 +11,7 @@ layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { 
 layout(std430, binding = BINDING_INCREMENTS) readonly buffer IncrementBuffer { vec4 increments[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
+
 void main() {
     vec2 sum = vec2(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;

@@ -11,6 +11,7 @@ layout(std430, binding = BINDING_STAGE) readonly buffer StageBuffer { vec4 stage
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
 uniform float bundles;  // K
+
 void main() {
     vec4 sum = vec4(0.0);
     uint stride = gl_NumWorkGroups.x * 256u;

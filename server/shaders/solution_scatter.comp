@@ -8,6 +8,7 @@ layout(local_size_x = 256) in;
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 uniform uint patch_count;
+
 void main() {
     vec2 sum = vec2(0.0);
     uint scouts = (patch_count + scout_stride - 1u) / scout_stride;

@@ -12,6 +12,7 @@ layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(std430, binding = BINDING_FRAME) readonly buffer FrameBuffer { vec4 frame[]; };           // at the centres, row 0 at the top
 layout(std430, binding = BINDING_SMOOTHED) readonly buffer SmoothedBuffer { vec4 smoothed[]; };  // or the same
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
+
 const uint nothing = 0u;
 const uint surface = 1u;
 const uint emitter = 2u;

@@ -13,6 +13,7 @@ uniform float logarithm_floor;   // radiance units
 uniform float unsampled_error;   // relative error to assume where no batches exist yet
 uniform float variance_of_mean;  // of all batches over the mean square deviation of single ones: view/error_interval.h
 uniform float fresh_share;       // batches with less than this share of the weight say nothing
+
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
     if (at.x >= view.size.x || at.y >= view.size.y) {
