@@ -25,6 +25,7 @@ EFFECTS = {
     'mirror': 'specular-reflection',
     'glass': 'refraction',
     'caustics': 'caustics',
+    'clear_coat': 'clear-coat',
     'roughness_texture': 'textures',
     'normal_map': 'normal-maps',
     'diffuse_transmission': 'diffuse-transmission',

@@ -75,6 +75,9 @@ def _material_json(document: _Document, material: Material, area: float) -> dict
         extensions["KHR_materials_diffuse_transmission"] = {
             "diffuseTransmissionFactor": material.transmission,
             "diffuseTransmissionColorFactor": list(material.transmission_colour)}
+    if material.coat is not None:
+        extensions["KHR_materials_clearcoat"] = {
+            "clearcoatFactor": 1.0, "clearcoatRoughnessFactor": material.coat}
     if material.mirror:
         pbr["metallicFactor"], pbr["roughnessFactor"] = 1.0, 0.0
     elif material.glass is not None:

@@ -136,7 +136,8 @@ class Material:
     (specularFactor 0). `reflectance_texture` holds factors of roughness (G) and `metallic` (B).
     `luminance` (cd/m²) or `flux` (lm, over all surfaces of the material) make it a luminaire of the
     given colour. `mirror`: a metal without roughness. `glass`: index of refraction; of a body whose
-    light `attenuation` is left of after 1 m, or of a thin pane where that is None.
+    light `attenuation` is left of after 1 m, or of a thin pane where that is None. `coat`: roughness
+    of a clear coat.
     """
 
     name: str
@@ -145,6 +146,7 @@ class Material:
     mirror: bool = False
     glass: float | None = None
     attenuation: Vec | None = None
+    coat: float | None = None
     texture: str | None = None
     luminance: float = 0.0
     flux: float = 0.0

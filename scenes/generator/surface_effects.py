@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 
 from .png import Colour8, rgb_png
+from .rounded import sphere
 from .shapes import box
 from .solid import Camera, Material, SceneModel, SceneObject, Solid, Vec
 
@@ -124,4 +125,16 @@ def diffuse_transmission() -> SceneModel:
         [_room("white", "white"), SceneObject("curtain", [curtain], (2.0, 0.001, 1.0))])
 
 
-SCENES = (roughness_texture, normal_map, vertex_colours, unlit, diffuse_transmission)
+def clear_coat() -> SceneModel:
+    """Lacquered boards, a car's red metal below a smooth coat, and cork below a satin one."""
+    ball = sphere(0.45, 48, 24, "paint")
+    return _model("clear_coat", [
+        Material("boards", (0.45, 0.26, 0.12), coat=0.0),
+        Material("paint", (0.6, 0.05, 0.04), roughness=0.55, metallic=1.0, coat=0.0),
+        Material("cork", (0.3, 0.34, 0.2), coat=0.3)],
+        [_room("boards", "white"),
+         SceneObject("block", [box((-0.5, 0.0, -0.4), (0.5, 0.9, 0.4), "cork")], (1.2, 0.0, 2.4), 20.0),
+         SceneObject("ball", [ball], (2.7, 0.451, 1.9))])
+
+
+SCENES = (clear_coat, roughness_texture, normal_map, vertex_colours, unlit, diffuse_transmission)

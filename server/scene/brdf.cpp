@@ -25,6 +25,9 @@ constexpr float min_mean_transmission = 1e-4F;
 /// albedo in its coupling (at most 2.3e-3, of a smooth lobe near grazing) creates no energy.
 constexpr float energy_margin = 3e-3F;
 
+/// f90 of the lobe of a Lambert surface below a clear coat: it reflects nothing.
+constexpr float no_lobe = 1e-6F;
+
 float max_component(const glm::vec3& v) {
     return std::max({v.r, v.g, v.b});
 }
@@ -43,15 +46,30 @@ ReflectanceModel max_phong_model(const MaxPhong& phong) {
 }
 
 float inverse_mean_transmission(const SpecularLobe& lobe) {
+    if (lobe.coat.factor > 0.0F) {
+        constexpr int steps = 512;
+        double sum = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const float cosine = (static_cast<float>(i) + 0.5F) / steps;
+            sum += 2.0 / steps * static_cast<double>(cosine * transmission(lobe, cosine));
+        }
+        const auto passed = static_cast<float>(sum);
+        return passed > min_mean_transmission ? 1.0F / passed : 0.0F;
+    }
     const LobeAlbedo mean = ggx_mean_albedo(lobe.alpha);
     const float passed = 1.0F - lobe.coating.x * mean.scale - lobe.coating.y * mean.bias;
     return passed > min_mean_transmission ? 1.0F / passed : 0.0F;
 }
 
-glm::vec3 ggx(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
+/// D V of a GGX lobe, and Schlick's p.
+struct GgxFactors {
+    float lobe, p;
+};
+
+GgxFactors ggx_factors(float alpha, const glm::vec3& w_in, const glm::vec3& w_out) {
     const float cos_in = std::max(w_in.z, min_cosine);
     const float cos_out = std::max(w_out.z, min_cosine);
-    const float a2 = brdf.lobe.alpha * brdf.lobe.alpha;
+    const float a2 = alpha * alpha;
     // The half vector, not normalised: its length is 2 v.h.
     const glm::vec2 across = glm::vec2(w_in) + glm::vec2(w_out);
     const float along = cos_in + cos_out;
@@ -64,7 +82,23 @@ glm::vec3 ggx(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
                         cos_out * std::sqrt(a2 + (1.0F - a2) * cos_in * cos_in);
     const float grazing = std::max(0.0F, 1.0F - 0.5F * std::sqrt(length2));
     const float p = grazing * grazing * grazing * grazing * grazing;
-    return (brdf.f0 * (1.0F - p) + brdf.lobe.f90 * p) * (0.5F * distribution / smith);
+    return {0.5F * distribution / smith, p};
+}
+
+glm::vec3 ggx(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
+    const GgxFactors base = ggx_factors(brdf.lobe.alpha, w_in, w_out);
+    const glm::vec3 value = (brdf.f0 * (1.0F - base.p) + brdf.lobe.f90 * base.p) * base.lobe;
+    const ClearCoat& coat = brdf.lobe.coat;
+    if (coat.factor <= 0.0F) {
+        return value;
+    }
+    const float passed =
+        std::min(coat_transmission(coat, w_in.z), coat_transmission(coat, w_out.z));
+    if (coat.strength <= 0.0F) {
+        return passed * value;
+    }
+    const GgxFactors top = ggx_factors(coat.alpha, w_in, w_out);
+    return passed * value + coat.strength * (dielectric_f0 * (1.0F - top.p) + top.p) * top.lobe;
 }
 
 glm::vec3 max_phong(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
@@ -110,14 +144,46 @@ ReflectanceModel uncoupled_model(const Specular& dielectric_surface, float metal
     return model;
 }
 
+ClearCoat coat_of(const Material& material) {
+    ClearCoat coat;
+    coat.factor = std::clamp(material.clear_coat, 0.0F, 1.0F);
+    if (coat.factor > 0.0F) {
+        const float roughness = std::clamp(material.clear_coat_roughness, min_roughness, 1.0F);
+        coat.alpha = roughness * roughness;
+        coat.strength = material.clear_coat_traced ? 0.0F : (1.0F - energy_margin) * coat.factor;
+    }
+    return coat;
+}
+
+/// The same model below a coat, still without inverse_mean.
+ReflectanceModel below(const ClearCoat& coat, ReflectanceModel model) {
+    if (coat.factor <= 0.0F) {
+        return model;
+    }
+    if (model.lobe.kind == LobeKind::none) {
+        model.lobe.kind = LobeKind::ggx;
+        model.lobe.alpha = coat.alpha;
+        model.lobe.f90 = no_lobe;
+    }
+    const float share = 1.0F - energy_margin * coat.factor;
+    model.f0 *= share;
+    model.f0_share *= share;
+    model.lambert_share *= share;
+    model.lobe.f90 *= share;
+    model.lobe.coat = coat;
+    return model;
+}
+
+/// Whether the Lambert part gets less light than falls on the surface.
 bool is_coated(const SpecularLobe& lobe) {
-    return lobe.coating != glm::vec2(0.0F);
+    return lobe.coating != glm::vec2(0.0F) || lobe.coat.factor > 0.0F;
 }
 
 ReflectanceModel metallic_roughness_model(const Material& material,
                                           const glm::vec2& metallic_roughness) {
-    ReflectanceModel model = uncoupled_model({material.specular_colour, material.specular},
-                                             metallic_roughness.x, metallic_roughness.y);
+    ReflectanceModel model =
+        below(coat_of(material), uncoupled_model({material.specular_colour, material.specular},
+                                                 metallic_roughness.x, metallic_roughness.y));
     if (is_coated(model.lobe)) {
         model.lobe.inverse_mean = inverse_mean_transmission(model.lobe);
     }
@@ -130,6 +196,7 @@ ReflectanceModel scaled(ReflectanceModel model, float factor) {
     model.f0_share *= factor;
     model.lambert_share *= factor;
     model.lobe.f90 *= factor;
+    model.lobe.coat.strength *= factor;
     return model;
 }
 
@@ -157,7 +224,8 @@ ReflectanceModel reflectance_model(const Material& material, const glm::vec2& me
 TexturedReflectance::TexturedReflectance(const Material& material)
     : specular_colour_(material.specular_colour),
       specular_(material.specular),
-      reflectance_(material.reflectance) {
+      reflectance_(material.reflectance),
+      coat_(coat_of(material)) {
     for (int i = 0; i <= steps; ++i) {
         const float roughness = static_cast<float>(i) / static_cast<float>(steps);
         inverse_mean_[static_cast<std::size_t>(i)] =
@@ -166,8 +234,9 @@ TexturedReflectance::TexturedReflectance(const Material& material)
 }
 
 ReflectanceModel TexturedReflectance::at(const glm::vec2& metallic_roughness) const {
-    ReflectanceModel model =
-        uncoupled_model({specular_colour_, specular_}, metallic_roughness.x, metallic_roughness.y);
+    ReflectanceModel model = below(
+        coat_,
+        uncoupled_model({specular_colour_, specular_}, metallic_roughness.x, metallic_roughness.y));
     if (is_coated(model.lobe)) {
         const float place =
             std::clamp(metallic_roughness.y, 0.0F, 1.0F) * static_cast<float>(steps);
@@ -194,11 +263,26 @@ Brdf make_brdf(const Material& material, const glm::vec3& base_colour) {
 }
 
 float transmission(const SpecularLobe& lobe, float cosine) {
+    const float passed = coat_transmission(lobe.coat, cosine);
     if (lobe.coating == glm::vec2(0.0F)) {
-        return 1.0F;
+        return passed;
     }
     const LobeAlbedo albedo = ggx_albedo(lobe.alpha, cosine);
-    return 1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias;
+    return passed * (1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias);
+}
+
+float coat_transmission(const ClearCoat& coat, float cosine) {
+    if (coat.factor <= 0.0F) {
+        return 1.0F;
+    }
+    const LobeAlbedo albedo = ggx_albedo(coat.alpha, cosine);
+    return 1.0F - coat.factor * (dielectric_f0 * albedo.scale + albedo.bias);
+}
+
+float coat_albedo(const ClearCoat& coat, float cosine) {
+    return coat.factor > 0.0F
+               ? coat.strength / coat.factor * (1.0F - coat_transmission(coat, cosine))
+               : 0.0F;
 }
 
 glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {

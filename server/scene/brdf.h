@@ -12,6 +12,17 @@ namespace raybundle {
 
 enum class LobeKind { none, ggx, max_phong };
 
+/// A clear coat (KHR_materials_clearcoat) of index 1.5 over all the rest, with a GGX lobe of its
+/// own.
+struct ClearCoat {
+    float alpha = 0.0F;   ///< roughness^2
+    float factor = 0.0F;  ///< share of the surface that it covers; 0: there is none
+    float strength =
+        0.0F;  ///< factor of its lobe: of `factor`; 0 where view rays show what it reflects
+
+    bool operator==(const ClearCoat&) const = default;
+};
+
 /// The specular part without its colour, and how much it takes from the Lambert part below it.
 struct SpecularLobe {
     LobeKind kind = LobeKind::none;
@@ -20,6 +31,7 @@ struct SpecularLobe {
     float f90 = 0.0F;           ///< GGX: reflectance at grazing angles
     glm::vec2 coating{0.0F};    ///< f0, f90 of the dielectric surface over the Lambert part
     float inverse_mean = 1.0F;  ///< 1 / mean over the hemisphere of transmission()
+    ClearCoat coat;             ///< GGX only
 
     bool operator==(const SpecularLobe&) const = default;
 };
@@ -38,6 +50,14 @@ struct SpecularLobe {
 /// Specular-Matte BRDF Model", couple both by the lobe's tabulated directional albedo instead: the
 /// albedo is then lambert * t + lobe <= 1 at every angle. At normal incidence it differs from
 /// appendix B's by less than 3 %, the light that a rough surface would lose between its facets.
+///
+/// Below a clear coat that reflects c(cos) of the light from an angle, u = 1 - c passes. The lobe
+/// is multiplied by min(u(cos_in), u(cos_out)), t by u, and the coat adds a lobe of f0 0.04, f90 1.
+/// glTF dims what lies below by the Fresnel term at one angle alone, the viewer's, which is not
+/// reciprocal. The least of both angles is, equals glTF's in the mirrored direction, and creates no
+/// energy below any lobe, as u(cos_in) u(cos_out) / mean(u) or a root would; the light that is
+/// reflected back and forth below the coat is missing in the lobe (4 % of its albedo at most), as
+/// in glTF. The Lambert part has it: a white dielectric still reflects everything.
 struct Brdf {
     glm::vec3 lambert{0.0F};  ///< albedo of the Lambert part alone
     glm::vec3 f0{0.0F};       ///< GGX: reflectance at normal incidence; max-Phong: albedo there
@@ -72,6 +92,7 @@ class TexturedReflectance {
     static constexpr int steps = 128;
     glm::vec3 specular_colour_;
     float specular_, reflectance_;
+    ClearCoat coat_;
     std::array<float, steps + 1> inverse_mean_{};  // over roughness, 0 to 1
 };
 
@@ -80,8 +101,13 @@ class TexturedReflectance {
 Brdf make_brdf(const ReflectanceModel& model, const glm::vec3& base_colour);
 Brdf make_brdf(const Material& material, const glm::vec3& base_colour);
 
-/// Share of the light from an angle that the specular lobe lets pass to the Lambert part.
+/// Share of the light from an angle that the specular lobe and the coat let pass to the Lambert
+/// part.
 float transmission(const SpecularLobe& lobe, float cosine);
+
+/// Share that the clear coat lets pass; 1 without one. And what its lobe reflects.
+float coat_transmission(const ClearCoat& coat, float cosine);
+float coat_albedo(const ClearCoat& coat, float cosine);
 
 /// f_r, 1/sr. 0 if either direction is not above the horizon; finite everywhere.
 glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out);
@@ -93,7 +119,7 @@ struct BrdfSample {
     float pdf = 0.0F;                  ///< 1/sr, of pdf(); 0: no direction, w_out was below
 };
 
-/// Draws w_in for a given w_out: the lobe (visible normals for GGX, Heitz 2018; cos^n round the
+/// Draws w_in for a given w_out: a lobe (visible normals for GGX, Heitz 2018; cos^n round the
 /// mirrored direction for max-Phong) if `choice` is below its share, else the cosine. u and choice:
 /// uniform in [0, 1), independent.
 BrdfSample sample(const Brdf& brdf, const glm::vec3& w_out, const glm::vec2& u, float choice);
@@ -107,6 +133,10 @@ float pdf(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out);
 /// disc.y give directions that mirror each other in the plane of w_out and the normal.
 glm::vec3 lobe_direction(const SpecularLobe& lobe, const glm::vec3& w_out, const glm::vec2& disc);
 float lobe_density(const SpecularLobe& lobe, const glm::vec3& w_in, const glm::vec3& w_out);
+
+/// The same of the clear coat's lobe.
+glm::vec3 coat_direction(const ClearCoat& coat, const glm::vec3& w_out, const glm::vec2& disc);
+float coat_density(const ClearCoat& coat, const glm::vec3& w_in, const glm::vec3& w_out);
 
 /// The direction above a point of the unit disc: of density cos/pi for uniform points.
 glm::vec3 cosine_direction(const glm::vec2& disc);

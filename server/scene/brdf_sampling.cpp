@@ -15,7 +15,7 @@ constexpr float pi = glm::pi<float>();
 /// that is off must not starve a part.
 constexpr float min_share = 0.1F;
 
-/// Share of the lobe in what the surface reflects to w_out.
+/// Share of the lobe in what the surface reflects to w_out, without its coat.
 float lobe_share(const Brdf& brdf, float cos_out) {
     float specular = luminance(brdf.f0);
     if (brdf.lobe.kind == LobeKind::none) {
@@ -30,6 +30,17 @@ float lobe_share(const Brdf& brdf, float cos_out) {
     }
     const float diffuse = luminance(brdf.lambert) * transmission(brdf.lobe, cos_out);
     return std::clamp(specular / std::max(specular + diffuse, 1e-12F), min_share, 1.0F - min_share);
+}
+
+/// Share of the coat's lobe. What is below it, at most all the rest, is taken to be a half of that.
+float coat_share(const Brdf& brdf, float cos_out) {
+    const ClearCoat& coat = brdf.lobe.coat;
+    if (coat.strength <= 0.0F) {
+        return 0.0F;
+    }
+    const float reflected = coat_albedo(coat, cos_out);
+    const float below = 0.5F * coat_transmission(coat, cos_out);
+    return std::clamp(reflected / (reflected + below), min_share, 1.0F - min_share);
 }
 
 /// Heitz 2018, "Sampling the GGX Distribution of Visible Normals", listing 1; then mirrored.
@@ -96,6 +107,14 @@ float lobe_density(const SpecularLobe& lobe, const glm::vec3& w_in, const glm::v
                                             : ggx_density(lobe.alpha, w_in, w_out);
 }
 
+glm::vec3 coat_direction(const ClearCoat& coat, const glm::vec3& w_out, const glm::vec2& disc) {
+    return ggx_direction(coat.alpha, w_out, disc);
+}
+
+float coat_density(const ClearCoat& coat, const glm::vec3& w_in, const glm::vec3& w_out) {
+    return ggx_density(coat.alpha, w_in, w_out);
+}
+
 glm::vec3 cosine_direction(const glm::vec2& disc) {
     return {disc.x, disc.y, std::sqrt(std::max(0.0F, 1.0F - glm::dot(disc, disc)))};
 }
@@ -106,9 +125,11 @@ BrdfSample sample(const Brdf& brdf, const glm::vec3& w_out, const glm::vec2& u, 
     }
     const float phi = 2.0F * pi * u.y;
     const glm::vec2 disc = std::sqrt(u.x) * glm::vec2(std::cos(phi), std::sin(phi));
-    const glm::vec3 w_in = choice < lobe_share(brdf, w_out.z)
-                               ? lobe_direction(brdf.lobe, w_out, disc)
-                               : cosine_direction(disc);
+    const float coat = coat_share(brdf, w_out.z);
+    const float lobe = coat + (1.0F - coat) * lobe_share(brdf, w_out.z);
+    const glm::vec3 w_in = choice < coat   ? coat_direction(brdf.lobe.coat, w_out, disc)
+                           : choice < lobe ? lobe_direction(brdf.lobe, w_out, disc)
+                                           : cosine_direction(disc);
     return {w_in, pdf(brdf, w_in, w_out)};
 }
 
@@ -118,7 +139,11 @@ float pdf(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
     }
     const float share = lobe_share(brdf, w_out.z);
     const float cosine = (1.0F - share) * std::max(w_in.z, 0.0F) / pi;
-    return share > 0.0F ? cosine + share * lobe_density(brdf.lobe, w_in, w_out) : cosine;
+    const float below =
+        share > 0.0F ? cosine + share * lobe_density(brdf.lobe, w_in, w_out) : cosine;
+    const float coat = coat_share(brdf, w_out.z);
+    return coat > 0.0F ? (1.0F - coat) * below + coat * coat_density(brdf.lobe.coat, w_in, w_out)
+                       : below;
 }
 
 }  // namespace raybundle

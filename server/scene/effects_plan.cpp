@@ -35,6 +35,7 @@ struct Survey {
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
     double transmitted_share = 0.0;  // largest share that glass lets pass
     std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0, transmitting = 0;
+    std::size_t coats = 0, smooth_coats = 0;
     double diffused_share = 0.0;  // largest that a material transmits diffusely
     double specular_share = 0.0;  // largest of a material, of what it reflects
 
@@ -121,6 +122,8 @@ void survey_materials(const Scene& scene, Survey& survey) {
             survey.specular_share = std::max(survey.specular_share, share);
         }
         survey_specular(specular_surface(material, mean_base_colour(scene, material)), survey);
+        survey.coats += material.clear_coat > 0.0F ? 1 : 0;
+        survey.smooth_coats += specular_kind(material) == SpecularKind::coat ? 1 : 0;
         survey.textured += varies_by_texture(material) ? 1 : 0;
         survey.transmitting += transmits(material) ? 1 : 0;
         const glm::vec3& through = material.transmittance;
@@ -183,6 +186,13 @@ class Planner {
                    : "no material in use has a specular lobe",
             "L(D|G)*G(D|G)*E", survey_.specular_share, glossy_bytes);
         plan_specular();
+        const bool coated = survey_.coats > 0;
+        add("clear-coat", coated,
+            coated ? count_of(survey_.coats, "material") + " below a clear coat, " +
+                         std::to_string(survey_.smooth_coats) +
+                         " of them so smooth that view rays show what it reflects"
+                   : "no material in use has a clear coat",
+            "L(D|G)*(G|S)(D|G)*E", 1.0, 0);
         const bool through = survey_.transmitting > 0;
         add("diffuse-transmission", through,
             through ? count_of(survey_.transmitting, "material") + " transmitting light diffusely"
@@ -271,6 +281,7 @@ class Planner {
 void remove_gloss(Scene& scene) {
     for (Material& material : scene.materials) {
         material.max_phong.reset();
+        material.clear_coat = 0.0F;
         material.metallic = 0.0F;
         material.specular = 0.0F;
     }
@@ -332,6 +343,10 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
     } else if (name == "diffuse-transmission") {
         for (Material& material : scene.materials) {
             material.transmittance = glm::vec3(0.0F);
+        }
+    } else if (name == "clear-coat") {
+        for (Material& material : scene.materials) {
+            material.clear_coat = 0.0F;
         }
     } else if (name == "punctual-lights") {
         std::erase_if(scene.punctual_lights,

@@ -12,7 +12,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 16> fully_read = {
+constexpr std::array<std::string_view, 17> fully_read = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_materials_emissive_strength",
@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, 16> fully_read = {
     "KHR_materials_diffuse_transmission",
     "KHR_materials_transmission",
     "KHR_materials_volume",
+    "KHR_materials_clearcoat",
 };
 
 struct Approximation {
@@ -36,8 +37,7 @@ struct Approximation {
 };
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
-constexpr std::array<Approximation, 6> approximated = {{
-    {"KHR_materials_clearcoat", "the clear coat is left out"},
+constexpr std::array<Approximation, 5> approximated = {{
     {"KHR_materials_unlit", "unlit materials are shown as they are, and are black to light"},
     {"KHR_materials_variants", "the default material variants are used"},
     {"KHR_materials_pbrSpecularGlossiness",

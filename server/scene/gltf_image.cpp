@@ -131,4 +131,22 @@ DecodedImage decode_image(const GltfDocument& document, int image) {
     return {spec.width, spec.height, expand_to_rgba(pixels, channels)};
 }
 
+int image_of(const GltfDocument& document, int texture) {
+    const tinygltf::Texture& entry = item(document.model().textures, texture);
+    const std::string path = item_path("textures", texture);
+    const auto* webp = find_extension(entry.extensions, "EXT_texture_webp");
+    const int source = webp == nullptr ? entry.source : integer_or(*webp, "source", entry.source);
+    const std::size_t image_count = document.model().images.size();
+    if (source >= 0 && static_cast<std::size_t>(source) >= image_count) {
+        document.fail(path + ".source", fmt::format("{} is out of range: the file has {} images",
+                                                    source, image_count));
+    }
+    if (source < 0 && find_extension(entry.extensions, "KHR_texture_basisu") != nullptr) {
+        document.fail(path + ".extensions.KHR_texture_basisu",
+                      "KTX2 images (KHR_texture_basisu) are not supported, and there is no "
+                      "fallback image");
+    }
+    return source;
+}
+
 }  // namespace raybundle

@@ -24,4 +24,8 @@ std::vector<tinygltf::Image> read_images(const std::string& file, const Json& js
 /// by the name of its extension.
 DecodedImage decode_image(const GltfDocument& document, int image);
 
+/// Index of the image to decode for a texture, -1 if it has none. Throws SceneError for KTX2
+/// without fallback.
+int image_of(const GltfDocument& document, int texture);
+
 }  // namespace raybundle

@@ -10,6 +10,7 @@
 
 #include "scene/alpha_blend.h"
 #include "scene/base_colour.h"
+#include "scene/gltf_clear_coat.h"
 #include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
 #include "scene/gltf_max_phong.h"
@@ -98,25 +99,6 @@ glm::mat3 uv_transform(const Info& info) {
             0.0F,        offset.x,     offset.y, 1.0F};
 }
 
-/// Index of the image to decode for a texture, -1 if it has none. Throws for KTX2 without fallback.
-int image_of(const GltfDocument& document, int texture) {
-    const tinygltf::Texture& entry = item(document.model().textures, texture);
-    const std::string path = item_path("textures", texture);
-    const auto* webp = find_extension(entry.extensions, "EXT_texture_webp");
-    const int source = webp == nullptr ? entry.source : integer_or(*webp, "source", entry.source);
-    const std::size_t image_count = document.model().images.size();
-    if (source >= 0 && static_cast<std::size_t>(source) >= image_count) {
-        document.fail(path + ".source", fmt::format("{} is out of range: the file has {} images",
-                                                    source, image_count));
-    }
-    if (source < 0 && find_extension(entry.extensions, "KHR_texture_basisu") != nullptr) {
-        document.fail(path + ".extensions.KHR_texture_basisu",
-                      "KTX2 images (KHR_texture_basisu) are not supported, and there is no "
-                      "fallback image");
-    }
-    return source;
-}
-
 class MaterialReader {
   public:
     MaterialReader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
@@ -144,6 +126,7 @@ class MaterialReader {
             read_details(source, item_path("materials", index), material);
         }
         read_diffuse_transmission(source, material);
+        read_clear_coat(document_, source, material);
         if (source.alphaMode == "BLEND") {
             if (const auto notice = read_alpha_blend(scene_.textures, material)) {
                 document_.note(*notice);

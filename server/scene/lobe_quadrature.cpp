@@ -41,6 +41,7 @@ LobeAlbedo integrate_albedo(const SpecularLobe& lobe, float cosine) {
     // Red shows scale + bias, green the bias alone.
     Brdf brdf{glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F), lobe};
     brdf.lobe.f90 = 1.0F;
+    brdf.lobe.coat.strength = 0.0F;
     double total = 0.0;
     double bias = 0.0;
     for (const auto& [disc, weight] : half_disc_lattice()) {

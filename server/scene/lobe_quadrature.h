@@ -27,7 +27,8 @@ struct LobeAlbedo {
     float bias = 0.0F;
 };
 
-/// The albedo for light from an angle, by quadrature: 0.2 % off at most. Not for LobeKind::none.
+/// The albedo for light from an angle, by quadrature: 0.2 % off at most; below a clear coat what is
+/// left of it. Not for LobeKind::none.
 LobeAlbedo integrate_albedo(const SpecularLobe& lobe, float cosine);
 
 /// The direction in the plane y = 0 at an angle to the normal; a hair above the horizon at least.

@@ -50,48 +50,64 @@ void ReflectanceTable::tabulate_albedo() {
         const LobeAlbedo albedo = lobe.kind == LobeKind::ggx
                                       ? ggx_albedo_at_node(lobe.alpha, i)
                                       : integrate_albedo(lobe, cosine_of(lobe, i));
+        const LobeAlbedo left =
+            lobe.coat.factor > 0.0F ? integrate_albedo(lobe, cosine_of(lobe, i)) : albedo;
         ReflectanceNode& node = nodes_[static_cast<std::size_t>(i)];
-        node.scale = albedo.scale;
-        node.bias = albedo.bias;
+        node.scale = left.scale;
+        node.bias = left.bias;
         node.transmission = 1.0F - lobe.coating.x * albedo.scale - lobe.coating.y * albedo.bias;
     }
 }
 
-ReflectanceNode ReflectanceTable::integrate_mean() const {
+ReflectanceNode ReflectanceTable::integrate_mean() {
     constexpr int steps = 1024;
     glm::dvec4 sum(0.0);
+    double coat = 0.0;
     for (int i = 0; i < steps; ++i) {
         const double cosine = (i + 0.5) / steps;
         const ReflectanceNode node = at(static_cast<float>(cosine));
-        sum += 2.0 * cosine / steps *
-               glm::dvec4(node.scale, node.bias, node.transmission, node.importance);
+        const double weight = 2.0 * cosine / steps;
+        sum += weight * glm::dvec4(node.scale, node.bias, node.transmission, node.importance);
+        coat +=
+            weight * static_cast<double>(coat_albedo(brdf_.lobe.coat, static_cast<float>(cosine)));
     }
+    mean_coat_ = static_cast<float>(coat);
     const glm::vec4 mean(sum);
     return {mean.x, mean.y, mean.z, mean.w};
 }
 
 glm::vec3 ReflectanceTable::mean_albedo(const Brdf& recoloured) const {
-    return albedo_of(recoloured, mean_);
+    return albedo_of(recoloured, mean_) + mean_coat_;
 }
 
-/// S, by two lattices: one where the lobe is, one over the hemisphere, weighted by the balance
+/// S, by a lattice where each lobe is and one over the hemisphere, weighted by the balance
 /// heuristic.
 float ReflectanceTable::integrate_importance(int index) const {
     const ReflectanceNode& node = nodes_[static_cast<std::size_t>(index)];
     const glm::vec3 w_in = direction_at(cosine_of(brdf_.lobe, index));
-    const glm::vec3 mean = albedo_of(brdf_, node) / pi;
+    const ClearCoat& coat = brdf_.lobe.coat;
+    const float transmission = node.transmission * coat_transmission(coat, w_in.z);
+    const glm::vec3 mean = (brdf_.lambert * transmission + brdf_.f0 * node.scale +
+                            brdf_.lobe.f90 * node.bias + coat_albedo(coat, w_in.z)) /
+                           pi;
     double sum = 0.0;
     const auto add = [&](const glm::vec3& w, float weight) {
         if (w.z > 0.0F) {
-            const float passed = node.transmission * at(w.z).transmission;
+            const float passed = transmission * at(w.z).transmission;
             const glm::vec3 df = glm::abs(evaluate(brdf_, w_in, w, passed) - mean);
-            const float density = lobe_density(brdf_.lobe, w, w_in) + w.z / pi;
+            float density = lobe_density(brdf_.lobe, w, w_in) + w.z / pi;
+            if (coat.strength > 0.0F) {
+                density += coat_density(coat, w, w_in);
+            }
             sum += static_cast<double>(weight * std::max({df.r, df.g, df.b}) * w.z / density);
         }
     };
     for (const auto& [disc, weight] : half_disc_lattice()) {
         add(lobe_direction(brdf_.lobe, w_in, disc), weight);
         add(cosine_direction(disc), weight);
+        if (coat.strength > 0.0F) {
+            add(coat_direction(coat, w_in, disc), weight);
+        }
     }
     return static_cast<float>(sum);
 }
@@ -102,12 +118,14 @@ ReflectanceNode ReflectanceTable::at(float cosine) const {
     const ReflectanceNode& a = nodes_[static_cast<std::size_t>(first)];
     const ReflectanceNode& b = nodes_[static_cast<std::size_t>(first) + 1];
     const float t = position - static_cast<float>(first);
-    return {glm::mix(a.scale, b.scale, t), glm::mix(a.bias, b.bias, t),
-            glm::mix(a.transmission, b.transmission, t), glm::mix(a.importance, b.importance, t)};
+    return {
+        glm::mix(a.scale, b.scale, t), glm::mix(a.bias, b.bias, t),
+        glm::mix(a.transmission, b.transmission, t) * coat_transmission(brdf_.lobe.coat, cosine),
+        glm::mix(a.importance, b.importance, t)};
 }
 
 glm::vec3 ReflectanceTable::albedo(const Brdf& recoloured, float cosine) const {
-    return albedo_of(recoloured, at(cosine));
+    return albedo_of(recoloured, at(cosine)) + coat_albedo(recoloured.lobe.coat, cosine);
 }
 
 }  // namespace raybundle

@@ -33,7 +33,8 @@
 
 namespace raybundle {
 
-/// Reflectance at one angle; albedo = lambert * transmission + f0 * scale + f90 * bias.
+/// Reflectance at one angle; albedo = lambert * transmission + f0 * scale + f90 * bias, and what a
+/// clear coat reflects. In the table itself transmission is without the coat's.
 struct ReflectanceNode {
     float scale = 0.0F;
     float bias = 0.0F;
@@ -42,7 +43,8 @@ struct ReflectanceNode {
 };
 
 /// Directional albedo and importance of a BRDF over the cosine of the incoming angle, interpolated
-/// linearly between reflectance_nodes: both within 0.5 % of their integrals.
+/// linearly between reflectance_nodes: both within 0.5 % of their integrals, below a coat that is
+/// smoother than the lobe only from a cosine of 0.02 on.
 class ReflectanceTable {
   public:
     /// Integrates S at every node: some milliseconds for a glossy BRDF.
@@ -68,10 +70,11 @@ class ReflectanceTable {
     void tabulate_albedo();
     [[nodiscard]] ReflectanceNode at(float cosine) const;
     [[nodiscard]] float integrate_importance(int index) const;
-    [[nodiscard]] ReflectanceNode integrate_mean() const;
+    ReflectanceNode integrate_mean();
 
     Brdf brdf_;
     ReflectanceNode mean_;
+    float mean_coat_ = 0.0F;  // reflected by the clear coat
     std::array<ReflectanceNode, reflectance_nodes> nodes_;
 };
 

@@ -83,8 +83,11 @@ struct Material {
     float attenuation_distance = 0.0F;   ///< m; 0: nothing is absorbed
     /// Over a Lambert base_colour, instead of metallic-roughness.
     std::optional<MaxPhong> max_phong;
-    float reflectance = 1.0F;  ///< factor of the whole BRDF; 1 in files
-    glm::vec3 emission{0.0F};  ///< radiance, cd/m²: emissiveFactor * emissiveStrength
+    float clear_coat = 0.0F;            ///< KHR_materials_clearcoat clearcoatFactor; 0: none
+    float clear_coat_roughness = 0.0F;  ///< of the same
+    bool clear_coat_traced = false;     ///< its lobe is left out: view rays show what it reflects
+    float reflectance = 1.0F;           ///< factor of the whole BRDF; 1 in files
+    glm::vec3 emission{0.0F};           ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
     bool double_sided = false;
     /// KHR_materials_diffuse_transmission: share of the light on one side that is sent from the

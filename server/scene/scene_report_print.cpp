@@ -128,6 +128,8 @@ Json materials_json(const Scene& scene) {
                           {"roughness", material.roughness},
                           {"specular", material.specular},
                           {"specularColour", json_of(material.specular_colour)},
+                          {"clearCoat", material.clear_coat},
+                          {"clearCoatRoughness", material.clear_coat_roughness},
                           {"maxPhong", max_phong_json(material.max_phong)},
                           {"emission", json_of(material.emission)},
                           {"textured", material.base_colour_texture.texture >= 0},

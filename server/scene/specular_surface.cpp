@@ -14,6 +14,13 @@ constexpr float least_transmission = 0.5F;    // share: below, the surface is op
 constexpr float least_index = 1.0F;           // glass in air
 constexpr float most_index = 5.0F;            // no glass bends more
 constexpr float darkest_attenuation = 1e-6F;  // colour: absorption stays finite
+constexpr float coat_f0 = 0.04F;              // index of refraction 1.5
+
+/// Schlick's (1 - cosine)^5.
+float schlick(float cosine) {
+    const float grazing = std::clamp(1.0F - cosine, 0.0F, 1.0F);
+    return grazing * grazing * grazing * grazing * grazing;
+}
 
 /// Beer and Lambert: colour is what is left after `distance`, m.
 glm::vec3 absorption_of(const Material& material) {
@@ -31,13 +38,14 @@ SpecularKind specular_kind(const Material& material) {
         material.emission != glm::vec3(0.0F)) {
         return SpecularKind::none;
     }
+    const SpecularKind opaque = has_smooth_coat(material) ? SpecularKind::coat : SpecularKind::none;
     if (material.metallic >= least_metal) {
         const bool smooth = material.roughness <= mirror_roughness &&
                             material.metallic_roughness_texture.texture < 0;
-        return smooth ? SpecularKind::mirror : SpecularKind::none;
+        return smooth ? SpecularKind::mirror : opaque;
     }
     if (material.transmission < least_transmission) {
-        return SpecularKind::none;
+        return opaque;
     }
     return material.thickness > 0.0F ? SpecularKind::glass : SpecularKind::pane;
 }
@@ -45,6 +53,7 @@ SpecularKind specular_kind(const Material& material) {
 SpecularSurface specular_surface(const Material& material, const glm::vec3& base_colour) {
     SpecularSurface surface;
     surface.kind = specular_kind(material);
+    surface.coat = surface.is_glass() ? 0.0F : std::clamp(material.clear_coat, 0.0F, 1.0F);
     if (surface.kind == SpecularKind::mirror) {
         surface.f0 = clamped_base_colour(base_colour) * material.reflectance;
     } else if (surface.is_glass()) {
@@ -62,14 +71,30 @@ bool has_specular_surfaces(const Scene& scene) {
                        [](const Material& m) { return specular_kind(m) != SpecularKind::none; });
 }
 
+bool has_smooth_coat(const Material& material) {
+    return material.clear_coat > 0.0F && material.clear_coat_roughness <= mirror_roughness;
+}
+
+bool has_mirror_or_glass(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        const SpecularKind kind = specular_kind(m);
+        return kind != SpecularKind::none && kind != SpecularKind::coat;
+    });
+}
+
 bool has_glass(const Scene& scene) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), is_glass);
 }
 
+float coat_reflectance(const SpecularSurface& surface, float cosine) {
+    const float p = schlick(cosine);
+    return surface.coat * (coat_f0 + (1.0F - coat_f0) * p);
+}
+
 glm::vec3 mirror_reflectance(const SpecularSurface& mirror, float cosine) {
-    const float grazing = std::clamp(1.0F - cosine, 0.0F, 1.0F);
-    const float p = grazing * grazing * grazing * grazing * grazing;
-    return mirror.f0 + (glm::vec3(1.0F) - mirror.f0) * p;
+    const float coat = coat_reflectance(mirror, cosine);
+    const glm::vec3 below = mirror.f0 + (glm::vec3(1.0F) - mirror.f0) * schlick(cosine);
+    return glm::vec3(coat) + (1.0F - coat) * below;
 }
 
 float fresnel_reflectance(float cosine, float relative_index) {

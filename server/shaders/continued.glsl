@@ -28,9 +28,13 @@ uint continued_index(uvec2 at, uint entry, uint k) {
            VIEW_TILE * (tile - row * continued_columns) + inside.x;
 }
 
-/// Whether a pixel shows what its view ray ends at.
+/// Whether a pixel shows nothing but what its view ray ends at.
 bool is_continued(uvec2 at) {
     uint entry = continued_entry(at);
-    return (entry & 7u) != 0u && continued[continued_index(at, entry, 0u)].surface != CONTINUED_NONE;
+    if ((entry & 7u) == 0u) {
+        return false;
+    }
+    uint end = continued_index(at, entry, 0u);
+    return continued[end].surface != CONTINUED_NONE && continued[end].added == 0u;
 }
 #endif

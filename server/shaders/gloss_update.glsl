@@ -5,6 +5,7 @@
 #include "scene_geometry.glsl"
 #include "gloss.glsl"
 #include "random_hash.glsl"
+#include "rarely.glsl"
 #ifdef FIRST_SHOT
 #include "first_shot.glsl"
 #endif
@@ -51,7 +52,7 @@ vec3 update_gloss(uint patch_id, vec3 irradiance, vec3 reflected, float step) {
     LightSource source = LightSource(normal, 0.0);
     vec3 sample_radiance = vec3(0.0);
     float importance = 0.0;
-    for (bool lit = irradiance != vec3(0.0); lit; lit = false) {
+    RARELY(irradiance != vec3(0.0)) {
         source = incoming_source(patch_id, normal);
         Brdf brdf = patch_brdf(patch_id);
         vec4 at_in = brdf_at(brdf, dot(normal, source.direction));
@@ -63,7 +64,7 @@ vec3 update_gloss(uint patch_id, vec3 irradiance, vec3 reflected, float step) {
 #ifdef FIRST_SHOT
     LightSource punctual_source;
     vec3 direct = propose_punctual(patch_id, normal, punctual_source);
-    for (bool lit = direct != vec3(0.0); lit; lit = false) {
+    RARELY(direct != vec3(0.0)) {
         Brdf brdf = patch_brdf(patch_id);
         vec4 at_in = brdf_at(brdf, dot(normal, punctual_source.direction));
         float other = max(direct.r, max(direct.g, direct.b)) * at_in.w;

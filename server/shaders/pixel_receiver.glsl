@@ -3,10 +3,10 @@
 // pixel): each looks its surface point up in the bundle, as in a shadow map.
 #include "luminance.glsl"
 #include "octahedral.glsl"
-// A condition that few pixels meet as a loop that runs once: a software rasteriser skips loops that no lane
-// enters, but not conditions. Where most pixels enter, the loop costs more than it saves.
+#include "rarely.glsl"
+// Few pixels meet these conditions in a phase after a change, most in other bundles.
 #ifdef SPECIAL
-#define WHERE(condition) for (bool entered = condition; entered; entered = false)
+#define WHERE(condition) RARELY(condition)
 #else
 #define WHERE(condition) if (condition)
 #endif
@@ -16,7 +16,7 @@ layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer 
     vec4 pixel_irradiance[];
 };
 layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pixel_delta[]; };
-layout(std430, binding = BINDING_PIXEL_BATCHES) buffer PixelBatchBuffer { float pixel_batches[]; };
+layout(std430, binding = BINDING_PIXEL_SCATTER) buffer PixelScatterBuffer { float pixel_scatter[]; };
 #ifdef SPECIAL
 #include "mesh.glsl"
 #define TILE_LISTS (2 * MOST_DIFFERENCES)  // of view_affected_tiles.comp
@@ -163,11 +163,14 @@ void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
 #else
         float w = bundle.weights.y;
         pixel_irradiance[index].rgb += w * value;
-        // One pixel in 16 keeps its batches apart for the error estimate.
+        // One pixel in 16 sums squares, too, for the error estimate.
         uvec2 at = uvec2(index % view.size.x, index / view.size.x);
         if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
             uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
-            pixel_batches[BATCHES * probe + uint(bundle.weights.w)] += w * luminance(seen);
+            float sum = w * luminance(seen);
+            pixel_scatter[SCATTER_SUMS * probe] += sum;
+            pixel_scatter[SCATTER_SUMS * probe + 1u] += sum * sum;
+            pixel_scatter[SCATTER_SUMS * probe + 2u] += w * sum;
         }
 #endif
     }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The glossy part of what a patch sends through the running bundle.
 #include "gloss.glsl"
+#include "rarely.glsl"
 
 /// Glossy part of a patch at the place of the objects that was drawn, whose vertices begin at vertex_base.
 /// normal: of the patch, unit; middle (its centroid), point: of the patch; all at that place.
 Gloss sending_gloss(uint patch_id, vec3 normal, vec3 middle, vec3 point) {
     uvec4 packed_gloss = texelFetch(gloss_texels, int(patch_id));
     LightSource source = gloss_source(packed_gloss);
-    for (bool before = bundle.resolution.w == 1u; before; before = false) {
+    RARELY(bundle.resolution.w == 1u) {
         uint object = floatBitsToUint(patch_attributes(patch_id).z);
         for (int k = 0; k < MOST_MOVED; ++k) {
             vec3 turned = mat3(bundle.before_from_now[k]) * source.direction;

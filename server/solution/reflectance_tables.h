@@ -15,13 +15,16 @@
 namespace raybundle {
 
 /// A material's reflectance between surfaces: a mirror's is a wide lobe, since a random bundle
-/// seldom meets the one direction in which it throws light, and then far too much.
+/// seldom meets the one direction in which it throws light, and then far too much. So is a smooth
+/// clear coat's.
 ReflectanceModel transported_model(const Material& material);
 
 /// The reflectance of a scene's materials for brdf.glsl: a record per material, one for each place
 /// in the grid of a material whose roughness or metalness is textured (ReflectanceGrid), and a
 /// table per distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them,
-/// SpecularRays tell. Importance is tabulated for the mean base colour of a material's texture.
+/// SpecularRays tell. A material below a smooth clear coat has two sets of records: its own, for
+/// pixels, lack the coat's lobe, which SpecularRays show, and those of its patches have it wide.
+/// Importance is tabulated for the mean base colour of a material's texture.
 class ReflectanceTables {
   public:
     /// Integrates the tables on the CPU, about 6 ms for each distinct glossy BRDF, and uploads
@@ -35,7 +38,7 @@ class ReflectanceTables {
     void update(const Scene& scene, std::size_t material);
 
     void bind() const;  ///< the buffer texture, to UNIT_REFLECTANCE
-    /// Macros that brdf.glsl wants for this scene: MAX_PHONG, REFLECTANCE_TEXTURED.
+    /// Macros that brdf.glsl wants for this scene: MAX_PHONG, REFLECTANCE_TEXTURED, CLEAR_COAT.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     /// Whether any material has a specular lobe.
     [[nodiscard]] bool specular() const { return specular_; }
@@ -55,12 +58,12 @@ class ReflectanceTables {
     [[nodiscard]] const std::optional<ReflectanceGrid>& grid(std::size_t material) const {
         return grids_[material];
     }
-    /// Record of a material where its texture has this metalness and roughness: the material's own
-    /// number where it has no grid.
-    [[nodiscard]] std::size_t record(std::size_t material,
-                                     const glm::vec2& metallic_roughness) const {
+    /// Record of a patch where a texture of its material has this metalness and roughness; they do
+    /// not matter where the material has no grid.
+    [[nodiscard]] std::size_t patch_record(std::size_t material,
+                                           const glm::vec2& metallic_roughness) const {
         const std::optional<ReflectanceGrid>& grid = grids_[material];
-        return grid ? first_record_[material] + grid->nearest(metallic_roughness) : material;
+        return patch_record_[material] + (grid ? grid->nearest(metallic_roughness) : 0);
     }
 
     /// The table that stands for a record. Those of the materials come first.
@@ -71,18 +74,25 @@ class ReflectanceTables {
     [[nodiscard]] std::size_t bytes() const { return buffer_.bytes(); }
 
   private:
+    using Key = std::array<float, 16>;
+
+    static Key key_of(const Brdf& brdf);
     void upload();
-    std::size_t table_for(const Scene& scene, const Material& material);
-    void add_grid(const Scene& scene, std::size_t material);
-    void fill_grid(const Scene& scene, std::size_t material);
+    std::size_t table_for(const Brdf& brdf);
+    void replace_table(std::size_t record, const Brdf& brdf);
+    std::size_t add_grid(const ReflectanceGrid& grid);
+    bool fill_grid(const ReflectanceGrid& grid, const Scene& scene, const Material& source,
+                   std::size_t first_record);
+    void fill_material(const Scene& scene, std::size_t material);
 
     std::vector<ReflectanceTable> tables_;
-    std::vector<std::array<float, 13>> keys_;  // of the tables; those of grids match none
+    std::vector<Key> keys_;  // of the tables; those of grids match none
     std::vector<std::size_t> table_of_record_;
     std::vector<std::string> defines_;
     std::vector<ReflectanceModel> models_;               // of the records
-    std::vector<std::optional<ReflectanceGrid>> grids_;  // of the materials, as the next two
+    std::vector<std::optional<ReflectanceGrid>> grids_;  // of the materials, as the next three
     std::vector<std::size_t> first_record_;              // of a grid
+    std::vector<std::size_t> patch_record_;              // of patches, the first of a grid
     std::vector<bool> glossy_;
     bool specular_ = false, any_glossy_ = false;
     Buffer buffer_;

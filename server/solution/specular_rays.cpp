@@ -253,12 +253,14 @@ glm::vec3 SpecularRays::weights(std::uint32_t facet, const glm::vec3& position) 
     return {1.0F - w1 - w2, w1, w2};
 }
 
-std::vector<Bounds> SpecularRays::boxes() const {
+std::vector<Bounds> SpecularRays::boxes(Coats coats) const {
     std::vector<Bounds> result;
     for (const Object& object : objects_) {
         Bounds box;
         for (const std::uint32_t facet : object.facets) {
-            if (surfaces_[materials_[facet]].kind == SpecularKind::none) {
+            const SpecularKind kind = surfaces_[materials_[facet]].kind;
+            if (kind == SpecularKind::none ||
+                (kind == SpecularKind::coat && coats == Coats::passed)) {
                 continue;
             }
             for (int k = 0; k < 3; ++k) {
@@ -276,27 +278,28 @@ std::vector<Bounds> SpecularRays::boxes() const {
 /// One view ray's way.
 class SpecularRays::Walk {
   public:
-    Walk(const SpecularRays& rays, std::uint32_t seed, std::span<ContinuedRay, most_ends> ends)
-        : rays_(rays), state_(seed), ends_(ends) {}
+    Walk(const SpecularRays& rays, std::uint32_t seed, std::span<ContinuedRay, most_ends> ends,
+         Coats coats)
+        : rays_(rays), state_(seed), ends_(ends), coats_(coats) {}
 
     std::size_t run(const glm::vec3& origin, const glm::vec3& direction) {
         const std::optional<Hit> first = rays_.meet(origin, direction);
-        if (!first || rays_.surface(*first).kind == SpecularKind::none ||
-            rays_.absorbs(first->facet, first->front)) {
+        if (!first || !is_specular(*first) || rays_.absorbs(first->facet, first->front)) {
             return 0;
         }
+        added_ = rays_.surface(*first).kind == SpecularKind::coat;
         deflect({origin, direction, glm::vec3(1.0F), 0}, *first);
         while (open_count_ > 0) {
             const Branch branch = open_[--open_count_];
             const std::optional<Hit> hit = rays_.meet(branch.origin, branch.direction);
-            if (!hit || rays_.surface(*hit).kind == SpecularKind::none) {
+            if (!hit || !is_specular(*hit)) {
                 end(branch, hit);
             } else if (!rays_.absorbs(hit->facet, hit->front)) {
                 deflect(branch, *hit);
             }
         }
         if (count_ == 0) {  // all light is lost on the way: black
-            ends_[count_++] = {origin, ContinuedRay::sky, glm::vec3(0.0F), -direction};
+            ends_[count_++] = {origin, ContinuedRay::sky, glm::vec3(0.0F), -direction, added_};
         }
         const auto strongest =
             std::max_element(ends_.begin(), ends_.begin() + static_cast<std::ptrdiff_t>(count_),
@@ -313,6 +316,12 @@ class SpecularRays::Walk {
         int surfaces = 0;
     };
 
+    [[nodiscard]] bool is_specular(const Hit& hit) const {
+        const SpecularKind kind = rays_.surface(hit).kind;
+        return kind != SpecularKind::none &&
+               (kind != SpecularKind::coat || coats_ == Coats::followed);
+    }
+
     void end(const Branch& branch, const std::optional<Hit>& hit) {
         if (hit && rays_.absorbs(hit->facet, hit->front)) {
             return;
@@ -322,6 +331,7 @@ class SpecularRays::Walk {
         ray.surface = hit ? 2 * hit->facet + (hit->front ? 0U : 1U) : ContinuedRay::sky;
         ray.throughput = branch.throughput;
         ray.towards = -branch.direction;
+        ray.added = added_;
     }
 
     void deflect(const Branch& branch, const Hit& hit) {
@@ -333,6 +343,8 @@ class SpecularRays::Walk {
         } else if (surface.kind == SpecularKind::pane) {
             const PaneShares shares = pane_shares(surface, cosine);
             split(branch, hit, shares.reflected, shares.transmitted, branch.direction);
+        } else if (surface.kind == SpecularKind::coat) {
+            cover(branch, hit, coat_reflectance(surface, cosine));
         } else {
             refract(branch, hit, surface, cosine);
         }
@@ -347,6 +359,25 @@ class SpecularRays::Walk {
         const float reflected = behind ? fresnel_reflectance(cosine, index) : 1.0F;
         split(branch, hit, glm::vec3(reflected), (1.0F - reflected) * surface.tint,
               behind.value_or(branch.direction));
+    }
+
+    /// What a clear coat reflects, and what is seen through it: the surface's own record has no
+    /// coat, but is dimmed by one (solution/reflectance_tables.h).
+    void cover(const Branch& branch, const Hit& hit, float reflected) {
+        glm::vec3 share(reflected);
+        if (branch.surfaces > 0) {
+            Branch below = branch;
+            if (count_ + open_count_ + 2 > most_ends) {
+                const float chance = reflected / (reflected + 1.0F);
+                const bool reflects = random() < chance;
+                share = reflects ? share / chance : glm::vec3(0.0F);
+                below.throughput *= reflects ? 0.0F : 1.0F / (1.0F - chance);
+            }
+            if (below.throughput != glm::vec3(0.0F)) {
+                end(below, hit);
+            }
+        }
+        follow(branch, hit, mirrored(branch.direction, hit), share);
     }
 
     /// Both ways, or one of them where there is no room for both.
@@ -395,15 +426,17 @@ class SpecularRays::Walk {
     const SpecularRays& rays_;
     std::uint64_t state_;
     std::span<ContinuedRay, most_ends> ends_;
+    Coats coats_;
+    bool added_ = false;  // the first surface is a coat
     std::size_t count_ = 0;
     std::array<Branch, most_ends> open_{};
     std::size_t open_count_ = 0;
 };
 
 std::size_t SpecularRays::follow(const glm::vec3& origin, const glm::vec3& direction,
-                                 std::uint32_t seed,
-                                 std::span<ContinuedRay, most_ends> ends) const {
-    return Walk(*this, seed, ends).run(origin, direction);
+                                 std::uint32_t seed, std::span<ContinuedRay, most_ends> ends,
+                                 Coats coats) const {
+    return Walk(*this, seed, ends, coats).run(origin, direction);
 }
 
 }  // namespace raybundle

@@ -93,13 +93,19 @@ std::vector<Answer> ask(const ReflectanceTables& tables, const std::vector<Query
     return answers;
 }
 
-Scene random_scene(unsigned seed, int materials, bool max_phong) {
+enum class Lobes { plain, max_phong, clear_coat };
+
+Scene random_scene(unsigned seed, int materials, Lobes lobes) {
     RandomBrdfs random(seed);
     Scene scene;
     for (int i = 0; i < materials; ++i) {
         Material material = random.material();
-        if (!max_phong) {
+        if (lobes != Lobes::max_phong) {
             material.max_phong.reset();
+        }
+        if (lobes == Lobes::clear_coat && i % 4 != 3) {  // smoother ones pixels have no lobe of
+            material.clear_coat = random.uniform();
+            material.clear_coat_roughness = 0.11F + 0.89F * random.uniform();
         }
         if (i % 10 == 0) {  // a Lambert surface, and the smoothest of all
             material.metallic = material.specular = 0.0F;
@@ -144,7 +150,7 @@ void expect_equal(const Scene& scene, const ReflectanceTables& tables,
     }
 }
 
-class BrdfGpu : public testing::TestWithParam<bool> {};
+class BrdfGpu : public testing::TestWithParam<Lobes> {};
 
 /// Local frames, all angles (half of them grazing), a third near the mirrored direction.
 TEST_P(BrdfGpu, AgreesWithTheCpu) {
@@ -196,9 +202,33 @@ TEST_P(BrdfGpu, AgreesWithTheCpuInAnyFrame) {
     expect_equal(scene, tables, queries, frames, 1e-3F);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BrdfGpu, testing::Bool(), [](const auto& test) {
-    return std::string(test.param ? "WithMaxPhong" : "WithoutMaxPhong");
-});
+std::string name_of(const testing::TestParamInfo<Lobes>& test) {
+    constexpr const char* names[] = {"WithoutMaxPhong", "WithMaxPhong", "WithClearCoat"};
+    return names[static_cast<int>(test.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BrdfGpu,
+                         testing::Values(Lobes::plain, Lobes::max_phong, Lobes::clear_coat),
+                         name_of);
+
+/// Pixels below a smooth coat lack its lobe, patches have it wide; nobody else has records more.
+TEST(ReflectanceTables, SmoothCoatsHaveARecordForPatches) {
+    Scene scene;
+    Material lacquer;
+    lacquer.metallic = lacquer.specular = 0.0F;
+    lacquer.clear_coat = 1.0F;
+    scene.materials = {lacquer, lacquer};
+    scene.materials[1].clear_coat_roughness = 0.3F;
+    const ReflectanceTables tables(scene);
+    EXPECT_EQ(tables.defines(), (std::vector<std::string>{"CLEAR_COAT 1"}));
+    EXPECT_EQ(tables.table(0).brdf().lobe.coat.strength, 0.0F);
+    EXPECT_EQ(tables.patch_record(0, glm::vec2(0.0F)), 2U);
+    EXPECT_FLOAT_EQ(tables.table(2).brdf().lobe.coat.alpha, 0.16F);
+    EXPECT_NEAR(tables.table(2).brdf().lobe.coat.strength, 1.0F, 0.005F);
+    EXPECT_EQ(tables.patch_record(1, glm::vec2(0.0F)), 1U);
+    // Three tables, each with the nodes of a coat.
+    EXPECT_EQ(tables.bytes(), 16U * (3U * 3U + 3U * 2U * reflectance_nodes));
+}
 
 TEST(ReflectanceTables, LambertScenesShareOneTable) {
     Scene scene;

@@ -166,6 +166,37 @@ TEST(SpecularView, ASlabOfGlassShiftsAndAbsorbs) {
     }
 }
 
+/// A smooth coat on the floor z = 0 below a sky: a ray that meets it first gets what it reflects
+/// besides; one that comes by a mirror sees the surface below it as well.
+TEST(SpecularView, ACoatAddsWhatItReflects) {
+    SceneBuilder b;
+    Material lacquer;
+    lacquer.metallic = lacquer.specular = 0.0F;
+    lacquer.clear_coat = 0.5F;
+    b.add_quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, 1, 1, b.add_material(lacquer));
+    Material mirror = mirror_material();
+    mirror.double_sided = true;
+    b.add_quad({4, -9, 0.5F}, {0, 18, 0}, {0, 0, 9}, 1, 1, b.add_material(mirror));
+    const SpecularRays rays(b.scene, b.mesh, std::vector<glm::mat4>{glm::mat4(1.0F)});
+    std::array<ContinuedRay, SpecularRays::most_ends> ends;
+    const glm::vec3 down = glm::normalize(glm::vec3(-1.0F, 0.0F, -1.0F));
+    const float share = 0.5F * (0.04F + 0.96F * std::pow(1.0F + down.z, 5.0F));
+    ASSERT_EQ(rays.follow({0, 0, 1}, down, 1, ends), 1U);
+    EXPECT_TRUE(ends[0].added);
+    EXPECT_EQ(ends[0].surface, ContinuedRay::sky);
+    EXPECT_NEAR(ends[0].throughput.g, share, 1e-5F);
+    EXPECT_EQ(rays.follow({0, 0, 1}, down, 1, ends, SpecularRays::Coats::passed), 0U);
+    // Towards the mirror x = 4 at z = 1, and from there down to the floor at x = 3.
+    ASSERT_EQ(rays.follow({3, 0, 2}, {-down.x, 0, down.z}, 1, ends), 2U);
+    EXPECT_FALSE(ends[0].added);
+    EXPECT_NEAR(ends[0].position.z, 0.0F, 1e-4F);
+    EXPECT_NEAR(ends[0].position.x, 3.0F, 1e-3F);
+    EXPECT_NEAR(ends[1].throughput.g / ends[0].throughput.g, share, 1e-4F);
+    EXPECT_EQ(rays.boxes().size(), 1U);
+    EXPECT_LT(rays.boxes()[0].min.x, -8.0F);
+    EXPECT_GT(rays.boxes(SpecularRays::Coats::passed)[0].min.x, 3.0F);
+}
+
 /// Where glass splits a ray more often than there is room for ends, chance decides: the mean over
 /// many rays is what all ends would bring.
 TEST(SpecularView, RaysThroughManyPanesKeepTheirLight) {

@@ -71,6 +71,19 @@ TEST(SurfaceEffects, RoughnessTextureIsAsByPathTracing) {
     EXPECT_GT(block_difference(picture, path_traced(loaded, 128), size, block), 0.06);
 }
 
+/// Smooth coats, which view rays show, and a satin one, which bundles do.
+TEST(SurfaceEffects, ClearCoatIsAsByPathTracing) {
+    LoadedScene loaded = load_effect("clear_coat");
+    Camera& flat = loaded.scene.cameras.front();  // along the boards, which reflect more so
+    flat.eye = {2.0F, 0.5F, -1.0F};
+    flat.target = {2.0F, 0.2F, 2.5F};
+    const auto picture = solved(loaded, 640);
+    EXPECT_LT(block_difference(picture, path_traced(loaded, 1024), size, block), 0.03);
+    // Half as much again as the bound: without coats the picture is 5.6 % off.
+    ASSERT_TRUE(remove_effect("clear-coat", loaded.scene, loaded.mesh));
+    EXPECT_GT(block_difference(picture, path_traced(loaded, 128), size, block), 0.045);
+}
+
 TEST(SurfaceEffects, VertexColoursAreAsByPathTracing) {
     LoadedScene loaded = load_effect("vertex_colours");
     const auto picture = solved(loaded, 320);

@@ -25,6 +25,7 @@ struct Case {
     float metallic;
     float exponent;  // > 0: max-Phong
     float cosine;
+    float coat = -1.0F;  // roughness of a clear coat
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -43,6 +44,9 @@ constexpr Case cases[] = {
     {"phong", -1.0F, 0.0F, 3.0F, 0.4F},
     {"sharp_phong", -1.0F, 0.0F, 40.0F, 0.9F},
     {"phong_grazing", -1.0F, 0.0F, 28.0F, 0.03F},
+    {"coated_metal", 0.5F, 1.0F, 0.0F, 0.8F, 0.3F},
+    {"coated_plastic_grazing", 0.6F, 0.0F, 0.0F, 0.1F, 0.35F},
+    {"coated_lambert", -1.0F, 0.0F, 0.0F, 0.5F, 0.4F},
 };
 
 Brdf brdf_of(const Case& c) {
@@ -53,6 +57,8 @@ Brdf brdf_of(const Case& c) {
     if (c.exponent > 0.0F) {
         material.max_phong = MaxPhong{{0.5F, 0.4F, 0.3F}, c.exponent};
     }
+    material.clear_coat = c.coat < 0.0F ? 0.0F : 0.9F;
+    material.clear_coat_roughness = c.coat;
     return make_brdf(material, {0.4F, 0.3F, 0.6F});
 }
 
@@ -143,6 +149,7 @@ TEST_P(BrdfSampling, SamplesFollowTheDensity) {
         Brdf wider = brdf;
         wider.lobe.alpha *= 1.1F;
         wider.lobe.exponent *= 0.9F;
+        wider.lobe.coat.alpha *= 1.1F;
         EXPECT_GT(chi_square_score(bin_probabilities(wider, w_out), counts, samples), limit);
     }
 }
@@ -193,9 +200,17 @@ TEST(BrdfEstimator, FindsTheAlbedo) {
         if (i % 3 == 0) {
             material.roughness = 0.02F * static_cast<float>(i % 9);
         }
+        if (i % 4 == 1) {
+            material.max_phong.reset();
+            material.clear_coat = 1.0F;
+            material.clear_coat_roughness = 0.04F * static_cast<float>(i);
+        }
         const Brdf brdf = make_brdf(material, material.base_colour);
         const ReflectanceTable table(brdf);
         for (const float c : {1e-4F, 2e-3F, 0.02F, 0.3F, 0.9F}) {
+            if (material.clear_coat > 0.0F && c < 0.02F) {
+                continue;  // the table's nodes are those of the lobe below
+            }
             const Estimate estimate = estimate_albedo(brdf, c, 20'000, random);
             const glm::vec3 albedo = table.albedo(c);
             const auto expected = static_cast<double>(std::max({albedo.r, albedo.g, albedo.b}));

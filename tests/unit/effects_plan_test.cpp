@@ -51,10 +51,10 @@ TEST(EffectsPlan, NamesAllEffectsAndTheirReasons) {
             EXPECT_EQ(effect["shareBound"], 0.0);
         }
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "glossy", "specular-reflection",
-                                               "refraction", "caustics", "diffuse-transmission",
-                                               "textures", "normal-maps", "punctual-lights", "ies",
-                                               "sky", "sun", "environment", "medium"}));
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "diffuse", "glossy", "specular-reflection", "refraction", "caustics",
+                         "clear-coat", "diffuse-transmission", "textures", "normal-maps",
+                         "punctual-lights", "ies", "sky", "sun", "environment", "medium"}));
 }
 
 TEST(EffectsPlan, ActivatesWhatTheSceneCallsFor) {
