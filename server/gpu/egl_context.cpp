@@ -6,11 +6,52 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
+#include <limits>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 namespace raybundle {
+
+namespace {
+
+/// Contexts of the process by display: a display is one for all of its threads, and whoever ends it
+/// ends it for all.
+class DisplayUses {
+  public:
+    bool begin(EGLDisplay display) {
+        const std::lock_guard lock(mutex_);
+        if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+            return false;
+        }
+        ++uses_[display];
+        return true;
+    }
+    void end(EGLDisplay display) {
+        const std::lock_guard lock(mutex_);
+        if (--uses_[display] == 0) {
+            eglTerminate(display);
+        }
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<EGLDisplay, int> uses_;
+};
+
+DisplayUses& display_uses() {
+    static DisplayUses uses;
+    return uses;
+}
+
+bool is_software(std::string_view renderer) {
+    return renderer.find("llvmpipe") != std::string_view::npos ||
+           renderer.find("softpipe") != std::string_view::npos;
+}
+
+}  // namespace
 
 struct EglContext::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
@@ -28,7 +69,7 @@ struct EglContext::Impl {
         if (context != EGL_NO_CONTEXT) {
             eglDestroyContext(display, context);
         }
-        eglTerminate(display);
+        display_uses().end(display);
     }
 };
 
@@ -42,8 +83,11 @@ const std::string& EglContext::renderer() const {
 }
 
 bool EglContext::is_software() const {
-    return impl_->renderer.find("llvmpipe") != std::string::npos ||
-           impl_->renderer.find("softpipe") != std::string::npos;
+    return raybundle::is_software(impl_->renderer);
+}
+
+bool is_software_renderer() {
+    return is_software(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
 }
 
 namespace {
@@ -116,7 +160,7 @@ std::unique_ptr<EglContext::Impl> open(EGLenum platform, void* native, std::stri
         reason = "no display";
         return nullptr;
     }
-    if (eglInitialize(impl->display, nullptr, nullptr) == EGL_FALSE) {
+    if (!display_uses().begin(impl->display)) {
         impl->display = EGL_NO_DISPLAY;
         reason = "eglInitialize failed";
         return nullptr;
@@ -198,6 +242,9 @@ EglContext create_egl_context(const EglSettings& settings) {
                        "libegl-mesa0 libgl1-mesa-dri");
     }
     enable_debug_output(settings.debug);
+    if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile")) {
+        glMaxShaderCompilerThreadsKHR(std::numeric_limits<GLuint>::max());  // as many as it likes
+    }
     // Depth from 1 (near) to 0 (far): keeps relative precision over the whole range.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

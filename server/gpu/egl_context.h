@@ -31,12 +31,16 @@ class EglContext {
     ~EglContext();
 
     [[nodiscard]] const std::string& renderer() const;
-    /// True on Mesa's software rasteriser, where compute work runs on the server's own cores.
+    /// is_software_renderer() of this context, current or not.
     [[nodiscard]] bool is_software() const;
 
   private:
     std::unique_ptr<Impl> impl_;
 };
+
+/// True where Mesa's software rasteriser is behind the current context: shaders then run on the
+/// server's own few cores.
+bool is_software_renderer();
 
 struct EglSettings {
     int gpu = -1;  ///< index of list_gpu_devices(), -1: first usable, hardware before software

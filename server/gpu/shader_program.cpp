@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/shader_program.h"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 #include <sstream>
 #include <string_view>
@@ -63,10 +67,14 @@ GLenum stage_of(const std::string& file) {
     throw GpuError("shader file '" + file + "' has an unknown stage");
 }
 
+/// Compiles a shader, or lets the driver begin to.
 GLuint compile(const std::string& file, const std::vector<std::string>& defines) {
     std::string text = "#version 450 core\n";
     for (const std::string& define : defines) {
         text += "#define " + define + "\n";
+    }
+    if (is_software_renderer()) {
+        text += "#define SOFTWARE_RENDERER\n";
     }
     std::vector<std::string> names;
     text += "#line 1 0\n";
@@ -75,48 +83,85 @@ GLuint compile(const std::string& file, const std::vector<std::string>& defines)
     const char* source = text.c_str();
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok == GL_FALSE) {
-        char log[4096] = "";
-        glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-        glDeleteShader(shader);
-        std::string files;
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            files += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + names[i];
-        }
-        throw GpuError("the driver rejects shader " + file + " (string numbers: " + files + "):\n" +
-                       log);
-    }
     return shader;
+}
+
+constexpr GLsizei max_log = 4096;
+
+/// Throws GpuError where the driver rejects one of the program's shaders.
+void check_shaders(GLuint program, const std::vector<std::string>& files) {
+    std::vector<GLuint> shaders(files.size());
+    GLsizei count = 0;
+    glGetAttachedShaders(program, static_cast<GLsizei>(shaders.size()), &count, shaders.data());
+    shaders.resize(static_cast<std::size_t>(count));
+    for (const GLuint shader : shaders) {
+        GLint ok = GL_FALSE;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+        if (ok == GL_TRUE) {
+            continue;
+        }
+        GLint stage = 0;
+        glGetShaderiv(shader, GL_SHADER_TYPE, &stage);
+        const auto file = std::find_if(files.begin(), files.end(), [&](const std::string& f) {
+            return stage_of(f) == static_cast<GLenum>(stage);
+        });
+        std::vector<std::string> names;
+        std::string text;
+        expand(*file, 0, names, text);
+        std::string numbers;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            numbers += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + names[i];
+        }
+        char log[max_log] = "";
+        glGetShaderInfoLog(shader, max_log, nullptr, log);
+        throw GpuError("the driver rejects shader " + *file + " (string numbers: " + numbers +
+                       "):\n" + log);
+    }
 }
 
 }  // namespace
 
 ShaderProgram::ShaderProgram(const std::vector<std::string>& files,
                              const std::vector<std::string>& defines)
-    : program_(glCreateProgram()), label_(files.back()) {
+    : program_(glCreateProgram()), label_(files.back()), files_(files) {
+    glObjectLabel(GL_PROGRAM, program_.get(), -1, label_.c_str());
     for (const std::string& file : files) {
         const GLuint shader = compile(file, defines);
         glAttachShader(program_.get(), shader);
         glDeleteShader(shader);  // lives on as part of the program
     }
     glLinkProgram(program_.get());
+}
+
+GLuint ShaderProgram::linked() const {
+    finish();
+    return program_.get();
+}
+
+void ShaderProgram::finish() const {
+    if (finished_) {
+        return;
+    }
+    const auto start = std::chrono::steady_clock::now();
     GLint ok = GL_FALSE;
     glGetProgramiv(program_.get(), GL_LINK_STATUS, &ok);
     if (ok == GL_FALSE) {
-        char log[4096] = "";
-        glGetProgramInfoLog(program_.get(), sizeof log, nullptr, log);
+        check_shaders(program_.get(), files_);
+        char log[max_log] = "";
+        glGetProgramInfoLog(program_.get(), max_log, nullptr, log);
         throw GpuError("the driver cannot link shader " + label_ + ":\n" + log);
     }
-    glObjectLabel(GL_PROGRAM, program_.get(), -1, label_.c_str());
-    if (stage_of(files.back()) == GL_COMPUTE_SHADER) {
+    if (stage_of(label_) == GL_COMPUTE_SHADER) {
         glGetProgramiv(program_.get(), GL_COMPUTE_WORK_GROUP_SIZE, local_size_);
     }
+    finished_ = true;
+    const std::chrono::duration<double, std::milli> waited =
+        std::chrono::steady_clock::now() - start;
+    spdlog::debug("waited {:.1f} ms for shader {}", waited.count(), label_);
 }
 
 GLint ShaderProgram::location(const char* name) const {
-    return glGetUniformLocation(program_.get(), name);
+    return glGetUniformLocation(linked(), name);
 }
 void ShaderProgram::set(const char* name, int value) const {
     glProgramUniform1i(program_.get(), location(name), value);
@@ -153,6 +198,7 @@ void ShaderProgram::dispatch(std::size_t threads_x, std::size_t threads_y) const
         const auto local = static_cast<std::size_t>(size);
         return static_cast<GLuint>((threads + local - 1) / local);
     };
+    finish();  // the local size is known from then on
     dispatch_groups(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]));
 }
 

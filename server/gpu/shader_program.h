@@ -17,12 +17,13 @@ class ShaderProgram {
     ShaderProgram() = default;
 
     /// files: e.g. {"bundle_raster.vert", "bundle_raster.frag"} or {"solution_update.comp"}; the
-    /// extension gives the stage. defines: e.g. {"GLOSSY 1"}. Throws GpuError with the compiler's
-    /// log.
+    /// extension gives the stage. defines: e.g. {"GLOSSY 1"}. The driver may go on compiling and
+    /// linking while further programs are made: the first use waits for it, and throws GpuError
+    /// with the compiler's log where the driver rejects the program.
     explicit ShaderProgram(const std::vector<std::string>& files,
                            const std::vector<std::string>& defines = {});
 
-    void use() const { glUseProgram(program_.get()); }
+    void use() const { glUseProgram(linked()); }
     void set(const char* name, int value) const;
     void set(const char* name, unsigned value) const;
     void set(const char* name, float value) const;
@@ -44,10 +45,15 @@ class ShaderProgram {
 
   private:
     [[nodiscard]] GLint location(const char* name) const;
+    /// Waits until the driver is done with the program.
+    void finish() const;
+    [[nodiscard]] GLuint linked() const;  ///< finished, its name
 
     Program program_;
     std::string label_;
-    GLint local_size_[3] = {1, 1, 1};
+    std::vector<std::string> files_;
+    mutable bool finished_ = false;
+    mutable GLint local_size_[3] = {1, 1, 1};
 };
 
 /// A list of defines and one more.

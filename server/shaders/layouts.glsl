@@ -30,7 +30,7 @@
 #define BINDING_PIXELS 20          // PixelSurface[]
 #define BINDING_PIXEL_IRRADIANCE 21  // vec4[]: see PixelSum in pixel_sum.glsl
 #define BINDING_PIXEL_DELTA 22     // vec4[]: signed increments of a special phase, w = sum of magnitudes
-#define BINDING_PIXEL_BATCHES 23   // float[BATCHES * probes]: weighted luminance sums
+#define BINDING_PIXEL_SCATTER 23   // float[SCATTER_SUMS * probes]: see view_scatter.glsl
 #define BINDING_VERTEX_IRRADIANCE 24  // vec4[]
 #define BINDING_STATISTICS 25      // vec4[]: partial sums of a reduction
 #define BINDING_FRAME 26           // uint[]: finished picture, RGBA8
@@ -84,8 +84,8 @@
 #define SCATTER_PARALLEL 0u
 #define SCATTER_PERSPECTIVE 1u
 #define SCATTER_NOT_MEASURED 2u
-#define BATCHES 8  // independently randomised batches of iterations, for the error estimate
-
+#define GROUP_SIZE 8  // iterations that are planned together
+#define SCATTER_SUMS 3  // of a probe pixel, see view_scatter.glsl
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
 // components, where a software rasteriser loads storage buffers component by component, lane by lane.
 #define UNIT_SURFACE_IDS 0
@@ -235,13 +235,15 @@ struct MaterialDetails {
 #define LOBE_NONE 0
 #define LOBE_GGX 1
 #define LOBE_MAX_PHONG 2
+#define LOBE_COATED 4    // GGX below a clear coat
 #define LOBE_TEXTURED 3  // roughness and metalness vary: f0.x is the first record of its grid, see ReflectanceGrid
 
 // A material's BRDF apart from its base colour, see scene/brdf.h.
 struct Reflectance {
     vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
     vec4 lobe;   // alpha (max-Phong: exponent), f90, share of the base colour in lambert, 1/mean transmission
-    vec4 table;  // grazing scale q, texel of its first node, LOBE_*; w: 1: glossy, see ReflectanceTables
+    vec4 table;  // grazing scale q (LOBE_COATED: texel of the coat's first node, see brdf.glsl), texel of its first
+                 // node, LOBE_*; w: 1: glossy, see ReflectanceTables
 };
 
 // Directions of an IES profile on the GPU: half degrees from its aim, 2.5 degrees round it.
@@ -291,7 +293,8 @@ struct ContinuedPixel {
     uint towards;     // direction back along the ray, octahedral snorm 2x16
     uint old_index;   // of the same end in the picture before, or NO_HIT
     uint branch;      // 0: the strongest of the pixel's ends
-    uint pad0, pad1;
+    uint added;       // 1: what a clear coat reflects, besides what the pixel shows of itself
+    uint pad0;
 };
 
 struct PickResult {
@@ -314,7 +317,7 @@ struct BundleParameters {
                          // glossy shooter's hemicube top
     vec4 side_weights;   // and of its sides; 0: not drawn
     vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
-                         // limit of density.glsl, 0 = none; batch
+                         // limit of density.glsl, 0 = none
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
     mat4 before_from_now[MOST_MOVED];  // rotations of the objects that are elsewhere at place 1
@@ -328,10 +331,10 @@ struct ViewParameters {
     vec4 up;            // scaled by tan(fov/2)
     vec4 forward;       // unit
     uvec4 size;         // width, height, probe columns, probe rows
-    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, isolines
+    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, unit of the isolines
     vec4 sky;           // background radiance, radiance units; w = factor of the environment's texels
     vec4 sun;           // to it, unit; w = cosine of its radius, above 1: none is drawn
     vec4 sun_radiance;  // cd/m^2
-    vec4 weights;       // x: weight of all samples since the last resolve, y: of a batch in it
+    vec4 weights;       // x: weight of all samples since the last resolve; since the scatter sums began, y: the same, z: sum of squared weights
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
 };

@@ -10,6 +10,7 @@
 #include "scene_geometry.glsl"
 #include "facets.glsl"
 #include "parallel.glsl"
+#include "rarely.glsl"
 #ifdef THIN_WALLS
 #include "crease.glsl"
 #endif
@@ -206,12 +207,11 @@ void exchange_row(ivec2 texel, int end) {
         behind.received -= missing;
         ahead.received -= missing;
 #endif
-        // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
-        for (bool ends = !e.same_behind && texel.x < end; ends; ends = false) {
+        RARELY(!e.same_behind && texel.x < end) {
             deposit(behind, pixel_area);
             behind = start_run(surfaces.x, true, point, pixel_step);
         }
-        for (bool ends = !e.same_ahead && texel.x < end; ends; ends = false) {
+        RARELY(!e.same_ahead && texel.x < end) {
             deposit(ahead, pixel_area);
             ahead = start_run(surfaces.y, false, point, pixel_step);
         }

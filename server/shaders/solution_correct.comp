@@ -4,6 +4,7 @@
 // increment leaves it is worth as much as  w' = 1 / (1/w + error^2 / (s E)^2)  samples. So where much has changed
 // for what is left new samples soon dominate; elsewhere value and weight stay.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "corrected_weight.glsl"
 #include "checkpoint.glsl"
@@ -74,7 +75,7 @@ void main() {
     reflected += transmitted_exitance(i) * inverse_pi;  // corrected or not yet: until the next group of bundles
 #endif
 #ifdef GLOSSY
-    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+    RARELY(is_glossy(i)) {
         reflected = max(radiance[i].rgb - emitted + surfaces[i].albedo.rgb * increment * inverse_pi, 0.0);
         // The glossy part keeps its share of the light. Its chain starts anew the more the light has changed: an
         // old bright sample would block acceptance.

@@ -2,6 +2,7 @@
 // Incoming first shot (ch. 4.3.1): mean irradiance of every patch by the punctual lights, over the centroids of
 // the patch's equal parts, and the main part of the radiance that it makes. Source of the random iteration.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
@@ -57,14 +58,14 @@ void main() {
         irradiance += sum;
         vec3 albedo = surfaces[i].albedo.rgb;
 #ifdef GLOSSY
-        for (bool lit = glossy && sum != vec3(0.0); lit; lit = false) {
+        RARELY(glossy && sum != vec3(0.0)) {
             Brdf brdf = patch_brdf(i);
             albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_in)));
         }
 #endif
         reflected += albedo * sum * inverse_pi;
 #ifdef TRANSMISSION
-        for (bool through = transmittance[i].rgb != vec3(0.0); through; through = false) {
+        RARELY(transmittance[i].rgb != vec3(0.0)) {
             vec3 behind = vec3(0.0);
             for (uint part = 0u; part < parts; ++part) {
                 vec2 at = part_centroid(part);

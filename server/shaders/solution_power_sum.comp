@@ -2,6 +2,7 @@
 // Puts the iterate to the level that energy conservation asks for (solution_balance.comp), and sums
 // patch_power over blocks of patches, always in the same order.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = POWER_BLOCK) in;
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
@@ -29,7 +30,7 @@ void main() {
         reflected += transmitted_exitance(i) / pi;
 #endif
 #ifdef GLOSSY
-        for (bool glossy = is_glossy(i); glossy; glossy = false) {
+        RARELY(is_glossy(i)) {
             vec3 scale = balance.scale.rgb;
             reflected = scale * (radiance[i].rgb - emitted);
             gloss[i] = pack_gloss(scale * gloss_scale(gloss[i]), gloss_source(gloss[i]));

@@ -2,6 +2,7 @@
 // Multiplies the solution by a colour: all emission has changed by these factors, or the unit of radiance
 // has. Transport is linear, so nothing else is to be done. What is emitted is set elsewhere.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
@@ -28,7 +29,7 @@ void main() {
     irradiance[i].rgb *= factor;
     source[i].rgb *= factor;
 #ifdef GLOSSY
-    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+    RARELY(is_glossy(i)) {
         gloss[i] = pack_gloss(factor * gloss_scale(gloss[i]), gloss_source(gloss[i]));
         chain[i] *= max(factor.r, max(factor.g, factor.b));
     }

@@ -12,6 +12,7 @@
 // Of a glossy patch the iterate is the reflected main part itself, since its albedo depends on where the
 // light comes from (gloss_update.glsl); there the bundles' order is random instead.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "accumulator.glsl"
 #include "density.glsl"
@@ -72,9 +73,7 @@ void main() {
     }
     new_sample += constant_irradiance;
     vec4 mean = irradiance[i];
-    // A loop in the place of a condition: a software rasteriser skips those that no lane enters.
-    for (bool scout = scatter_kind != SCATTER_NOT_MEASURED && mean.w > 0.0 && i % scout_stride == 0u; scout;
-         scout = false) {
+    RARELY(scatter_kind != SCATTER_NOT_MEASURED && mean.w > 0.0 && i % scout_stride == 0u) {
         float deviation = deviation_of(new_sample, mean.rgb);
         scatter[i / scout_stride][scatter_kind] += deviation * deviation;
     }
@@ -85,7 +84,7 @@ void main() {
     iterate.rgb += (new_sample - iterate.rgb) * step;
     source[i] = iterate;
 #ifdef GLOSSY
-    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+    RARELY(is_glossy(i)) {
         vec3 emitted = patch_source(i);
         radiance[i].rgb = emitted + update_gloss(i, new_sample, radiance[i].rgb - emitted, step);
     }

@@ -14,6 +14,7 @@
 // takes as much from its patch as others brought too much: in the mean a triangle, however small, gets the light
 // of its area.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 uniform uint first_column;  // the rectangle of the window that is transferred
 uniform uint first_row;
@@ -57,8 +58,7 @@ bool face_each_other(uvec2 pair) {
 uvec2 load_pair(ivec2 texel) {
     uvec4 list = sorted_lists[texel.x - first_column_of_run];
     uvec2 pair = uvec2(pair_index < 0 ? NO_HIT : nth(list, pair_index), nth(list, pair_index + 1));
-    // Loops in the place of conditions: a software rasteriser skips those that no lane enters.
-    for (bool deep = pair_index >= 3; deep; deep = false) {
+    RARELY(pair_index >= 3) {
         uint pixel = pixel_index(texel);
         uint k = uint(pair_index);
         uint count = layer_counts[pixel];
@@ -162,7 +162,7 @@ uint other_sheet(uint k, uint count) {
 /// there is one. Returns how many are left. The places stay: they only tell the next list's order.
 uint unfold(uint count) {
     for (uint k = 0u; k < count; ++k) {
-        for (bool turned = is_turned_over(held_surface[k]); turned; turned = false) {
+        RARELY(is_turned_over(held_surface[k])) {
             uint other = other_sheet(k, count);
             held_surface[other] = other == k ? held_surface[k] : NO_HIT;
             held_surface[k] = held_surface[other];
@@ -187,7 +187,7 @@ uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
     held_folded = false;
     for (uint k = 0u; k < known; ++k) {
         uint place = held_place[k];
-        for (bool there = place < count; there; there = false) {
+        RARELY(place < count) {
             hold(pixel, place, point);
         }
     }
@@ -195,7 +195,7 @@ uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
         hold(pixel, place, point);
     }
 #ifdef FOLDS
-    for (bool folded = held_folded; folded; folded = false) {
+    RARELY(held_folded) {
         count = unfold(count);
         layer_counts[pixel] = count;
     }
@@ -233,10 +233,10 @@ void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
     list.h1 = make_hit(list.unsorted.y, point, pixel_step);
     list.h2 = no_hit;
     list.h3 = no_hit;
-    for (bool more = list.unsorted.z != NO_HIT; more; more = false) {
+    RARELY(list.unsorted.z != NO_HIT) {
         list.h2 = make_hit(list.unsorted.z, point, pixel_step);
     }
-    for (bool more = list.unsorted.w != NO_HIT; more; more = false) {
+    RARELY(list.unsorted.w != NO_HIT) {
         list.h3 = make_hit(list.unsorted.w, point, pixel_step);
     }
 #ifdef FOLDS
@@ -282,7 +282,7 @@ Pairs sort_lists(ivec2 first, int end) {
         uint pixel = pixel_index(texel);
         uint count = layer_counts[pixel];
         uvec4 unsorted = uvec4(NO_HIT);
-        for (bool held = count > 0u && count <= 4u; held; held = false) {
+        RARELY(count > 0u && count <= 4u) {
             unsorted = texelFetch(layer_texels, int(pixel));
         }
         unsorted.y = count > 1u ? unsorted.y : NO_HIT;
@@ -291,14 +291,14 @@ Pairs sort_lists(ivec2 first, int end) {
         bool same = unsorted == list.unsorted && advance(list);
         list.unsorted = unsorted;
         uvec4 sorted = unsorted;
-        for (bool at_hand = count > 1u && count <= 4u; at_hand; at_hand = false) {
-            for (bool changed = !same; changed; changed = false) {
+        RARELY(count > 1u && count <= 4u) {
+            RARELY(!same) {
                 sort_short_list(list, point, pixel_step);
             }
             sorted = uvec4(list.h0.surface, list.h1.surface, list.h2.surface, list.h3.surface);
         }
         bool folded = list.folded && count > 1u && count <= 4u;
-        for (bool in_memory = count > 4u || folded; in_memory; in_memory = false) {
+        RARELY(count > 4u || folded) {
             sorted = sort_long_list(pixel, count, point);
         }
         sorted_lists[texel.x - first.x] = sorted;
@@ -341,8 +341,7 @@ void main() {
     first_column_of_run = first.x;
     Pairs pairs = sort_lists(first, end);
     for (pair_index = -1; pair_index <= pairs.last; ++pair_index) {
-        bool present = pair_index >= 3 || (pairs.near >> (pair_index + 1) & 1u) != 0u;
-        for (; present; present = false) {
+        RARELY(pair_index >= 3 || (pairs.near >> (pair_index + 1) & 1u) != 0u) {
             exchange_row(first, end);
         }
     }

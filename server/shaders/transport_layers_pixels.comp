@@ -2,6 +2,7 @@
 // Layered parallel bundle to the pixels of a viewer: the next surface that x sees along the bundle's
 // direction sends its radiance;  E(x) += L(y) cos_x / d(omega).
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
@@ -83,7 +84,7 @@ void main() {
 #ifdef SKY
         // A line beside the receiver's surface may pass outside of a room. One next to it that meets the surface
         // sees what the receiver sees.
-        for (bool beside = seen.surface == NO_HIT && !seen.own; beside; beside = false) {
+        RARELY(seen.surface == NO_HIT && !seen.own) {
             for (int k = 0; k < 9 && !seen.own; ++k) {
                 ivec2 other = texel + ivec2(k % 3 - 1, k / 3 - 1);
                 if (any(lessThan(other, rectangle.xy)) || any(greaterThanEqual(other, rectangle.zw))) {

@@ -2,6 +2,7 @@
 // Radiance of all patches along a parallel bundle. Every patch has just one direction in which it can send:
 // that end of the bundle's axis which is above it. A random point stands for the patch.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
@@ -19,7 +20,7 @@ void main() {
         return;
     }
     vec4 texel = texelFetch(radiance_texels, int(i));
-    for (bool glossy = is_glossy(i); glossy; glossy = false) {
+    RARELY(is_glossy(i)) {
         vec3 normal = patch_plane(patch_base + i).xyz;
         vec3 axis = bundle.axis_z.xyz;
         vec3 w_out = dot(axis, normal) < 0.0 ? -axis : axis;

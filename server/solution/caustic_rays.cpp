@@ -86,7 +86,8 @@ std::uint32_t CausticRays::patch_at(std::uint32_t facet, bool front,
 void CausticRays::follow(const LightRay& ray, Random& random,
                          std::vector<CausticDeposit>& deposits) const {
     std::array<ContinuedRay, SpecularRays::most_ends> ends;
-    const std::size_t count = rays_.follow(ray.origin, ray.direction, random.bits(), ends);
+    const std::size_t count =
+        rays_.follow(ray.origin, ray.direction, random.bits(), ends, SpecularRays::Coats::passed);
     for (std::size_t i = 0; i < count; ++i) {
         const ContinuedRay& end = ends[i];
         if (end.surface == ContinuedRay::sky) {
@@ -142,7 +143,7 @@ void CausticRays::follow_as_bundles(LightRay ray, Random& random,
             return;
         }
         const SpecularKind kind = rays_.surface(*hit).kind;
-        if (kind == SpecularKind::none) {
+        if (kind == SpecularKind::none || kind == SpecularKind::coat) {
             const std::uint32_t patch = patch_at(hit->facet, hit->front, hit->position);
             if (patch != PatchMesh::no_patch) {
                 deposits.push_back({patch, -ray.flux});

@@ -56,7 +56,8 @@ void Caustics::scale(const glm::vec3& factor) {
 }
 
 void Caustics::restart() {
-    lights_.emplace(scene_, mesh_, mesh_.emission, scene_.specular_rays()->boxes());
+    lights_.emplace(scene_, mesh_, mesh_.emission,
+                    scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     sums_.assign(sums_.size(), glm::dvec3(0.0));
     flux_.clear();
     rays_ = 0;

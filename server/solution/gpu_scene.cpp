@@ -288,7 +288,8 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     glass_ = has_glass(scene);
     define_if(glass_, "GLASS");
     const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
-    caustics_ = trace_caustics_ && specular_rays_ != nullptr &&
+    mirror_or_glass_ = has_mirror_or_glass(scene);
+    caustics_ = trace_caustics_ && mirror_or_glass_ &&
                 (!scene.punctual_lights.empty() ||
                  !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
     define_if(caustics_, "CAUSTICS");

@@ -145,7 +145,8 @@ class GpuScene {
     bool rescaled_ = false;
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool caustics_ = false;
-    bool glass_ = false;  // some surfaces let bundles pass
+    bool glass_ = false;            // some surfaces let bundles pass
+    bool mirror_or_glass_ = false;  // some are more than a smooth coat
     bool trace_caustics_;
     bool constant_radiance_;
     bool has_sky_ = false;

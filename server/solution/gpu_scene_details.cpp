@@ -104,9 +104,9 @@ void GpuScene::upload_transmittance(const Scene& scene, const PatchMesh& mesh) {
 std::uint32_t GpuScene::reflectance_record(const PatchMesh& mesh, std::size_t patch) const {
     const std::uint32_t triangle = mesh.patch_triangle[patch];
     const std::uint32_t material = mesh.triangle_material[triangle];
-    return mesh.metallic_roughness.empty() ? material
-                                           : static_cast<std::uint32_t>(reflectance_.record(
-                                                 material, mesh.metallic_roughness[triangle]));
+    const glm::vec2 place =
+        mesh.metallic_roughness.empty() ? glm::vec2(0.0F) : mesh.metallic_roughness[triangle];
+    return static_cast<std::uint32_t>(reflectance_.patch_record(material, place));
 }
 
 }  // namespace raybundle

@@ -44,10 +44,11 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
 }
 
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {
-    const bool followed =
-        specular_rays_ || specular_kind(scene.materials[material]) == SpecularKind::none;
+    const SpecularKind kind = specular_kind(scene.materials[material]);
+    const bool followed = kind == SpecularKind::none || mirror_or_glass_ ||
+                          (kind == SpecularKind::coat && specular_rays_);
     const bool passed = glass_ || !is_glass(scene.materials[material]);
-    const bool lit = caustics_ || !trace_caustics_ || !specular_rays_ ||
+    const bool lit = caustics_ || !trace_caustics_ || !mirror_or_glass_ ||
                      scene.materials[material].emission == glm::vec3(0.0F);
     return followed && passed && lit && reflectance_.covers(scene, material);
 }

@@ -34,6 +34,8 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       caustics_(caustics),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
+      statistics_readback_("statistics readback", statistics_buffer_.bytes()),
+      counters_readback_("counters readback", sizeof(layout::Counters)),
       update_({"solution_update.comp"}, scene.defines()),
       power_sum_({"solution_power_sum.comp"}, scene.defines()),
       power_scan_({"solution_power_scan.comp"}),
@@ -261,10 +263,9 @@ glm::dvec4 RadianceStore::reduce(const ShaderProgram& program) const {
     statistics_buffer_.bind_storage(BINDING_STATISTICS);
     program.set("patch_count", patch_count_);
     program.dispatch(statistics_groups * 256);
-    std::vector<glm::vec4> partial(statistics_groups);
-    statistics_buffer_.read<glm::vec4>(partial);
+    statistics_readback_.request(statistics_buffer_, statistics_buffer_.bytes());
     glm::dvec4 sum(0.0);
-    for (const glm::vec4& p : partial) {
+    for (const glm::vec4& p : statistics_readback_.take_as<glm::vec4>()) {
         sum += glm::dvec4(p);
     }
     return sum;
@@ -286,10 +287,9 @@ glm::dvec2 RadianceStore::take_scatter() const {
 }
 
 layout::Counters RadianceStore::take_counters() const {
-    layout::Counters counters{};
-    counters_.read(std::span(&counters, 1));
+    counters_readback_.request(counters_, sizeof(layout::Counters));
     clear_counters();
-    return counters;
+    return counters_readback_.take_as<layout::Counters>().front();
 }
 
 void RadianceStore::clear_counters() const {

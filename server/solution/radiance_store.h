@@ -134,6 +134,7 @@ class RadianceStore {
     const Buffer* other_ = nullptr;
     const Texture2D* other_texture_ = nullptr;
     Readback shooter_readback_;
+    mutable Readback statistics_readback_, counters_readback_;
     std::optional<ShaderProgram> level_;  // only where patches transmit light
     ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
     ShaderProgram flux_sum_, balance_flux_;

@@ -55,7 +55,6 @@ IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabili
                                      bool shuffled, unsigned planes_per_direction)
     : probabilities_(probabilities),
       planes_per_direction_(std::max(planes_per_direction, 1U)),
-      seed_(seed),
       numbers_(seed),
       plane_numbers_(mix_bits(seed ^ plane_key)),
       strategies_(mix_bits(seed ^ strategy_key), shuffled ? direction_block : 1),
@@ -77,24 +76,9 @@ std::uint64_t IterationSchedule::Indices::next() {
     return k - at + order_[at] + 1;
 }
 
-/// Every BATCHES iterations in a row fall to all batches, in an order drawn anew each time: with a
-/// fixed one a batch would see but a part of the range of a sequence whose base divides its stride.
-unsigned IterationSchedule::next_batch() {
-    const auto k = static_cast<unsigned>(iterations_ % BATCHES);
-    if (k == 0) {
-        std::uint64_t random = mix_bits(seed_ ^ mix_bits(iterations_));
-        for (unsigned i = BATCHES; i-- > 1; random /= i + 1) {
-            std::swap(batch_order_[i], batch_order_[random % (i + 1)]);
-        }
-    }
-    return batch_order_[k];
-}
-
 IterationSample IterationSchedule::next() {
     IterationSample sample;
-    sample.batch = next_batch();
     const double which = numbers_.golden(strategies_.next() - 1);
-    ++iterations_;
     const auto layered = static_cast<double>(probabilities_.layered);
     if (which < layered) {
         sample.strategy = Strategy::layered;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "bundle/low_discrepancy.h"
-#include "gpu/layouts.h"
 
 namespace raybundle {
 
@@ -23,7 +21,6 @@ struct StrategyProbabilities {
 /// The random numbers of one iteration.
 struct IterationSample {
     Strategy strategy = Strategy::perspective;
-    unsigned batch = 0;  ///< which of the interleaved batches it belongs to, for the error estimate
     glm::vec4 shooter_numbers{0.0F};  ///< perspective: see solution_shooters.comp
     double row_phase = 0.0;           ///< which pixel rows sum for the patches, [0, 1)
     double angle = 0.0;               ///< of the bundle about its z axis, radians
@@ -34,11 +31,11 @@ struct IterationSample {
     float faces = 0.0F;         ///< perspective: see choose_faces()
 };
 
-/// Hands out iterations: one low-discrepancy sequence per strategy, dealt out to interleaved
-/// batches. Batches with a randomisation of their own would be independent, but cost much of what
-/// the sequences bring (measured on the Cornell box, 512x512, true relRMSE after 3 and 10 s: 10.0
-/// and 5.4 %, dealt out 5.8 and 3.5 %); as it is, the variance between batches says somewhat too
-/// much. No clock and no state beyond counters, so a seed always gives the same sequence.
+/// Hands out iterations: one low-discrepancy sequence per strategy. Batches with a randomisation of
+/// their own would be independent, but cost much of what the sequences bring (measured on the
+/// Cornell box, 512x512, true relRMSE after 3 and 10 s: 10.0 and 5.4 % instead of 5.8 and 3.5 %);
+/// as it is, the scatter of the samples says too much: view/error_interval.h. No clock and no state
+/// beyond counters, so a seed always gives the same sequence.
 class IterationSchedule {
   public:
     /// shuffled: for glossy scenes, whose patches reflect the light that they accepted last. In its
@@ -72,7 +69,6 @@ class IterationSchedule {
         std::uint64_t count_ = 0;
     };
 
-    unsigned next_batch();
     static void sample_window(IterationSample& sample, const RandomisedHalton& numbers,
                               std::uint64_t k);
     void sample_shooter(IterationSample& sample, std::uint64_t k) const;
@@ -80,10 +76,7 @@ class IterationSchedule {
 
     StrategyProbabilities probabilities_;
     unsigned planes_per_direction_;
-    std::uint64_t seed_;
     RandomisedHalton numbers_, plane_numbers_;
-    std::array<unsigned, BATCHES> batch_order_ = {0, 1, 2, 3, 4, 5, 6, 7};
-    std::uint64_t iterations_ = 0;
     Indices strategies_, layered_, planes_, perspective_;
 };
 

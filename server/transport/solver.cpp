@@ -14,7 +14,7 @@ namespace raybundle {
 
 namespace {
 
-constexpr std::size_t group_size = BATCHES;  // iterations planned together: one of every batch
+constexpr std::size_t group_size = GROUP_SIZE;  // iterations planned together
 constexpr float transient_iterations =
     64.0F;                                  // times 1/(1 - albedo): over which sample weights rise
 constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
@@ -218,7 +218,6 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.constant = constant_;
     settings.context.constant_irradiance = glm::pi<float>() * constant_;
     settings.context.sample_weight = sample_weight();
-    settings.batch = planned.sample.batch;
     settings.slot = slot;
     settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
     settings.row_phase = planned.sample.row_phase;

@@ -10,10 +10,6 @@ namespace raybundle {
 
 namespace {
 
-/// Time of a layered bundle in those of a perspective one: 2.1 in the Cornell box, 2.8 in the
-/// living room, 1.7 and 2.5 in rooms with glass and below a sky (llvmpipe, two cores, 400-pixel
-/// window and 256-pixel hemicube). A number, since a clock would give every run another solution.
-constexpr double layered_cost = 2.2;
 constexpr unsigned interval = 64;              // bundles between two adaptations
 constexpr double fewest_bundles = 4;           // of a strategy, to know its scatter
 constexpr double least_share = 0.1;            // of either strategy
@@ -53,7 +49,7 @@ void StrategyMix::adapt(const std::array<double, 2>& scatter_sums) {
         !(scatter_sums[1] > 0.0)) {
         return;
     }
-    const double imbalance = std::log(scatter_sums[0] / layered / layered_cost) -
+    const double imbalance = std::log(scatter_sums[0] / layered / layered_bundle_cost) -
                              std::log(scatter_sums[1] / perspective);
     const auto log_odds = [](const StrategyProbabilities& p) {
         return std::log(static_cast<double>(p.layered) / static_cast<double>(p.perspective));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transport/transfer.h"
 
+#include <algorithm>
+#include <bit>
 #include <glm/gtc/constants.hpp>
+
+#include "gpu/egl_context.h"
 
 namespace raybundle {
 
@@ -9,7 +13,13 @@ namespace {
 
 // Pixels of a row that one invocation sums.
 constexpr unsigned hemicube_run = 8;  // run_length of transport_hemicube_patches.comp
-constexpr unsigned parallel_run = 32;
+
+/// The same in parallel bundles. Few and long runs share the work of finding a surface's patch;
+/// a GPU wants many invocations (H100, Cornell box, 800-pixel window: 2.2 ms with 32
+/// pixels, 0.2 with 2).
+unsigned parallel_run() {
+    return is_software_renderer() ? 32 : 2;
+}
 
 /// Program of a parallel bundle whose invocations sum `run` pixels each.
 ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, unsigned run,
@@ -25,15 +35,19 @@ ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, u
 unsigned layered_run(std::uint32_t longest_list) {
     constexpr unsigned most_rounds = 50'000;
     const unsigned rounds = longest_list * (longest_list / 2 + 8);  // insertion sort, exchange
-    unsigned run = parallel_run;
+    unsigned run = parallel_run();
     while (run > 1 && run * rounds > most_rounds) {
         run /= 2;
     }
     return run;
 }
 
-/// Lists that a program has room for: few sizes, since each takes time to compile.
+/// Lists that a program has room for: few sizes, since each takes time to compile, on a GPU
+/// seconds.
 std::uint32_t longest_list(std::uint32_t capacity) {
+    if (!is_software_renderer()) {
+        return std::bit_ceil(std::max(capacity, 64U));
+    }
     constexpr std::uint32_t grain = 16;
     return (capacity + grain - 1) / grain * grain;
 }
@@ -113,8 +127,7 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.constant = glm::vec4(settings.constant, settings.face_weights[0]);
     p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
                       settings.face_weights[4]};
-    p.weights = {settings.weight, settings.context.sample_weight, 0.0F,
-                 static_cast<float>(settings.batch)};
+    p.weights = {settings.weight, settings.context.sample_weight, 0.0F, 0.0F};
     p.resolution.w = static_cast<unsigned>(settings.context.place);
     p.moved = scene_.moved_objects();
     for (int k = 0; k < MOST_MOVED && p.moved[k] != NO_PATCH; ++k) {
@@ -227,7 +240,7 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
                      std::span<BundleReceiver* const> receivers) {
     if (!planes_) {
         planes_ = Planes{PlaneWindow(layers_.size(), scene_.defines()),
-                         parallel_program("transport_planes_patches.comp", scene_, parallel_run)};
+                         parallel_program("transport_planes_patches.comp", scene_, parallel_run())};
     }
     const Place place = settings.context.place;
     store_.bind();
@@ -235,7 +248,8 @@ void Transfer::plane(const ParallelWindow& window, const TransferSettings& setti
     store_.send_along_bundle(place);
     planes_->pictures.draw(scene_, window, place);
     planes_->pictures.bind_textures();
-    const auto columns = static_cast<unsigned>(window.size + parallel_run - 1) / parallel_run;
+    const unsigned run = parallel_run();
+    const unsigned columns = (static_cast<unsigned>(window.size) + run - 1) / run;
     planes_->patches.set("run_columns", columns);
     set_bases(planes_->patches, place);
     const unsigned rows = set_rows(planes_->patches, 0, window.size, settings);

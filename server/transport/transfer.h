@@ -27,7 +27,6 @@ struct TransferSettings {
     StrategyProbabilities probabilities;
     float density_error = 1.0F;  ///< fault injection of tests
     float weight = 1.0F;         ///< factor of patch contributions; negative in a special phase
-    unsigned batch = 0;
     double row_phase =
         0.0;            ///< which pixel rows are sampled, [0, 1), see row_stride in transfer.cpp
     unsigned slot = 0;  ///< of a layered iteration in its group, for take_overflow()

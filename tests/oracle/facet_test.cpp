@@ -35,7 +35,7 @@ std::vector<glm::vec4> solve(const Scene& scene, const PatchMesh& mesh) {
     settings.coarse_iterations = 1'000'000;
     Solver solver(scene, mesh, settings);
     // One group: shooters that are chosen by the outcome would differ by more than the outcome.
-    for (int i = 0; i < BATCHES; ++i) {
+    for (int i = 0; i < GROUP_SIZE; ++i) {
         solver.step({});
     }
     return solver.store().read_irradiance();

@@ -14,8 +14,6 @@
 namespace raybundle {
 namespace {
 
-constexpr double layered_cost = 2.2;  // in perspective bundles
-
 void expect_distribution(const StrategyProbabilities& p) {
     EXPECT_FLOAT_EQ(p.layered + p.plane + p.perspective, 1.0F);
     EXPECT_GT(p.layered, 0.0F);
@@ -49,10 +47,11 @@ StrategyProbabilities settle(StrategyMix mix, double layered_scatter, double per
 /// A third of the way, as logarithms, from where the scatter is worth its cost.
 TEST(StrategyMix, TurnsToWhatScattersMore) {
     const StrategyMix mix({0.3F, 0.0F, 0.7F}, true);
-    EXPECT_NEAR(settle(mix, layered_cost, 1.0).layered, 0.3F, 1e-4F);
+    EXPECT_NEAR(settle(mix, layered_bundle_cost, 1.0).layered, 0.3F, 1e-4F);
     for (const double ratio : {0.2, 0.5, 3.0, 20.0}) {
         const double odds = 3.0 / 7.0 * std::cbrt(ratio);
-        EXPECT_NEAR(settle(mix, ratio * layered_cost, 1.0).layered, odds / (1.0 + odds), 1e-4)
+        EXPECT_NEAR(settle(mix, ratio * layered_bundle_cost, 1.0).layered, odds / (1.0 + odds),
+                    1e-4)
             << ratio;
     }
     EXPECT_FLOAT_EQ(settle(mix, 1e9, 1.0).layered, 0.9F);

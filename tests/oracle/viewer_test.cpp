@@ -238,7 +238,7 @@ TEST(ViewerImage, AfterAChangeTheErrorIsUnknownUntilThereAreSamples) {
     }
     EXPECT_FALSE(known_after(0));
     EXPECT_FALSE(known_after(4));
-    EXPECT_TRUE(known_after(2 * BATCHES));
+    EXPECT_TRUE(known_after(2 * GROUP_SIZE));
     // A camera that moves shows the same scene.
     camera.target.x = 2.8F;
     image.set_camera(camera);
