@@ -42,10 +42,11 @@ float quantity(uvec2 at) {
 #endif
 }
 
-/// Whether an isoline runs between two neighbours. Where the value jumps, as at the edge of an object,
+/// Whether an isoline runs between two neighbours, in the unit of the isolines. Where the value jumps, as at the edge of an object,
 /// there is none.
 bool isoline_between(float a, float b) {
-    return isoline_band(a, view.display.y) != isoline_band(b, view.display.y) && max(a, b) < 1.5 * min(a, b);
+    float unit = view.display.w, top = view.display.y / unit;
+    return isoline_band(a / unit, top) != isoline_band(b / unit, top) && max(a, b) < 1.5 * min(a, b);
 }
 
 /// Displayed colour of a pixel, 0..1; dark where an isoline begins.

@@ -3,6 +3,7 @@
 // Variants: LINEAR averages radiance, without it displayed light (a mean of radiance would leave the edges of
 // lamps jagged that are many times brighter than display white). Runs on the tiles with edges alone.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = VIEW_TILE, local_size_y = VIEW_TILE) in;
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #define TILE_LISTS 1
@@ -41,13 +42,13 @@ void main() {
     int width = int(view.size.x);
     int index = int(view.size.y - 1u - at.y) * width + int(at.x);  // counts are kept from the bottom, frames from the top
     uint counts = edge_counts[at.y * view.size.x + at.x];
-    for (bool edge = counts != 0u; edge; edge = false) {
+    RARELY(counts != 0u) {
         vec4 sum = vec4(0.0);
         uint own = EDGE_SAMPLES;
         for (uint k = 0u; k < 8u; ++k) {
             uint n = edge_count(counts, k);
             ivec2 to = edge_neighbour(k);
-            for (bool seen = n != 0u; seen; seen = false) {
+            RARELY(n != 0u) {
                 sum += float(n) * light_of(frame[index + to.x - to.y * width]);
             }
             own -= n;

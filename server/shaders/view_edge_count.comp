@@ -3,6 +3,7 @@
 // own, another flat piece of it, or else the one that the nearest neighbour shows; where none does (something
 // thinner than a pixel) the sub-sample counts as the pixel's own.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "facets.glsl"
 #include "edge_counts.glsl"
@@ -75,7 +76,7 @@ void main() {
     uint index = at.y * view.size.x + at.x;
     uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
     // A loop, not a branch: lanes without an edge skip it.
-    for (bool other = surface != shown_surface(index); other; other = false) {
+    RARELY(surface != shown_surface(index)) {
         float own_penalty = penalty(surface, index);
         uint k = own_penalty == 0.0 ? 8u : neighbour_showing(surface, ivec2(at), own_penalty);
         uint counts = edge_counts[index];

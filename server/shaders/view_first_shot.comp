@@ -2,6 +2,7 @@
 // Incoming first shot (ch. 4.3.1) at the pixels of a viewer: irradiance by the punctual lights, and in GLOSSY scenes
 // what their light adds to the picture beyond the directional albedo, see pixel_gloss.glsl.
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 64) in;
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
@@ -28,7 +29,7 @@ void main() {
     uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, facet
     vec3 irradiance = vec3(0.0);
     vec3 gloss = vec3(0.0);
-    for (bool seen = p.w != NO_PATCH; seen; seen = false) {
+    RARELY(p.w != NO_PATCH) {
         // The surface point itself: the stored one is kept away from creases.
         uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
         vec2 v = unpackUnorm2x16(q.z);
@@ -54,7 +55,7 @@ void main() {
             vec3 arriving = punctual_irradiance(k, position, normal, geometric, facet, w_in);
             irradiance += arriving;
 #ifdef GLOSSY
-            for (bool lit = glossy && arriving != vec3(0.0); lit; lit = false) {
+            RARELY(glossy && arriving != vec3(0.0)) {
                 vec4 at_in = brdf_at(brdf, dot(normal, w_in));
                 vec3 value = brdf_value(brdf, normal, w_in, w_out, at_in.z * at_out.z);
                 gloss += arriving * (value - albedo * brdf_inverse_pi);

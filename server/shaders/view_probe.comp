@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What single pixels show: surface point, light, and the error of their batch means. One group each.
+// What single pixels show: surface point, light, and its error. One group each.
 #include "layouts.glsl"
 layout(local_size_x = 1) in;
 #include "view_radiance.glsl"
+#include "view_scatter.glsl"
 #include "octahedral.glsl"
 #include "false_colour.glsl"
-layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
 layout(std430, binding = BINDING_PICK) buffer PickBuffer { PickResult picks[]; };
 
 uniform float variance_of_mean;  // as in view_statistics.comp
@@ -13,23 +13,15 @@ uniform float variance_of_mean;  // as in view_statistics.comp
 /// Standard error of the nearest probe pixel's mean irradiance, relative; negative where unknown.
 float relative_error(uint pixel_index) {
     uvec2 at = uvec2(pixel_index % view.size.x, pixel_index / view.size.x) / 4u;
-    uint slot = BATCHES * (at.y * view.size.z + at.x);
-    float batch_weight = view.weights.y;
-    if (batch_weight <= 0.0) {
+    if (view.weights.y <= 0.0) {
         return -1.0;
     }
-    float mean = 0.0;
-    float square = 0.0;
-    for (uint batch = 0u; batch < BATCHES; ++batch) {
-        float value = pixel_batches[slot + batch] / batch_weight;
-        mean += value / float(BATCHES);
-        square += value * value / float(BATCHES);
-    }
-    float variance = max(square - mean * mean, 0.0);
+    vec2 estimate = mean_and_variance(at.y * view.size.z + at.x, view.weights.y, view.weights.z);
+    float mean = estimate.x;
 #ifdef CONSTANT_RADIANCE
     mean += luminance(view.constant.rgb) / view.weights.x;
 #endif
-    return mean > 0.0 ? sqrt(variance * variance_of_mean) / mean : -1.0;
+    return mean > 0.0 ? sqrt(estimate.y * variance_of_mean) / mean : -1.0;
 }
 
 void main() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance of a viewer's pixel: confidence-weighted blend of the object-space value and the pixel's own
 // estimate, times the albedo at the angle of view, and the glossy part.
+#include "rarely.glsl"
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
 #endif
@@ -161,7 +162,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
     reflected += transmitted_radiance(p);
 #endif
 #ifdef GLOSSY
-    for (bool glossy = (p.facet & PIXEL_GLOSSY) != 0u; glossy; glossy = false) {
+    RARELY((p.facet & PIXEL_GLOSSY) != 0u) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);
         vec3 gloss = own.rgb / max(weight + view.display.z, 1e-6);
@@ -170,6 +171,9 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #endif
         reflected = max(reflected + gloss, 0.0);
     }
+#endif
+#if defined(CLEAR_COAT) && defined(MIRRORS) && !defined(CONTINUED)
+    reflected += radiance_of_ends(index);  // by a smooth coat
 #endif
     return emitted + reflected;
 }

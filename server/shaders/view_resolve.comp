@@ -6,6 +6,7 @@
 // DETAILS (material_details.glsl), VERTEX_COLOURS, SMOOTH (some vertex normals bend away from their planes), REPROJECT,
 // MOVED (objects have just moved), CONTINUED (pixels behind mirrors and glass, see continued.glsl).
 #include "layouts.glsl"
+#include "rarely.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
 #include "facets.glsl"
@@ -234,7 +235,7 @@ void main() {
     uint old_index = old_pixel(position_before(position, object, triangle.xyz, weights), normal, id, object);
 #endif
     vec4 old_sum = vec4(0.0);
-    for (bool seen = old_index != hidden; seen; seen = false) {
+    RARELY(old_index != hidden) {
         old_sum = texelFetch(old_irradiance_texels, int(old_index));
 #ifdef CONSTANT_RADIANCE
         uvec2 old_surface = texelFetch(old_pixel_texels, int(2u * old_index + 1u)).xw;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partial sums over a viewer's probe pixels, in a fixed order:
-//  x: estimated squared error of the shown luminance, from the variance between batch means
+//  x: estimated squared error of the shown luminance, from the scatter of its samples
 //  y: squared luminance, z: logarithm of luminance, w: pixels counted
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
 #include "view_radiance.glsl"
-layout(std430, binding = BINDING_PIXEL_BATCHES) readonly buffer PixelBatchBuffer { float pixel_batches[]; };
+#include "view_scatter.glsl"
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 #include "false_colour.glsl"
 uniform float logarithm_floor;   // radiance units
-uniform float unsampled_error;   // relative error to assume where no batches exist yet
-uniform float variance_of_mean;  // of all batches over the mean square deviation of single ones: view/error_interval.h
-uniform float fresh_share;       // batches with less than this share of the weight say nothing
+uniform float unsampled_error;   // relative error to assume where nothing is known yet
+uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
+uniform float fresh_share;       // samples with less than this share of the weight say nothing
 
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
@@ -27,7 +27,7 @@ vec4 probe_statistics(uint probe) {
     float share = 1.0;
 #if defined(CONTINUED)
     // A pixel of the picture counts once: by the strongest end of its view ray.
-    share = continued[index].branch == 0u ? luminance(continued[index].throughput) : 0.0;
+    share = continued[index].branch + continued[index].added == 0u ? luminance(continued[index].throughput) : 0.0;
     if (share <= 0.0) {
         return vec4(0.0);
     }
@@ -39,22 +39,14 @@ vec4 probe_statistics(uint probe) {
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
     float weight = pixel_weight(texelFetch(pixel_irradiance_texels, int(index)), view.weights.x);
-    float batch_weight = view.weights.y;
-    if (weight <= 0.0 || batch_weight <= fresh_share * weight) {
+    float own_weight = view.weights.y;
+    if (weight <= 0.0 || own_weight <= fresh_share * weight) {
         float guess = unsampled_error * l;  // just disoccluded, or the camera has just moved
         return vec4(guess * guess, l * l, logarithm, 1.0);
     }
-    float mean = 0.0;
-    float square = 0.0;
-    for (uint batch = 0u; batch < BATCHES; ++batch) {
-        float value = pixel_batches[BATCHES * probe + batch] / batch_weight;
-        mean += value;
-        square += value * value;
-    }
-    mean /= float(BATCHES);
-    float variance = max(square / float(BATCHES) - mean * mean, 0.0) * variance_of_mean;
-    // The batches may be younger than the mean that is shown.
-    variance *= min(float(BATCHES) * batch_weight / weight, 1.0);
+    float variance = mean_and_variance(probe, own_weight, view.weights.z).y * variance_of_mean;
+    // The sums may be younger than the mean that is shown.
+    variance *= min(own_weight / weight, 1.0);
     float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
     return vec4(min(variance * reflectance * reflectance, l * l), l * l, logarithm, 1.0);
 }

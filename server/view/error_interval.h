@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a picture's batches say to its error: how much of their variance the mean of all has,
-// the interval, and what more samples bring. README: "Error bars".
+// From the scatter of a picture's samples to its error: the share of it that their mean keeps, the
+// interval, and what more samples bring. README: "Error bars".
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,31 @@ struct ErrorInterval {
 /// sequence, or shuffled within blocks, as for glossy scenes.
 enum class SampleOrder { low_discrepancy, shuffled };
 
-/// Variance of the mean of all batches over the mean square deviation of single ones from it, with
-/// so many samples in all. Batches are dealt out of one sequence, sample by sample at random, so
-/// that they scatter nearly like independent ones (1/7), while their mean gains by the sequence.
+/// Variance of the mean of so many samples over what it would be were they independent. Every
+/// iteration is a sample of its own: where 8 batches have 7 degrees of freedom times those of the
+/// picture (about 5), so that their variance is known to +-25 % whatever the number of samples, n
+/// samples have n - 1 times as many. Measured on the Cornell box at 64, 128 and 384 samples,
+/// standard deviation of the estimated relRMSE between runs: 8 batches 14, 10 and 11 %, this 7, 4
+/// and 2 %.
 double variance_of_mean(std::uint64_t samples, SampleOrder order);
 
 /// What pixels do not resolve, relative: squared differences, over the picture's squared light,
 /// that smoothing makes at edges and that other pixels have from their four neighbours.
 double discretisation_error(double at_edges, double elsewhere);
 
-/// noise: relative, as the batches say; discretisation: what no number of samples takes away,
-/// relative.
-ErrorInterval error_interval(double noise, double discretisation);
+/// noise: relative, as samples say, `samples` in all; discretisation: what no number of samples
+/// takes away, relative. With N and D for both and T^2 = N^2 + D^2, d(ln T) = (N^2 d(ln N) +
+/// D^2 d(ln D)) / T^2. Both parts err independently, their logarithms nearly normally, so that the
+/// interval ends at T exp(+-h), h^2 = (N^2 h_N)^2 + (D^2 h_D)^2 over T^4.
+ErrorInterval error_interval(double noise, double discretisation, std::uint64_t samples,
+                             SampleOrder order);
 
 /// Whether some number of samples brings error_interval().high below a target.
 bool reachable(double discretisation, double target);
 
 /// Factor of the number of samples after which error_interval().high is at a target, >= 1; infinite
 /// where it never is.
-double samples_factor(double noise, double discretisation, double target, SampleOrder order);
+double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
+                      SampleOrder order);
 
 }  // namespace raybundle

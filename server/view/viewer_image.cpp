@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/viewer_image.h"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
@@ -14,98 +12,11 @@ namespace raybundle {
 
 namespace {
 
-constexpr float near_share = 1e-4F;       // of the scene's diameter
-constexpr float crease_share = 1.25e-3F;  // of the diameter: a pixel of an 800-pixel window
-constexpr float confidence_weight =
-    6.0F;  // samples that a pixel needs to outweigh the object-space value
+constexpr float near_share = 1e-4F;         // of the scene's diameter
+constexpr float crease_share = 1.25e-3F;    // of the diameter: a pixel of an 800-pixel window
 constexpr float moving_kept_weight = 0.9F;  // of a reprojected value per camera change
-constexpr std::size_t statistics_groups = 64;
-constexpr float mid_grey = 0.18F;
-
-std::size_t pixel_count(glm::uvec2 size) {
-    return std::size_t{size.x} * size.y;
-}
-
-using Defines = std::vector<std::string>;
-
-Defines with_all(Defines defines, const Defines& more) {
-    defines.insert(defines.end(), more.begin(), more.end());
-    return defines;
-}
-
-ViewPrograms::Resolve make_resolve(const GpuScene& scene, const Defines& variant) {
-    const auto defines = with_all(scene.defines(), variant);
-    ViewPrograms::Resolve programs;
-    programs.all = ShaderProgram({"view_resolve.comp"}, defines);
-    if (scene.reflectance().specular()) {
-        programs.specular = ShaderProgram({"view_resolve_specular.comp"}, defines);
-    }
-    return programs;
-}
-
-ViewPrograms::Receive make_receive(const std::string& shader, const GpuScene& scene,
-                                   const Defines& variant) {
-    const auto defines = with_all(scene.defines(), variant);
-    ViewPrograms::Receive programs;
-    programs.all = ShaderProgram({shader}, defines);
-    if (scene.reflectance().any_glossy()) {
-        programs.glossy = ShaderProgram({shader}, with(defines, "GLOSSY_PIXELS 1"));
-    }
-    return programs;
-}
-
-ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene, Defines variant) {
-    const std::string shader = "transport_hemicube_pixels.comp";
-    ViewPrograms::ReceiveHemicube programs;
-    programs.from_lambert = make_receive(shader, scene, variant);
-    if (scene.reflectance().any_glossy()) {
-        variant.emplace_back("SHOOTER_GLOSSY 1");
-        programs.from_glossy = make_receive(shader, scene, variant);
-    }
-    return programs;
-}
 
 }  // namespace
-
-ViewPrograms::ViewPrograms(const GpuScene& scene) : ViewPrograms(scene, {}) {
-    if (scene.specular_rays() != nullptr) {
-        continued = std::make_unique<ViewPrograms>(scene, Defines{"CONTINUED 1"});
-    }
-}
-
-ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant)
-    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
-      resolve_new(make_resolve(scene, variant)),
-      resolve_reprojected(make_resolve(scene, with(variant, "REPROJECT 1"))),
-      resolve_moved(make_resolve(scene, with_all(variant, {"REPROJECT 1", "MOVED 1"}))),
-      compose_linear({"view_compose.comp"}, with_all(scene.defines(), with(variant, "LINEAR 1"))),
-      correct({"view_correct.comp"}, scene.defines()),
-      scale({"view_scale.comp"}, scene.defines()),
-      scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
-      vertex_irradiance({"view_vertex_irradiance.comp"}),
-      statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
-      detail({"view_detail.comp"}),
-      probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
-      depths({"view_depths.comp"}),
-      hemicube_pixels(make_receive_hemicube(scene, variant)),
-      hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
-      layers_pixels(make_receive("transport_layers_pixels.comp", scene, variant)),
-      layers_pixels_special(
-          make_receive("transport_layers_pixels.comp", scene, with(variant, "SPECIAL 1"))),
-      planes_pixels(make_receive("transport_planes_pixels.comp", scene, variant)),
-      edges(scene),
-      affected_tiles(scene) {
-    const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
-                                              "FALSE_ILLUMINANCE 1"};
-    for (std::size_t i = 0; i < modes.size() && variant.empty(); ++i) {
-        const auto defines = with(scene.defines(), modes[i]);
-        compose[i] = ShaderProgram({"view_compose.comp"}, defines);
-        compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
-    }
-    if (!scene.punctual_lights().empty()) {
-        first_shot = ShaderProgram({"view_first_shot.comp"}, with_all(scene.defines(), variant));
-    }
-}
 
 ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
                          const ViewPrograms& programs, glm::uvec2 size)
@@ -143,14 +54,14 @@ void ViewerImage::allocate() {
     irradiance_ = Buffer("pixel irradiance", pixels * sizeof(glm::vec4));
     old_irradiance_ = Buffer("old pixel irradiance", pixels * sizeof(glm::vec4));
     delta_ = Buffer("pixel increments", pixels * sizeof(glm::vec4));
-    batches_ = Buffer("pixel batches", probes * BATCHES * sizeof(float));
+    scatter_ = Buffer("pixel scatter", probes * SCATTER_SUMS * sizeof(float));
     frame_ = Buffer("frame", pixels * sizeof(std::uint32_t));
     surface_ids_ = create_texture_2d("view surface ids", GL_R32UI, width, height);
     depths_ = create_texture_2d("view depths", GL_DEPTH_COMPONENT32F, width, height);
     framebuffer_ = create_framebuffer("view", surface_ids_.get(), depths_.get());
     frame_readback_.emplace("frame readback", frame_.bytes());
     delta_.clear();
-    batches_.clear();
+    scatter_.clear();
     create_pixel_textures();
     edges_.emplace(size_);
     affected_.emplace(size_);
@@ -300,20 +211,10 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
                                                  : programs_.resolve_reprojected,
             whole_picture(), kept_weight);
     shoot_first();
-    restart_batches();
+    restart_scatter();
     edges_->restart();
     samples_ = 0;
     has_picture_ = true;
-}
-
-/// What the pixels show is another thing from now on, or of other accuracy.
-void ViewerImage::restart_batches() {
-    batches_.clear();
-    parameters_.weights.y = 0.0F;
-    batch_samples_ = 0;
-    detail_samples_ = 0;
-    requested_samples_ = 0;
-    statistics_.samples = 0;
 }
 
 void ViewerImage::bind_old_picture() const {
@@ -359,7 +260,7 @@ void ViewerImage::bind_pixels() const {
     pixels_.bind_storage(BINDING_PIXELS);
     irradiance_.bind_storage(BINDING_PIXEL_IRRADIANCE);
     delta_.bind_storage(BINDING_PIXEL_DELTA);
-    batches_.bind_storage(BINDING_PIXEL_BATCHES);
+    scatter_.bind_storage(BINDING_PIXEL_SCATTER);
     vertex_irradiance_.bind_storage(BINDING_VERTEX_IRRADIANCE);
     statistics_buffer_.bind_storage(BINDING_STATISTICS);
     frame_.bind_storage(BINDING_FRAME);
@@ -405,9 +306,10 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
         specular_->dispatch(programs.glossy);
     }
     ++samples_;
-    ++batch_samples_;
+    ++scatter_samples_;
     parameters_.weights.x += context.sample_weight;
-    parameters_.weights.y += context.sample_weight / BATCHES;
+    parameters_.weights.y += context.sample_weight;
+    parameters_.weights.z += context.sample_weight * context.sample_weight;
     parameters_.constant += glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
 }
 
@@ -439,9 +341,10 @@ void ViewerImage::discard_sample(const Context& context) {
         continued()->discard_sample(context);
     }
     --samples_;
-    --batch_samples_;
+    --scatter_samples_;
     parameters_.weights.x -= context.sample_weight;
-    parameters_.weights.y -= context.sample_weight / BATCHES;
+    parameters_.weights.y -= context.sample_weight;
+    parameters_.weights.z -= context.sample_weight * context.sample_weight;
     parameters_.constant -= glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
 }
 
@@ -465,8 +368,7 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     const float factor = mode == DisplayMode::photo
                              ? display_factor(exposure) * scene_.radiance_unit()
                              : scale.maximum;
-    parameters_.display = {scene_.radiance_unit(), factor, confidence_weight,
-                           scale.isolines ? 1.0F : 0.0F};
+    parameters_.display = {scene_.radiance_unit(), factor, confidence_weight, scale.isolines};
     upload_view();
     frame_size = glm::clamp(frame_size, glm::uvec2(1), size_);
     const auto index = static_cast<std::size_t>(mode);
@@ -512,175 +414,12 @@ std::span<const std::uint8_t> ViewerImage::take() {
     return frame_readback_->take_as<std::uint8_t>();
 }
 
-std::vector<glm::vec4> ViewerImage::read_radiance() {
-    interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
-    upload_view();
-    Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
-    linear.bind_storage(BINDING_FRAME);
-    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
-    programs_.compose_linear.set("frame_width", size_.x);
-    programs_.compose_linear.set("frame_height", size_.y);
-    programs_.compose_linear.dispatch(pixel_count(size_));
-    if (edges_->complete()) {
-        linear = edges_->average_linear(programs_.edges, linear);
-    }
-    std::vector<glm::vec4> result(pixel_count(size_));
-    linear.read<glm::vec4>(result);
-    return result;
-}
-
-std::optional<PixelProbe> ViewerImage::probe(glm::uvec2 pixel) {
-    return probe(std::span(&pixel, 1)).front();
-}
-
-std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::uvec2> pixels) {
-    std::vector<layout::PickResult> picks(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const glm::uvec2 pixel = glm::min(pixels[i], size_ - 1U);
-        picks[i].position.x = std::bit_cast<float>((size_.y - 1 - pixel.y) * size_.x + pixel.x);
-    }
-    interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
-    upload_view();
-    auto buffer = Buffer::from<layout::PickResult>("probes", picks);
-    buffer.bind_storage(BINDING_PICK);
-    programs_.probe.set("triangle_count", scene_.triangle_count());
-    programs_.probe.set("variance_of_mean",
-                        static_cast<float>(variance_of_mean(batch_samples_, sample_order())));
-    programs_.probe.dispatch(pixels.size());
-    buffer.read<layout::PickResult>(picks);
-    std::vector<std::optional<PixelProbe>> found(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        if (picks[i].position.w > 0.0F) {
-            found[i] = from_pick(picks[i]);
-        }
-    }
-    return found;
-}
-
-PixelProbe ViewerImage::from_pick(const layout::PickResult& pick) const {
-    PixelProbe result;
-    result.position = glm::vec3(pick.position) + scene_.origin();
-    result.normal = glm::vec3(pick.normal);
-    result.object = std::bit_cast<std::uint32_t>(pick.normal.w);
-    result.patch = std::bit_cast<std::uint32_t>(pick.irradiance.w);
-    result.irradiance = glm::vec3(pick.irradiance) * scene_.radiance_unit();
-    result.radiance = glm::vec3(pick.radiance) * scene_.radiance_unit();
-    if (pick.radiance.w >= 0.0F) {
-        result.relative_error = static_cast<double>(pick.radiance.w);
-    }
-    return result;
-}
-
-std::vector<glm::vec4> ViewerImage::read_irradiance() const {
-    std::vector<glm::vec4> result(pixel_count(size_));
-    irradiance_.read<glm::vec4>(result);
-    for (glm::vec4& value : result) {
-        const float weight = value.w + parameters_.weights.x;
-        const float scale = weight > 0.0F ? scene_.radiance_unit() / weight : 0.0F;
-        value = glm::vec4(glm::vec3(value + parameters_.constant) * scale, weight);
-    }
-    return result;
-}
-
-void ViewerImage::request_statistics() {
-    if (continued() != nullptr) {
-        continued()->request_statistics();
-    }
-    interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
-    upload_view();
-    programs_.statistics.set("triangle_count", scene_.triangle_count());
-    programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
-    programs_.statistics.set("unsampled_error",
-                             static_cast<float>(std::min(statistics_.noise, 1.0)));
-    programs_.statistics.set("variance_of_mean",
-                             static_cast<float>(variance_of_mean(batch_samples_, sample_order())));
-    programs_.statistics.set("fresh_share", batch_samples_ < BATCHES ? 2.0F : 0.02F);
-    programs_.statistics.dispatch(statistics_groups * 64);
-    if (ends_ == nullptr &&
-        batch_samples_ >= std::max<std::uint64_t>(2 * detail_samples_, 2 * BATCHES)) {
-        measure_detail();
-    }
-    statistics_readback_->request(statistics_buffer_, statistics_buffer_.bytes());
-    requested_samples_ = batch_samples_;
-}
-
-SampleOrder ViewerImage::sample_order() const {
-    return scene_.reflectance().any_glossy() ? SampleOrder::shuffled : SampleOrder::low_discrepancy;
-}
-
-/// What is finer than the pixels changes little: measured when there are twice as many samples.
-void ViewerImage::measure_detail() {
-    Buffer centres("centres of pixels", pixel_count(size_) * sizeof(glm::vec4));
-    centres.bind_storage(BINDING_FRAME);
-    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
-    programs_.compose_linear.set("frame_width", size_.x);
-    programs_.compose_linear.set("frame_height", size_.y);
-    programs_.compose_linear.dispatch(pixel_count(size_));
-    const Buffer smoothed =
-        edges_->complete() ? edges_->average_linear(programs_.edges, centres) : Buffer();
-    centres.bind_storage(BINDING_FRAME);
-    (edges_->complete() ? smoothed : centres).bind_storage(BINDING_SMOOTHED);
-    programs_.detail.dispatch(statistics_groups * 64);
-    detail_samples_ = batch_samples_;
-}
-
-ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
-    StatisticsSums sums;
-    const auto parts = statistics_readback_->take_as<glm::vec4>();
-    for (std::size_t i = 0; i < statistics_groups; ++i) {
-        sums.light += glm::dvec4(parts[i]);
-        sums.detail += glm::dvec4(parts[statistics_groups + i]);
-    }
-    return sums;
-}
-
-const ImageStatistics& ViewerImage::statistics() {
-    if (statistics_readback_->ready()) {
-        finish_statistics();
-    }
-    return statistics_;
-}
-
-void ViewerImage::finish_statistics() {
-    const StatisticsSums own = statistics_sums();
-    evaluate(own.light +
-                 (continued() != nullptr ? continued()->statistics_sums().light : glm::dvec4(0.0)),
-             own.detail);
-}
-
-void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
-    if (sum.w <= 0.0) {
-        return;
-    }
-    statistics_.samples = requested_samples_;
-    statistics_.known = statistics_.known || requested_samples_ >= 2 * BATCHES;
-    const double unit = scene_.radiance_unit();
-    statistics_.noise = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
-    statistics_.discretisation =
-        detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) : 0.0;
-    const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation);
-    statistics_.relative_error = interval.error;
-    statistics_.error_low = interval.low;
-    statistics_.error_high = interval.high;
-    statistics_.mean_log_luminance = sum.z / sum.w + std::log(unit);
-    statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
-}
-
-float ViewerImage::automatic_exposure() const {
-    // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
-    const double stops = -statistics_.mean_log_luminance / std::log(2.0);
-    return static_cast<float>(std::clamp(stops, -30.0, 30.0));
-}
-
 std::size_t ViewerImage::bytes() const {
     std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes() +
                       (continued_ ? continued_->bytes() : 0) +
                       (depth_grid_ ? depth_grid_->bytes() : 0);
     for (const Buffer* buffer :
-         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &batches_,
+         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &scatter_,
           &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
         sum += buffer->bytes();
     }

@@ -20,6 +20,7 @@
 #include "view/edge_filter.h"
 #include "view/error_interval.h"
 #include "view/specular_groups.h"
+#include "view/view_programs.h"
 
 namespace raybundle {
 
@@ -30,7 +31,7 @@ enum class DisplayMode { photo = 0, false_luminance = 1, false_illuminance = 2 }
 /// How false colour shows a quantity: three decades below `maximum`, with lines or without.
 struct ColourScale {
     float maximum = 1000.0F;  ///< cd/m² or lx
-    bool isolines = false;
+    float isolines = 0.0F;    ///< unit of the values with lines, cd/m² or lx; 0: none
 };
 
 /// How a picture for people shows radiance. exposure: EV.
@@ -74,38 +75,6 @@ struct PixelProbe {
     std::optional<double> relative_error;  ///< standard error, where estimated
 };
 
-/// Programs that all viewers share.
-struct ViewPrograms {
-    explicit ViewPrograms(const GpuScene& scene);
-    /// The same with more macros.
-    ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
-
-    ShaderProgram raster;
-    /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
-    /// after an object has moved; `specular` goes over specular pixels alone.
-    struct Resolve {
-        ShaderProgram all, specular;
-    };
-    Resolve resolve_new, resolve_reprojected, resolve_moved;
-    ShaderProgram compose_linear;
-    std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
-    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
-    ShaderProgram depths;
-    ShaderProgram first_shot;  ///< only where the scene has punctual lights
-    /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
-    struct Receive {
-        ShaderProgram all, glossy;
-    };
-    struct ReceiveHemicube {
-        Receive from_lambert, from_glossy;  ///< kind of the shooter
-    };
-    ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
-    Receive layers_pixels, layers_pixels_special, planes_pixels;
-    EdgePrograms edges;
-    AffectedTilePrograms affected_tiles;
-    std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on
-};
-
 /// One viewer's picture: geometry buffer, irradiance accumulators at its pixels, and the finished
 /// frame. Its pixels are receivers of every bundle.
 class ViewerImage : public BundleReceiver {
@@ -118,7 +87,7 @@ class ViewerImage : public BundleReceiver {
     /// where none do.
     [[nodiscard]] double samples_factor_to(double target) const {
         return samples_factor(statistics_.noise, statistics_.discretisation, target,
-                              sample_order());
+                              statistics_.samples, sample_order());
     }
     /// Changes what is seen; accumulated irradiance follows its surface points.
     void set_camera(const Camera& camera);
@@ -207,6 +176,13 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] float automatic_exposure() const;
 
   private:
+    static constexpr std::size_t statistics_groups = 64;  // of 64 invocations
+    /// Samples that a pixel needs to outweigh the object-space value.
+    static constexpr float confidence_weight = 6.0F;
+    static constexpr float mid_grey = 0.18F;
+
+    static std::size_t pixel_count(glm::uvec2 size) { return std::size_t{size.x} * size.y; }
+
     void allocate();
     [[nodiscard]] PixelRectangle whole_picture() const;
     [[nodiscard]] PixelRectangle rectangle_of_moved() const;
@@ -226,7 +202,7 @@ class ViewerImage : public BundleReceiver {
     void receive(const ViewPrograms::Receive& programs, const Context& context);
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
-    void restart_batches();
+    void restart_scatter();
     void begin_change();
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
@@ -250,12 +226,12 @@ class ViewerImage : public BundleReceiver {
     std::size_t frame_bytes_ = 0;
     bool has_picture_ = false;  // accumulators that can be reprojected
     std::uint64_t samples_ = 0;
-    std::uint64_t batch_samples_ = 0;      // since the batches began
+    std::uint64_t scatter_samples_ = 0;    // since the sums of their scatter began
     std::uint64_t detail_samples_ = 0;     // of them when the detail was measured last
     std::uint64_t requested_samples_ = 0;  // of them when statistics were requested last
     ImageStatistics statistics_;
 
-    Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, batches_;
+    Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, scatter_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<EdgeFilter> edges_;           // always
     std::optional<DepthGrid> depth_grid_;       // only for who asks for depths

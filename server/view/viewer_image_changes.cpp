@@ -75,7 +75,7 @@ void ViewerImage::copy_rows(const PixelRectangle& rectangle) const {
 /// The camera rests, and objects are elsewhere: only where they are and were the picture differs,
 /// and all other pixels keep what they have to the bit.
 void ViewerImage::refresh_moved() {
-    restart_batches();
+    restart_scatter();
     samples_ = 0;
     if (continued_) {
         continued_->refresh(parameters_, camera_, 1.0F);
@@ -168,7 +168,7 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
     upload_view();
     store_.bind();
     bind_pixels();
-    restart_batches();
+    restart_scatter();
     scene_.set_move(programs_.correct);
     programs_.correct.set("bundles_noise", bundles_noise);
     programs_.correct.set("most_weight", most_weight);

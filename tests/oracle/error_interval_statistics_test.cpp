@@ -26,7 +26,7 @@ TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
           "effects/normal_map.gltf", "effects/roughness_texture.gltf"}) {
         const JudgedScene scene(file, 0.4F, 1500);
         Coverage own;
-        for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+        for (std::uint64_t seed = 65; seed <= 96; ++seed) {  // smaller ones were fitted to
             scene.run(seed, 0.02, [&](const JudgedPicture& picture) {
                 if (is_judged(picture.iterations)) {
                     own.add(picture);
@@ -43,7 +43,7 @@ TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
     EXPECT_EQ(all.pictures, 800U);
     EXPECT_GE(all.share(), 0.92) << all.text();
     EXPECT_LE(all.share(), 0.98) << all.text();
-    EXPECT_LE(all.half_width(), 0.45) << all.text();
+    EXPECT_LE(all.half_width(), 0.42) << all.text();
 }
 
 /// Runs that end when their interval says that a target is met: 120 of them, and of all seeds at

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/view_programs.h"
+
+#include <array>
+
+namespace raybundle {
+
+namespace {
+
+using Defines = std::vector<std::string>;
+
+Defines with_all(Defines defines, const Defines& more) {
+    defines.insert(defines.end(), more.begin(), more.end());
+    return defines;
+}
+
+ViewPrograms::Resolve make_resolve(const GpuScene& scene, const Defines& variant) {
+    const auto defines = with_all(scene.defines(), variant);
+    ViewPrograms::Resolve programs;
+    programs.all = ShaderProgram({"view_resolve.comp"}, defines);
+    if (scene.reflectance().specular()) {
+        programs.specular = ShaderProgram({"view_resolve_specular.comp"}, defines);
+    }
+    return programs;
+}
+
+ViewPrograms::Receive make_receive(const std::string& shader, const GpuScene& scene,
+                                   const Defines& variant) {
+    const auto defines = with_all(scene.defines(), variant);
+    ViewPrograms::Receive programs;
+    programs.all = ShaderProgram({shader}, defines);
+    if (scene.reflectance().any_glossy()) {
+        programs.glossy = ShaderProgram({shader}, with(defines, "GLOSSY_PIXELS 1"));
+    }
+    return programs;
+}
+
+ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene, Defines variant) {
+    const std::string shader = "transport_hemicube_pixels.comp";
+    ViewPrograms::ReceiveHemicube programs;
+    programs.from_lambert = make_receive(shader, scene, variant);
+    if (scene.reflectance().any_glossy()) {
+        variant.emplace_back("SHOOTER_GLOSSY 1");
+        programs.from_glossy = make_receive(shader, scene, variant);
+    }
+    return programs;
+}
+
+}  // namespace
+
+ViewPrograms::ViewPrograms(const GpuScene& scene) : ViewPrograms(scene, {}) {
+    if (scene.specular_rays() != nullptr) {
+        continued = std::make_unique<ViewPrograms>(scene, Defines{"CONTINUED 1"});
+    }
+}
+
+ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant)
+    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
+      resolve_new(make_resolve(scene, variant)),
+      resolve_reprojected(make_resolve(scene, with(variant, "REPROJECT 1"))),
+      resolve_moved(make_resolve(scene, with_all(variant, {"REPROJECT 1", "MOVED 1"}))),
+      compose_linear({"view_compose.comp"}, with_all(scene.defines(), with(variant, "LINEAR 1"))),
+      correct({"view_correct.comp"}, scene.defines()),
+      scale({"view_scale.comp"}, scene.defines()),
+      scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
+      vertex_irradiance({"view_vertex_irradiance.comp"}),
+      statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
+      detail({"view_detail.comp"}),
+      probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
+      depths({"view_depths.comp"}),
+      hemicube_pixels(make_receive_hemicube(scene, variant)),
+      hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
+      layers_pixels(make_receive("transport_layers_pixels.comp", scene, variant)),
+      layers_pixels_special(
+          make_receive("transport_layers_pixels.comp", scene, with(variant, "SPECIAL 1"))),
+      planes_pixels(make_receive("transport_planes_pixels.comp", scene, variant)),
+      edges(scene),
+      affected_tiles(scene) {
+    const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
+                                              "FALSE_ILLUMINANCE 1"};
+    for (std::size_t i = 0; i < modes.size() && variant.empty(); ++i) {
+        const auto defines = with(scene.defines(), modes[i]);
+        compose[i] = ShaderProgram({"view_compose.comp"}, defines);
+        compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
+    }
+    if (!scene.punctual_lights().empty()) {
+        first_shot = ShaderProgram({"view_first_shot.comp"}, with_all(scene.defines(), variant));
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/shader_program.h"
+#include "solution/gpu_scene.h"
+#include "view/affected_tiles.h"
+#include "view/edge_filter.h"
+
+namespace raybundle {
+
+/// Programs that all viewers share.
+struct ViewPrograms {
+    explicit ViewPrograms(const GpuScene& scene);
+    /// The same with more macros.
+    ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
+
+    ShaderProgram raster;
+    /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
+    /// after an object has moved; `specular` goes over specular pixels alone.
+    struct Resolve {
+        ShaderProgram all, specular;
+    };
+    Resolve resolve_new, resolve_reprojected, resolve_moved;
+    ShaderProgram compose_linear;
+    std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
+    ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
+    ShaderProgram depths;
+    ShaderProgram first_shot;  ///< only where the scene has punctual lights
+    /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
+    struct Receive {
+        ShaderProgram all, glossy;
+    };
+    struct ReceiveHemicube {
+        Receive from_lambert, from_glossy;  ///< kind of the shooter
+    };
+    ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
+    Receive layers_pixels, layers_pixels_special, planes_pixels;
+    EdgePrograms edges;
+    AffectedTilePrograms affected_tiles;
+    std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on
+};
+
+}  // namespace raybundle

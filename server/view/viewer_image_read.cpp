@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is read from a viewer's picture: its light, and single pixels.
+#include <bit>
+
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+std::vector<glm::vec4> ViewerImage::read_radiance() {
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
+    linear.bind_storage(BINDING_FRAME);
+    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
+    programs_.compose_linear.set("frame_width", size_.x);
+    programs_.compose_linear.set("frame_height", size_.y);
+    programs_.compose_linear.dispatch(pixel_count(size_));
+    if (edges_->complete()) {
+        linear = edges_->average_linear(programs_.edges, linear);
+    }
+    std::vector<glm::vec4> result(pixel_count(size_));
+    linear.read<glm::vec4>(result);
+    return result;
+}
+
+std::optional<PixelProbe> ViewerImage::probe(glm::uvec2 pixel) {
+    return probe(std::span(&pixel, 1)).front();
+}
+
+std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::uvec2> pixels) {
+    std::vector<layout::PickResult> picks(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const glm::uvec2 pixel = glm::min(pixels[i], size_ - 1U);
+        picks[i].position.x = std::bit_cast<float>((size_.y - 1 - pixel.y) * size_.x + pixel.x);
+    }
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    auto buffer = Buffer::from<layout::PickResult>("probes", picks);
+    buffer.bind_storage(BINDING_PICK);
+    programs_.probe.set("triangle_count", scene_.triangle_count());
+    programs_.probe.set("variance_of_mean",
+                        static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
+    programs_.probe.dispatch(pixels.size());
+    buffer.read<layout::PickResult>(picks);
+    std::vector<std::optional<PixelProbe>> found(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (picks[i].position.w > 0.0F) {
+            found[i] = from_pick(picks[i]);
+        }
+    }
+    return found;
+}
+
+PixelProbe ViewerImage::from_pick(const layout::PickResult& pick) const {
+    PixelProbe result;
+    result.position = glm::vec3(pick.position) + scene_.origin();
+    result.normal = glm::vec3(pick.normal);
+    result.object = std::bit_cast<std::uint32_t>(pick.normal.w);
+    result.patch = std::bit_cast<std::uint32_t>(pick.irradiance.w);
+    result.irradiance = glm::vec3(pick.irradiance) * scene_.radiance_unit();
+    result.radiance = glm::vec3(pick.radiance) * scene_.radiance_unit();
+    if (pick.radiance.w >= 0.0F) {
+        result.relative_error = static_cast<double>(pick.radiance.w);
+    }
+    return result;
+}
+
+std::vector<glm::vec4> ViewerImage::read_irradiance() const {
+    std::vector<glm::vec4> result(pixel_count(size_));
+    irradiance_.read<glm::vec4>(result);
+    for (glm::vec4& value : result) {
+        const float weight = value.w + parameters_.weights.x;
+        const float scale = weight > 0.0F ? scene_.radiance_unit() / weight : 0.0F;
+        value = glm::vec4(glm::vec3(value + parameters_.constant) * scale, weight);
+    }
+    return result;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a viewer's picture says of its own error and brightness.
+#include <algorithm>
+#include <cmath>
+
+#include "view/continued_view.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// What the pixels show is another thing from now on, or of other accuracy.
+void ViewerImage::restart_scatter() {
+    scatter_.clear();
+    parameters_.weights.y = 0.0F;
+    parameters_.weights.z = 0.0F;
+    scatter_samples_ = 0;
+    detail_samples_ = 0;
+    requested_samples_ = 0;
+    statistics_.samples = 0;
+}
+
+void ViewerImage::request_statistics() {
+    if (continued() != nullptr) {
+        continued()->request_statistics();
+    }
+    interpolate_vertices();
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    upload_view();
+    programs_.statistics.set("triangle_count", scene_.triangle_count());
+    programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
+    programs_.statistics.set("unsampled_error",
+                             static_cast<float>(std::min(statistics_.noise, 1.0)));
+    programs_.statistics.set(
+        "variance_of_mean", static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
+    programs_.statistics.set("fresh_share", scatter_samples_ < GROUP_SIZE ? 2.0F : 0.16F);
+    programs_.statistics.dispatch(statistics_groups * 64);
+    if (ends_ == nullptr &&
+        scatter_samples_ >= std::max<std::uint64_t>(2 * detail_samples_, 2 * GROUP_SIZE)) {
+        measure_detail();
+    }
+    statistics_readback_->request(statistics_buffer_, statistics_buffer_.bytes());
+    requested_samples_ = scatter_samples_;
+}
+
+SampleOrder ViewerImage::sample_order() const {
+    return scene_.reflectance().any_glossy() ? SampleOrder::shuffled : SampleOrder::low_discrepancy;
+}
+
+/// What is finer than the pixels changes little: measured when there are twice as many samples.
+void ViewerImage::measure_detail() {
+    Buffer centres("centres of pixels", pixel_count(size_) * sizeof(glm::vec4));
+    centres.bind_storage(BINDING_FRAME);
+    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
+    programs_.compose_linear.set("frame_width", size_.x);
+    programs_.compose_linear.set("frame_height", size_.y);
+    programs_.compose_linear.dispatch(pixel_count(size_));
+    const Buffer smoothed =
+        edges_->complete() ? edges_->average_linear(programs_.edges, centres) : Buffer();
+    centres.bind_storage(BINDING_FRAME);
+    (edges_->complete() ? smoothed : centres).bind_storage(BINDING_SMOOTHED);
+    programs_.detail.dispatch(statistics_groups * 64);
+    detail_samples_ = scatter_samples_;
+}
+
+ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
+    StatisticsSums sums;
+    const auto parts = statistics_readback_->take_as<glm::vec4>();
+    for (std::size_t i = 0; i < statistics_groups; ++i) {
+        sums.light += glm::dvec4(parts[i]);
+        sums.detail += glm::dvec4(parts[statistics_groups + i]);
+    }
+    return sums;
+}
+
+const ImageStatistics& ViewerImage::statistics() {
+    if (statistics_readback_->ready()) {
+        finish_statistics();
+    }
+    return statistics_;
+}
+
+void ViewerImage::finish_statistics() {
+    const StatisticsSums own = statistics_sums();
+    evaluate(own.light +
+                 (continued() != nullptr ? continued()->statistics_sums().light : glm::dvec4(0.0)),
+             own.detail);
+}
+
+void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
+    if (sum.w <= 0.0) {
+        return;
+    }
+    statistics_.samples = requested_samples_;
+    statistics_.known = statistics_.known || requested_samples_ >= 2 * GROUP_SIZE;
+    const double unit = scene_.radiance_unit();
+    statistics_.noise = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
+    statistics_.discretisation =
+        detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) : 0.0;
+    const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
+                                                  requested_samples_, sample_order());
+    statistics_.relative_error = interval.error;
+    statistics_.error_low = interval.low;
+    statistics_.error_high = interval.high;
+    statistics_.mean_log_luminance = sum.z / sum.w + std::log(unit);
+    statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
+}
+
+float ViewerImage::automatic_exposure() const {
+    // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
+    const double stops = -statistics_.mean_log_luminance / std::log(2.0);
+    return static_cast<float>(std::clamp(stops, -30.0, 30.0));
+}
+
+}  // namespace raybundle
