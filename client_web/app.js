@@ -14,7 +14,7 @@ import {ServerError} from './protocol.js';
 import {RaybundleClient} from './raybundle_client.js';
 import {Readouts} from './readouts.js';
 import {SceneModel} from './scene_model.js';
-import {Status} from './status.js';
+import {Status, sentence} from './status.js';
 
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
@@ -40,7 +40,7 @@ const NO_VIEW = {
 /**
  * Events: `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
  * `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
- * message of the server).
+ * message of the server), `upload` (somebody has dropped a scene on the page).
  */
 export class RaybundleApp extends EventTarget {
     /**
@@ -364,7 +364,7 @@ export class RaybundleApp extends EventTarget {
     /** @param {unknown} error */
     #problem(error) {
         if (error instanceof ServerError) {
-            this.status.notify(error.message, 'problem');
+            this.status.notify(sentence(error.message), 'problem');
         }
     }
 

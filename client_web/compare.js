@@ -19,8 +19,6 @@ import {snapshotSize} from './snapshot_panel.js';
 const MOST_CHOICES = 30;
 /** Errors to ask an earlier picture for: that of the one on screen, within these. */
 const ERRORS = {least: 0.03, most: 0.15};
-/** Until the server knows how the picture is exposed, milliseconds. */
-const EXPOSURE_MS = 60;
 
 /**
  * What can be compared with: the scene before each change, and as it was loaded.
@@ -33,7 +31,7 @@ export function choicesOf(entries, epoch) {
     const newest = entries
         .slice(-MOST_CHOICES)
         .reverse()
-        .map(({before, by, text}) => ({epoch: before, name: `before ${by} ${text}`}));
+        .map(({before, by, text}) => ({epoch: before, name: `before ${by === 'You' ? 'you' : by} ${text}`}));
     const loaded = newest.some((choice) => choice.epoch === 0);
     return epoch > 0 && !loaded ? [...newest, {epoch: 0, name: 'as it was loaded'}] : newest;
 }
@@ -98,7 +96,7 @@ export class Compare {
         this.#fixExposure();
         this.#earlier.disabled = true;
         showValue('compareState', `The light ${name} is being computed; go on meanwhile.`);
-        await new Promise((resolve) => setTimeout(resolve, EXPOSURE_MS));
+        await this.display.carriedOut();
         const {limits, viewport} = app.picture;
         const error = app.stats.errorHigh ?? ERRORS.most;
         const snapshot = {
@@ -123,6 +121,19 @@ export class Compare {
             this.#releaseExposure();
             showValue('compareState', `The picture ${name} is there: Compare shows it.`);
         }
+    }
+
+    /** Ends the comparison. Returns whether there was one. */
+    close() {
+        const open = !this.#wipe.hidden;
+        if (open) {
+            const focused = document.activeElement === this.#at;
+            this.show(false);
+            if (focused) {
+                this.app.picture.element.focus({preventScroll: true});
+            }
+        }
+        return open;
     }
 
     /** @param {boolean} on  from the camera of the kept picture */

@@ -45,6 +45,8 @@ export class DisplayPanel {
     /** @type {IlluminanceUnit} */
     #unit = 'lx';
     #drawn = '';
+    /** @type {{text: string, at: number}[]} */
+    #marks = [];
     #select = byId('display-mode', HTMLSelectElement);
     #slider = byId('exposure', HTMLInputElement);
     #auto = byId('auto-exposure', HTMLButtonElement);
@@ -61,7 +63,21 @@ export class DisplayPanel {
     /** @param {IlluminanceUnit} unit */
     set unit(unit) {
         this.#unit = unit;
+        this.#sending.run();
         this.#drawLegend();
+    }
+
+    /**
+     * What the colours on screen stand for; null: it is a photograph.
+     *
+     * @returns {import('./report.js').ReportScale | null}
+     */
+    get scale() {
+        if (this.app.frame?.scaleMaximum === undefined) {
+            return null;
+        }
+        const colours = Array.from({length: 33}, (_, i) => turbo(i / 32));
+        return {title: byId('legend-title', HTMLElement).textContent ?? '', colours, marks: this.#marks};
     }
 
     /** @param {DisplayMode} mode */
@@ -69,6 +85,11 @@ export class DisplayPanel {
         this.mode = mode;
         this.#select.value = mode;
         this.#sending.run();
+    }
+
+    /** Once the server has carried out all that was set here, or the connection is lost. */
+    async carriedOut() {
+        await this.app.ask({setDisplay: this.#wanted()});
     }
 
     /** Photo, luminance, illuminance, and again. */
@@ -113,14 +134,19 @@ export class DisplayPanel {
         const maximum = byId('scale-maximum', HTMLSelectElement);
         maximum.addEventListener('change', () => {
             this.scaleMaximum = Number(maximum.value);
-            this.#sending.run();
+            this.#showColours();
         });
         const isolines = byId('isolines', HTMLInputElement);
         isolines.addEventListener('change', () => {
             this.isolines = isolines.checked;
-            this.#sending.run();
+            this.#showColours();
         });
         this.#show();
+    }
+
+    /** Sends how colours stand for values; a photograph has none, so that it makes way for them. */
+    #showColours() {
+        this.setMode(this.mode === 'PHOTO' ? 'FALSE_ILLUMINANCE' : this.mode);
     }
 
     #show() {
@@ -131,17 +157,21 @@ export class DisplayPanel {
         this.#slider.setAttribute('aria-valuetext', `${text} stops`);
     }
 
-    #send() {
+    #wanted() {
         const {mode, exposure, autoExposure, scaleMaximum, isolines} = this;
-        const factor = mode === 'FALSE_ILLUMINANCE' && this.#unit === 'fc' ? LUX_PER_FOOTCANDLE : 1;
-        const setDisplay = {
+        const scaleUnit = mode === 'FALSE_ILLUMINANCE' && this.#unit === 'fc' ? LUX_PER_FOOTCANDLE : 1;
+        return {
             mode,
             exposure,
             autoExposure,
-            scaleMaximum: scaleMaximum * factor,
+            scaleMaximum: scaleMaximum * scaleUnit,
             isolines,
+            scaleUnit,
         };
-        this.app.client.send({setDisplay});
+    }
+
+    #send() {
+        this.app.client.send({setDisplay: this.#wanted()});
     }
 
     #drawLegend() {
@@ -166,10 +196,14 @@ export class DisplayPanel {
             context.fillStyle = turbo(1 - row / (bar.height - 1));
             context.fillRect(0, row, 1, 1);
         }
-        const ticks = scaleTicks(top).map((value) => {
+        this.#marks = scaleTicks(top).map((value) => ({
+            text: value < 1000 ? String(Number(value.toPrecision(1))) : threeDigits(value),
+            at: onScale(value, top),
+        }));
+        const ticks = this.#marks.map(({text, at}) => {
             const item = document.createElement('li');
-            item.textContent = value < 1000 ? String(Number(value.toPrecision(1))) : threeDigits(value);
-            item.style.top = `${100 * (1 - onScale(value, top))}%`;
+            item.textContent = text;
+            item.style.top = `${100 * (1 - at)}%`;
             return item;
         });
         byId('legend-ticks', HTMLElement).replaceChildren(...ticks);

@@ -35,9 +35,10 @@ export function showValue(name, text) {
  * where they are.
  *
  * @param {MouseEvent} event
+ * @param {boolean} gone  what has been clicked is no longer there for them either
  */
-export function returnFocus(event) {
-    if (event.detail > 0) {
+export function returnFocus(event, gone = false) {
+    if (gone || event.detail > 0) {
         document.getElementById('picture')?.focus({preventScroll: true});
     }
 }
@@ -67,6 +68,36 @@ export function listRow(text, action, tag = '') {
     });
     item.append(button);
     return item;
+}
+
+/**
+ * Exchanges the rows of a list. The focus stays where it was: on the same control of the same row, or of
+ * the row that has taken its place.
+ *
+ * @param {Element} list
+ * @param {HTMLElement[]} rows
+ */
+export function replaceRows(list, rows) {
+    const focused = document.activeElement;
+    const row = [...list.children].findIndex((child) => child.contains(focused));
+    const control = [...(list.children[row]?.querySelectorAll('button') ?? [])].findIndex(
+        (button) => button === focused,
+    );
+    list.replaceChildren(...rows);
+    if (control >= 0) {
+        const buttons = rows[Math.min(row, rows.length - 1)]?.querySelectorAll('button') ?? [];
+        const next = buttons[Math.min(control, buttons.length - 1)] ?? document.getElementById('picture');
+        next?.focus({preventScroll: true});
+    }
+}
+
+/**
+ * Says something to those who hear the page.
+ *
+ * @param {string} text
+ */
+export function announce(text) {
+    byId('announcement', HTMLElement).textContent = text;
 }
 
 /**

@@ -175,6 +175,7 @@ export function addHistory(app, history) {
     });
     let scene = '';
     app.on('welcome', () => {
+        byId('history', HTMLElement).hidden = !app.mayEdit;
         if (app.scene && app.scene.name !== scene) {
             scene = app.scene.name;
             history.clear();

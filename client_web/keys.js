@@ -14,6 +14,7 @@
  * @property {(tool: string) => void} setTool
  * @property {() => void} clickMiddle  as a click on the middle of the picture
  * @property {() => boolean} cancel  ends what is going on; whether there was anything
+ * @property {() => void} leave  the focus goes from a control back to the picture
  */
 
 const NUDGE_KEYS = new Map([
@@ -103,6 +104,13 @@ export function addKeys(targets) {
     document.addEventListener('keydown', (event) => {
         const here = event.target === document.body || event.target === app.picture.element;
         const modified = event.ctrlKey || event.metaKey;
+        if (event.key === 'Escape' && !here && !event.defaultPrevented) {
+            if (!targets.cancel()) {
+                targets.leave();
+            }
+            event.preventDefault();
+            return;
+        }
         if (event.altKey || (modified ? isText(event.target) : !here)) {
             return;
         }

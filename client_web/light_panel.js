@@ -5,6 +5,7 @@
 import {blackBody, fromHex, temperatureOf, toHex} from './colour.js';
 import {byId} from './elements.js';
 import {ServerError} from './protocol.js';
+import {sentence} from './status.js';
 import {threeDigits} from './units.js';
 
 /**
@@ -299,7 +300,7 @@ export class LightPanel {
                 control.disabled = true;
             }
         } else {
-            this.app.status.notify(error.message, 'problem');
+            this.app.status.notify(sentence(error.message), 'problem');
         }
     }
 }

@@ -22,7 +22,7 @@ import {ScenePanel} from './scene_panel.js';
 import {fromHash, toHash} from './share.js';
 import {SnapshotPanel} from './snapshot_panel.js';
 import {addTabs} from './tabs.js';
-import {TargetPanel, showEffects} from './target_panel.js';
+import {TargetPanel, addEffects} from './target_panel.js';
 import {Viewpoints} from './viewpoints.js';
 import {FirstHint, Walking, remembered} from './walking.js';
 
@@ -65,7 +65,7 @@ new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);
 addHistory(app, history);
-app.on('welcome', (welcome) => showEffects(welcome.scene.effects ?? []));
+addEffects(app);
 
 /**
  * What a click on the picture does, by tool.
@@ -142,6 +142,7 @@ function saveReport() {
         epoch: app.scene?.epoch ?? 0,
         error: app.stats.relativeError,
         picture: canvas.toDataURL('image/jpeg', 0.92),
+        scale: display.scale,
         address: linkHere(),
         unit: measuring.unit,
         pins: [...pins.pins.values()],
@@ -157,6 +158,17 @@ function saveReport() {
 function setPanel(open) {
     byId('app', HTMLElement).classList.toggle('panel-closed', !open);
     byId('panel-toggle', HTMLElement).setAttribute('aria-expanded', String(open));
+}
+
+/** On a phone the panel, which takes half of the picture, closes too. */
+function leave() {
+    const panel = byId('panel', HTMLElement);
+    if (innerWidth <= PHONE_WIDTH && panel.contains(document.activeElement)) {
+        setPanel(false);
+        byId('panel-toggle', HTMLElement).focus();
+    } else {
+        app.picture.element.focus({preventScroll: true});
+    }
 }
 
 function addButtons() {
@@ -179,6 +191,10 @@ function addButtons() {
     byId('summary', HTMLElement).addEventListener('click', () => {
         setPanel(true);
         showTab('tab-accuracy');
+    });
+    app.addEventListener('upload', () => {
+        setPanel(true);
+        showTab('tab-scene');
     });
     byId('share', HTMLElement).addEventListener('click', copyLink);
     byId('share-again', HTMLElement).addEventListener('click', copyLink);
@@ -236,7 +252,8 @@ addKeys({
         const {clientWidth, clientHeight} = app.picture.element;
         clickAt({x: clientWidth / 2, y: clientHeight / 2});
     },
-    cancel: () => pins.cancel() || gizmo.cancel() || pointers.cancel(),
+    cancel: () => pins.cancel() || gizmo.cancel() || pointers.cancel() || compare.close(),
+    leave,
 });
 restoreShared();
 document.addEventListener('visibilitychange', () => {

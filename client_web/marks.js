@@ -10,22 +10,25 @@ import {byId} from './elements.js';
 
 /** Marks of points nearer to the eye's plane are hidden, metres. */
 const NEAR = 0.02;
+/** Between what stays whole and the picture's edge, CSS pixels. */
+const MARGIN = 8;
 
 export class Marks {
     #layer = byId('marks', HTMLElement);
-    /** @type {Map<HTMLElement, () => Vec3>} */
+    /** @type {Map<HTMLElement, {where: () => Vec3, whole: boolean}>} */
     #marks = new Map();
 
     /** @param {RaybundleApp} app */
     constructor(app) {
         this.app = app;
         app.overlay.add(({place, width, height}) => {
-            for (const [element, where] of this.#marks) {
+            for (const [element, {where, whole}] of this.#marks) {
                 const {x, y, depth} = place(where());
                 const seen = depth > NEAR && x > -50 && y > -50 && x < width + 50 && y < height + 50;
-                element.hidden = !seen;
-                if (seen) {
-                    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+                element.hidden = !seen && !whole;
+                if (seen || whole) {
+                    const at = whole ? within(element, {x, y}, {width, height}) : {x, y};
+                    element.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
                 }
             }
         });
@@ -36,11 +39,12 @@ export class Marks {
      *
      * @param {HTMLElement} element
      * @param {() => Vec3} where  world space
+     * @param {boolean} whole  stays within the picture with all that it is, for what somebody writes in
      * @returns {HTMLElement} the element
      */
-    add(element, where) {
+    add(element, where, whole = false) {
         element.classList.add('mark');
-        this.#marks.set(element, where);
+        this.#marks.set(element, {where, whole});
         this.#layer.append(element);
         this.app.drawOverlay();
         return element;
@@ -53,4 +57,20 @@ export class Marks {
             element.remove();
         }
     }
+}
+
+/**
+ * Place at which the whole of an element is in the picture, as far as there is room.
+ *
+ * @param {HTMLElement} element
+ * @param {{x: number, y: number}} at  CSS pixels, wanted
+ * @param {{width: number, height: number}} picture  CSS pixels
+ */
+function within({offsetLeft, offsetTop, offsetWidth, offsetHeight}, at, {width, height}) {
+    const fit = (/** @type {number} */ value, /** @type {number} */ start, /** @type {number} */ room) =>
+        Math.max(Math.min(value, room - start - MARGIN), MARGIN - start);
+    return {
+        x: fit(at.x, offsetLeft, width - offsetWidth),
+        y: fit(at.y, offsetTop, height - offsetHeight),
+    };
 }

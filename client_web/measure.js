@@ -2,7 +2,7 @@
 // Measuring by clicking: values with their error that stay at their points, and grids on a surface.
 
 import {onScale, turbo} from './colour.js';
-import {byId, fileName, saveFile, showValue, smallButton} from './elements.js';
+import {announce, byId, fileName, saveFile, showValue, smallButton} from './elements.js';
 import {csvCell, gridCsv, gridOn, pointsOf, summaryOf, typicalError} from './grid.js';
 import {SETTLED} from './readouts.js';
 import {illuminance as inLux, inUnit, plusMinus, threeDigits} from './units.js';
@@ -27,7 +27,8 @@ const MAX_REFRESHED = 8;
 const SAME_PLACE = 0.05;
 const SVG = 'http://www.w3.org/2000/svg';
 
-export class Measuring {
+/** Event: `unit`, when illuminance is shown in another one. */
+export class Measuring extends EventTarget {
     /** @type {MeasuredPoint[]} */
     points = [];
     /** @type {{grid: import('./grid.js').Grid, result: import('./protocol.js').ProbeGridResult, object: string, settled: boolean} | null} */
@@ -45,6 +46,7 @@ export class Measuring {
      * @param {DisplayPanel} display
      */
     constructor(app, marks, display) {
+        super();
         this.app = app;
         this.marks = marks;
         this.#addButtons(display);
@@ -66,15 +68,23 @@ export class Measuring {
         while (this.points.length >= MAX_POINTS) {
             this.#remove(this.points[0]);
         }
+        const number = this.#next++;
         const mark = document.createElement('div');
         mark.className = 'probe';
+        const badge = document.createElement('b');
+        badge.textContent = String(number);
+        mark.append(badge, document.createElement('span'));
         const row = document.createElement('tr');
-        const point = {number: this.#next++, probe, position: probe.position, mark, row};
+        const point = {number, probe, position: probe.position, mark, row};
+        const cells = Array.from({length: 5}, () => row.insertCell());
+        cells[0].textContent = String(number);
+        cells[4].append(smallButton('×', `Remove point ${number}`, () => this.#remove(point)));
         this.points.push(point);
         this.marks.add(mark, () => point.position);
         this.#table.tBodies[0].append(row);
         this.#write(point);
         this.#showLists();
+        announce(`Point ${number}: ${mark.lastElementChild?.textContent}`);
     }
 
     /** Measures a grid on the surface under the last point. */
@@ -111,6 +121,7 @@ export class Measuring {
             display.unit = this.unit;
             this.points.forEach((point) => this.#write(point));
             this.#showGrid();
+            this.dispatchEvent(new Event('unit'));
         });
         byId('clear-points', HTMLElement).addEventListener('click', () => {
             [...this.points].forEach((point) => this.#remove(point));
@@ -131,34 +142,29 @@ export class Measuring {
     }
 
     /** @param {MeasuredPoint} point */
-    #write({number, probe, mark, row}) {
+    #write({probe, mark, row}) {
         const value = inLux(probe.illuminance ?? 0, this.unit);
         const error = plusMinus(probe.relativeError);
-        const badge = document.createElement('b');
-        badge.textContent = String(number);
-        const text = document.createElement('span');
-        text.textContent = `${value} ${error}`;
-        mark.replaceChildren(badge, text);
-        const cells = [String(number), value, threeDigits(probe.luminance ?? 0), error];
-        const parts = cells.map((content) => {
-            const cell = document.createElement('td');
-            cell.textContent = content;
-            return cell;
-        });
-        const last = document.createElement('td');
-        const point = this.points.find((other) => other.number === number);
-        if (point) {
-            last.append(smallButton('×', `Remove point ${number}`, () => this.#remove(point)));
+        const text = mark.lastElementChild;
+        if (text) {
+            text.textContent = `${value} ${error}`;
         }
-        row.replaceChildren(...parts, last);
+        [value, threeDigits(probe.luminance ?? 0), error].forEach((content, i) => {
+            row.cells[i + 1].textContent = content;
+        });
     }
 
     /** @param {MeasuredPoint} point */
     #remove(point) {
+        const focused = point.row.contains(document.activeElement);
+        const next = point.row.nextElementSibling ?? point.row.previousElementSibling;
         this.points = this.points.filter((other) => other !== point);
         this.marks.remove(point.mark);
         point.row.remove();
         this.#showLists();
+        if (focused) {
+            (next?.querySelector('button') ?? this.app.picture.element).focus({preventScroll: true});
+        }
     }
 
     #showLists() {

@@ -2,7 +2,7 @@
 // Who else is here: names and colours, where they look, following them, and showing them a place.
 
 import {axes, framedFov} from './camera.js';
-import {byId, listRow, smallButton} from './elements.js';
+import {byId, listRow, replaceRows, smallButton} from './elements.js';
 import {add, length, scale, sub} from './vector.js';
 import {remember} from './walking.js';
 
@@ -226,7 +226,7 @@ export class People {
             }
             return row;
         });
-        byId('people', HTMLElement).replaceChildren(...rows);
+        replaceRows(byId('people', HTMLElement), rows);
         const avatars = others.slice(0, 5).map((viewer) => {
             const item = document.createElement('li');
             const on = this.following === viewer.viewer;
@@ -240,7 +240,7 @@ export class People {
             item.append(button);
             return item;
         });
-        byId('avatars', HTMLElement).replaceChildren(...avatars);
+        replaceRows(byId('avatars', HTMLElement), avatars);
         this.app.picture.element.classList.toggle('following', this.following !== 0);
         this.app.picture.element.style.setProperty('--leader', colourOf(this.following));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pins: notes at points of the scene that keep the light measured there, and say when it has changed.
 
-import {byId, smallButton} from './elements.js';
+import {byId, replaceRows, smallButton} from './elements.js';
 import {illuminance as inLux, plusMinus} from './units.js';
 import {matrixPoint, transformPoint} from './vector.js';
 
@@ -57,6 +57,7 @@ export class Pins {
             this.pins = new Map((welcome.pins ?? []).map((/** @type {Pin} */ pin) => [pin.pin, pin]));
             this.#show();
         });
+        measuring.addEventListener('unit', () => this.#show());
         app.on('message', ({pinChanged}) => {
             if (pinChanged) {
                 this.#changed(pinChanged);
@@ -99,8 +100,12 @@ export class Pins {
     /** Closes the editor without a pin. Returns whether it was open. */
     cancel() {
         const open = this.#editor !== null;
+        const focused = this.#editor?.contains(document.activeElement);
         this.marks.remove(this.#editor);
         this.#editor = null;
+        if (focused) {
+            this.app.picture.element.focus({preventScroll: true});
+        }
         return open;
     }
 
@@ -168,7 +173,6 @@ export class Pins {
                 event.stopPropagation();
                 if (event instanceof KeyboardEvent && event.key === 'Escape') {
                     this.cancel();
-                    this.app.picture.element.focus({preventScroll: true});
                 }
                 const submits = event instanceof KeyboardEvent && event.key === 'Enter';
                 if (submits && !(/** @type {KeyboardEvent} */ (event).shiftKey) && event.target === text) {
@@ -177,7 +181,7 @@ export class Pins {
                 }
             });
         }
-        this.#editor = this.marks.add(form, () => position);
+        this.#editor = this.marks.add(form, () => position, true);
         text.focus({preventScroll: true});
     }
 
@@ -207,7 +211,7 @@ export class Pins {
             this.#marks.set(pin.pin, this.#mark(pin));
             return this.#row(pin);
         });
-        byId('pins', HTMLElement).replaceChildren(...rows);
+        replaceRows(byId('pins', HTMLElement), rows);
         byId('pins-none', HTMLElement).hidden = rows.length > 0;
     }
 

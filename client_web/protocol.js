@@ -68,6 +68,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {string} [pathClass]  Heckbert's notation
  * @property {number} [shareBound]  0..1
  * @property {number} [bytesPerPatch]
+ * @property {number} [msPerIteration]  measured
  */
 
 /**
@@ -218,6 +219,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {ProbeGridResult} [probeGridResult]
  * @property {{scenes: SceneFile[], current: string, maxUploadBytes: number}} [sceneList]
  * @property {SceneOpening} [sceneOpening]
+ * @property {{effects: Effect[]}} [effectCosts]
  * @property {{url: string, relativeError: number, epoch: number, exposure: number}} [snapshotReady]
  */
 

@@ -104,6 +104,7 @@ export class RaybundleView extends HTMLElement {
         control.mode = this.getAttribute('mode') === 'walk' ? 'walk' : 'orbit';
         this.client = client;
         this.control = control;
+        let drawn = false;
         const warp = () => link.shown && picture.warp(link.shown, control.view);
         control.addEventListener('change', () => {
             link.show(control.view);
@@ -119,6 +120,7 @@ export class RaybundleView extends HTMLElement {
             const welcome = /** @type {Welcome} */ (/** @type {CustomEvent} */ (event).detail);
             picture.limits = welcome.limits;
             control.fit(welcome.scene.bounds);
+            note.textContent = drawn ? '' : 'Drawing the first picture';
             link.reset();
             askForDepths(client, picture);
             this.#firstView(control, picture, welcome);
@@ -128,6 +130,8 @@ export class RaybundleView extends HTMLElement {
         client.addEventListener('frame', (event) => {
             const {header, image, depths} = /** @type {CustomEvent} */ (event).detail;
             picture.draw(image, depths);
+            drawn = true;
+            note.textContent = '';
             link.answered(header.cameraId);
             warp();
             this.dispatchEvent(new CustomEvent('frame', {detail: header}));

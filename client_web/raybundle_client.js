@@ -19,6 +19,8 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
 
 /** Silence after which a connection counts as dead, although its socket is still open. */
 const SILENCE_LIMIT_MS = 20000;
+/** Before the welcome, since a server may compile its shaders first. */
+const WELCOME_LIMIT_MS = 120000;
 const PING_INTERVAL_MS = 2000;
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 10000;
@@ -90,7 +92,10 @@ export class RaybundleClient extends EventTarget {
         socket.binaryType = 'arraybuffer';
         this.#socket = socket;
         this.#lastHeard = performance.now();
-        socket.onopen = () => this.#greet();
+        socket.onopen = () => {
+            this.#become(this.state, 'The server is there and gets the scene ready.');
+            this.#greet();
+        };
         socket.onmessage = (event) => this.#receive(event.data);
         socket.onclose = (event) => this.#lost(event.reason);
         this.#pingTimer = setInterval(() => this.#watch(), PING_INTERVAL_MS);
@@ -228,7 +233,8 @@ export class RaybundleClient extends EventTarget {
     }
 
     #watch() {
-        if (performance.now() - this.#lastHeard > SILENCE_LIMIT_MS) {
+        const limit = this.state === 'connected' ? SILENCE_LIMIT_MS : WELCOME_LIMIT_MS;
+        if (performance.now() - this.#lastHeard > limit) {
             this.#lost('The server has gone silent.');
         } else if (this.state === 'connected') {
             this.#ping();

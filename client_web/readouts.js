@@ -2,7 +2,7 @@
 // The figures in the panel: accuracy, progress and stream. Drawn a few times a second, not for
 // every frame.
 
-import {byId, showValue} from './elements.js';
+import {announce, byId, showValue} from './elements.js';
 import {drawErrorPlot} from './error_plot.js';
 import {count, milliseconds, percent, progress, rate} from './format.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
@@ -118,7 +118,11 @@ export class Readouts {
         this.#bar.value = settled;
         this.#bar.classList.toggle('done', settled >= SETTLED);
         const done = settled >= SETTLED;
+        const before = this.#state.dataset.settled;
         this.#state.dataset.settled = known && done ? 'yes' : 'no';
+        if (known && done && before === 'no') {
+            announce(`The light has settled, error ${percent(stats.relativeError)}.`);
+        }
         const text = done ? 'Light has settled' : `Light is settling, ${progress(settled)}`;
         showValue('settledState', known ? text : 'Waiting for light');
         this.#showFormat();

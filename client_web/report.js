@@ -10,6 +10,11 @@ import {illuminance, plusMinus, threeDigits} from './units.js';
 /**
  * @typedef {import('./protocol.js').Pin} Pin
  * @typedef {import('./units.js').IlluminanceUnit} IlluminanceUnit
+ * @typedef {object} ReportScale
+ * @property {string} title  quantity and unit
+ * @property {string[]} colours  from the lower end to the upper one, evenly
+ * @property {{text: string, at: number}[]} marks  at shares of the way
+ *
  * @typedef {object} ReportContent
  * @property {string} title  of the scene
  * @property {string} server
@@ -17,6 +22,7 @@ import {illuminance, plusMinus, threeDigits} from './units.js';
  * @property {number} epoch
  * @property {number | null} error  relative, of the picture
  * @property {string} picture  data URL
+ * @property {ReportScale | null} [scale]  of a picture in false colour
  * @property {string} address  link to the view
  * @property {IlluminanceUnit} unit
  * @property {Pin[]} pins
@@ -34,6 +40,8 @@ h1{font-size:24px;margin:0}h2{font-size:16px;margin:28px 0 8px}
 background:#8a5200;color:#fff;font-size:12px;line-height:20px;text-align:center;border:1px solid #fff}
 table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:5px 12px 5px 0;
 border-bottom:1px solid #d2d5d8;vertical-align:top}td.n{white-space:nowrap;font-variant-numeric:tabular-nums}
+figure:has(+.scale){margin-bottom:8px}.scale{max-width:440px;font-size:12px}.scale p{margin:0 0 4px;position:relative;height:18px}
+.scale div{height:14px;border-radius:2px;print-color-adjust:exact}.scale span{position:absolute;transform:translateX(-50%)}
 .flag{color:#b3261e;font-weight:600}@media print{body{margin:0}}`;
 
 /** @type {(text: unknown) => string} */
@@ -55,6 +63,19 @@ function section(title, heads, rows) {
     const head = heads.map((text) => `<th scope="col">${escaped(text)}</th>`).join('');
     const body = rows.map((cells) => `<tr>${cells.map((c) => `<td class="n">${c}</td>`).join('')}</tr>`);
     return `<h2>${escaped(title)}</h2><table><thead><tr>${head}</tr></thead><tbody>${body.join('')}</tbody></table>`;
+}
+
+/**
+ * Legend of a picture in false colour.
+ *
+ * @param {ReportScale} scale
+ */
+function scaleHtml({title, colours, marks}) {
+    const labels = marks.map(
+        ({text, at}) => `<span style="left:${(100 * at).toFixed(2)}%">${escaped(text)}</span>`,
+    );
+    return `<div class="scale"><p>${escaped(title)}</p>
+<div style="background:linear-gradient(to right,${colours.join()})"></div><p>${labels.join('')}</p></div>`;
 }
 
 /**
@@ -109,6 +130,7 @@ export function reportHtml(content) {
 <p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. Epoch ${epoch}, estimated error of the
 picture ${escaped(percent(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
 <figure><img alt="The scene as seen during the review" src="${escaped(picture)}">${marks.join('')}</figure>
+${content.scale ? scaleHtml(content.scale) : ''}
 ${section('Pins', ['#', 'Note', 'Illuminance then', 'Epoch', 'Light', 'By'], pins)}
 ${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'Epoch'], points)}
 ${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uo'], grid)}

@@ -2,7 +2,7 @@
 // Scenes that the server can open for everybody: a list, and uploads by button or by dropping a
 // file on the page. For editors; everybody is told when a scene is being opened.
 
-import {byId, listRow} from './elements.js';
+import {byId, listRow, replaceRows} from './elements.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -91,18 +91,43 @@ export class SceneFiles {
             this.#upload(this.#chooser.files?.[0]);
             this.#chooser.value = '';
         });
-        document.addEventListener('dragover', (event) => {
-            if (this.#mayUpload && event.dataTransfer?.types.includes('Files')) {
+        this.#takeDrops();
+    }
+
+    /** Files that are dropped on the page; otherwise the browser would leave it for them. */
+    #takeDrops() {
+        const target = byId('drop-target', HTMLElement);
+        const over = (/** @type {DragEvent} */ event) => {
+            if (event.dataTransfer?.types.includes('Files')) {
                 event.preventDefault();
-                event.dataTransfer.dropEffect = 'copy';
+                event.dataTransfer.dropEffect = this.#mayUpload ? 'copy' : 'none';
+                target.hidden = !this.#mayUpload;
             }
+        };
+        document.addEventListener('dragenter', over);
+        document.addEventListener('dragover', over);
+        document.addEventListener('dragleave', (event) => {
+            target.hidden ||= event.relatedTarget === null;
         });
         document.addEventListener('drop', (event) => {
-            if (this.#mayUpload && event.dataTransfer?.files.length) {
+            target.hidden = true;
+            const file = event.dataTransfer?.files[0];
+            if (file) {
                 event.preventDefault();
-                this.#upload(event.dataTransfer.files[0]);
+                this.#dropped(file);
             }
         });
+    }
+
+    /** @param {File} file */
+    #dropped(file) {
+        if (this.#mayUpload) {
+            this.app.dispatchEvent(new Event('upload'));
+            this.#upload(file);
+        } else {
+            const looks = 'Your role is to look, not to add scenes.';
+            this.app.status.notify(this.app.mayEdit ? 'This server takes no scenes.' : looks);
+        }
     }
 
     get #mayUpload() {
@@ -126,7 +151,7 @@ export class SceneFiles {
             row.firstElementChild?.setAttribute('aria-pressed', String(shown));
             return row;
         });
-        this.#list.replaceChildren(...rows);
+        replaceRows(this.#list, rows);
         byId('scene-files-none', HTMLElement).hidden = rows.length > 0;
     }
 

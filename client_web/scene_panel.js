@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras, objects, and the selected object with its place in numbers.
 
-import {byId, listRow, showValue} from './elements.js';
+import {announce, byId, listRow, showValue} from './elements.js';
 import {basePoint, limitedSize, resizedAbout, turnBetween, turnedAbout} from './placement.js';
 import {shifted} from './scene_model.js';
 import {centre, completeTransform, sub} from './vector.js';
@@ -150,6 +150,7 @@ export class ScenePanel {
         const canMove = object.movable && this.app.mayEdit;
         const why = object.movable ? 'Your role is to look, not to move.' : 'Part of the building.';
         showValue('selectionName', object.name);
+        announce(`${object.name} is selected.`);
         showValue('selectionHint', canMove ? 'Drag it, or its handles, in the picture.' : why);
         this.#placement.hidden = !canMove;
         this.#showPlace();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of the connection, what is being waited for, and passing notices.
 
-import {byId, showValue} from './elements.js';
+import {byId, returnFocus, showValue} from './elements.js';
 
 /**
  * @typedef {import('./raybundle_client.js').ConnectionState} ConnectionState
@@ -17,6 +17,10 @@ const STATE_TEXTS = {
     reconnecting: 'Reconnecting',
     refused: 'Refused',
 };
+
+/** How refusals begin: a message of the protocol and, mostly, one of its fields. */
+const ABOUT_MESSAGE =
+    /^(?:hello|snapshot|undo|follow|ack|probe|(?:set|move|add|remove|save|open|point|measure|probe)[A-Z]\w*)(?:\.\w+)*?(?:\.(\w+))?: (.*)$/s;
 
 const NOTICE_MS = 8000;
 const MAX_NOTICES = 3;
@@ -96,7 +100,11 @@ export class Status {
         this.#banner.classList.toggle('aside', hasPicture);
         this.#retry.hidden = retry === '';
         this.#retry.textContent = retry || 'Try again now';
+        const asksAnew = asksForToken && this.#tokenForm.hidden;
         this.#tokenForm.hidden = !asksForToken;
+        if (asksAnew) {
+            byId('token', HTMLInputElement).focus();
+        }
         this.#preparing.hidden = true;
         this.#tick();
     }
@@ -138,7 +146,7 @@ export class Status {
     }
 
     /**
-     * Shows a notice for a while; the same one only once at a time.
+     * Shows a notice for a while, and as long as somebody is at it; the same one only once at a time.
      *
      * @param {string} text
      * @param {'notice' | 'problem'} kind
@@ -158,8 +166,9 @@ export class Status {
             const button = document.createElement('button');
             button.type = 'button';
             button.textContent = label;
-            button.addEventListener('click', () => {
+            button.addEventListener('click', (event) => {
                 notice.remove();
+                returnFocus(event, true);
                 run();
             });
             notice.append(button);
@@ -173,19 +182,35 @@ export class Status {
         while (this.#notices.children.length > MAX_NOTICES) {
             this.#notices.firstElementChild?.remove();
         }
-        setTimeout(() => notice.remove(), NOTICE_MS);
+        const expire = () => {
+            if (notice.matches(':hover, :focus-within')) {
+                setTimeout(expire, NOTICE_MS);
+            } else {
+                notice.remove();
+            }
+        };
+        setTimeout(expire, NOTICE_MS);
     }
 
     #tick() {
         const {state, reason, retryAt} = this.#shown;
         const seconds = Math.max(0, Math.ceil((retryAt - performance.now()) / 1000));
-        const next = seconds > 0 ? `Next attempt in ${seconds}\u00a0s.` : 'Trying again.';
-        const parts = [sentence(reason), state === 'reconnecting' ? next : ''];
-        const text = byId('banner-text', HTMLElement);
-        text.textContent = parts.filter(Boolean).join(' ');
+        const next = seconds > 0 ? `Next attempt in ${seconds}\u00a0s.` : reason ? '' : 'Trying again.';
+        // Apart, since screen readers say a changed text anew, and this one changes every second.
+        byId('banner-reason', HTMLElement).textContent = sentence(reason);
+        byId('banner-next', HTMLElement).textContent = state === 'reconnecting' ? next : '';
     }
 }
 
-/** @type {(text: string) => string} */
-const sentence = (text) =>
-    text && `${text[0].toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+/**
+ * What a server says, for people: without the message that it is about, but with the field that is the
+ * subject.
+ *
+ * @param {string} said  e.g. "hello.token: wrong"
+ * @returns {string}
+ */
+export function sentence(said) {
+    const [, field = '', rest = said] = ABOUT_MESSAGE.exec(said) ?? [];
+    const text = /^(is|must|has)\b/.test(rest) && field ? `${field} ${rest}` : rest;
+    return text && `${text[0].toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+}

@@ -120,13 +120,14 @@ export class TargetPanel {
  * @param {import('./protocol.js').Effect} effect
  * @returns {string} empty where nothing is to be said
  */
-export function effectCost({active, pathClass, shareBound, bytesPerPatch}) {
+export function effectCost({active, pathClass, shareBound, bytesPerPatch, msPerIteration}) {
     if (!active) {
         return '';
     }
     const share = shareBound !== undefined && shareBound < 1 ? `at most ${percent(shareBound)} of the light` : '';
     const memory = bytesPerPatch ? `${bytesPerPatch} bytes a patch` : '';
-    return [pathClass ? `paths ${pathClass}` : '', memory, share].filter(Boolean).join(' · ');
+    const time = msPerIteration === undefined ? '' : `${msPerIteration.toFixed(1)} ms an iteration`;
+    return [time, pathClass ? `paths ${pathClass}` : '', memory, share].filter(Boolean).join(' · ');
 }
 
 /**
@@ -158,4 +159,32 @@ export function showEffects(effects) {
         return item;
     });
     byId('effects', HTMLElement).replaceChildren(...rows);
+}
+
+/**
+ * The effects plan, and what each effect costs where somebody has it measured.
+ *
+ * @param {RaybundleApp} app
+ */
+export function addEffects(app) {
+    const button = byId('measure-effects', HTMLButtonElement);
+    const state = byId('effects-state', HTMLElement);
+    app.on('welcome', (welcome) => {
+        showEffects(welcome.scene.effects ?? []);
+        button.hidden = !app.mayEdit;
+        button.disabled = false;
+        state.textContent = '';
+    });
+    button.addEventListener('click', async () => {
+        button.disabled = true;
+        state.textContent = 'Being measured, for some seconds; pictures come more slowly meanwhile.';
+        const effects = (await app.ask({measureEffects: {}}))?.effectCosts?.effects;
+        button.disabled = false;
+        state.textContent = effects
+            ? 'Measured beside all that the server does for everybody, so that a quiet one is faster.'
+            : 'The costs could not be measured.';
+        if (effects) {
+            showEffects(effects);
+        }
+    });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Viewpoints that somebody has saved for everybody, below the scene's own cameras.
 
-import {byId, listRow, smallButton} from './elements.js';
+import {byId, listRow, replaceRows, smallButton} from './elements.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -51,7 +51,7 @@ export class Viewpoints {
             }
             return row;
         });
-        byId('viewpoints', HTMLElement).replaceChildren(...rows);
+        replaceRows(byId('viewpoints', HTMLElement), rows);
         byId('viewpoint-form', HTMLElement).hidden = !this.app.mayReview;
     }
 }

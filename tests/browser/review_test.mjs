@@ -347,7 +347,7 @@ describe('a review', () => {
         await page.selectOption('#snapshot-format', 'EXR');
         await page.selectOption('#snapshot-error', '0.1');
         await page.click('#snapshot');
-        await page.waitForSelector('#snapshot-state a', {timeout: 60000});
+        await page.waitForSelector('#snapshot-state a');
         await keepScreenshot(page, 'snapshot');
         const {name, bytes} = await saved(page, '#snapshot-state a');
         assert.match(name, /^Cornell_box_epoch_\d+\.exr$/);

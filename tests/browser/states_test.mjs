@@ -97,6 +97,14 @@ describe('the page without its server', () => {
         assert.equal(await page.textContent('#banner-retry'), 'Load the page again');
     });
 
+    it('says that the server gets ready, where that takes its time', async () => {
+        const {page} = await openPage(() => {});
+        await page.waitForFunction(
+            () => document.getElementById('banner-text').textContent.includes('gets the scene ready'),
+        );
+        assert.equal(await page.textContent('#banner-title'), 'Connecting to the server');
+    });
+
     it('says that it waits for the first picture, and what draws it', async () => {
         const {page} = await openPage((request, send) =>
             send(request.hello ? {welcome: WELCOME} : {ok: {}}),

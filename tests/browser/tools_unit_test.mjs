@@ -18,7 +18,7 @@ import {openingText, progressText, sizeText, uploadProblem} from '../../client_w
 import {PlacedObject} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
-import {bannerOf} from '../../client_web/status.js';
+import {bannerOf, sentence} from '../../client_web/status.js';
 import {duration, effectCost, targetAt} from '../../client_web/target_panel.js';
 import * as units from '../../client_web/units.js';
 import {centre, length, sub, vec3} from '../../client_web/vector.js';
@@ -380,11 +380,47 @@ describe('the report', () => {
         assert.ok(html.includes('+50 % since') && html.includes('moved chair'));
         assert.ok(html.includes('left:50.00%;top:25.00%'));
         assert.ok(!/(src|href)="https?:(?!\/\/a\/)/.test(html), 'needs nothing else');
+        assert.ok(!html.includes('linear-gradient'), 'a photograph has no scale');
         assert.equal(escaped(`<a href="x">&'`), '&lt;a href=&quot;x&quot;&gt;&amp;&#39;');
     });
 });
 
+describe('the report of a picture in false colour', () => {
+    it('says what its colours stand for', () => {
+        const html = reportHtml({
+            title: 'Room',
+            server: 'raybundle',
+            time: new Date(0),
+            epoch: 0,
+            error: null,
+            picture: 'data:image/jpeg;base64,AA==',
+            scale: {
+                title: 'Illuminance, fc',
+                colours: ['#000', '#fff'],
+                marks: [{text: '20', at: 1}, {text: '2', at: 2 / 3}],
+            },
+            address: 'http://a/',
+            unit: 'fc',
+            pins: [],
+            points: [],
+            grid: null,
+            changes: [],
+            pinsInPicture: [],
+        });
+        assert.match(html, /Illuminance, fc.*linear-gradient\(to right,#000,#fff\).*left:66\.67%">2</s);
+    });
+});
+
 describe('what the page says', () => {
+    it('of what a server says', () => {
+        assert.equal(sentence('hello.token: is not valid'), 'Token is not valid.');
+        assert.equal(sentence('moveObject.object: no movable object 99'), 'No movable object 99.');
+        assert.equal(sentence('room.gltf: no JSON'), 'Room.gltf: no JSON.');
+        assert.equal(sentence('another scene is being opened'), 'Another scene is being opened.');
+        assert.equal(sentence('openScene: the file: broken'), 'The file: broken.');
+        assert.equal(sentence(''), '');
+    });
+
     it('of a connection that is not', () => {
         const change = (state, code) => ({state, reason: '', code, retryAt: 0});
         assert.ok(bannerOf(change('refused', 'UNAUTHENTICATED'), false).asksForToken);
