@@ -50,6 +50,9 @@ std::string LoopMetrics::text() const {
         out.sample("raybundle_iteration_seconds_sum", label, steps.seconds);
         out.sample("raybundle_iteration_seconds_count", label, static_cast<double>(steps.count));
     }
+    out.counter("raybundle_special_phases_total",
+                "Special iteration phases: changes that waited together pass one",
+                static_cast<double>(phases_));
     out.gauge("raybundle_settled", "Part of the last change already worked in, 0 to 1", f.settled);
     out.gauge("raybundle_relative_error", "Largest estimated relative error of a viewer's picture",
               f.relative_error.value_or(std::numeric_limits<double>::quiet_NaN()));

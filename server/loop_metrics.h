@@ -34,6 +34,7 @@ class LoopMetrics {
 
     void count_frame(std::size_t bytes);
     void count_refused_viewer() { ++refused_; }
+    void count_phase() { ++phases_; }  ///< special iteration phases begun
 
     /// A step of the solver; `strategy` absent: a slice of a special iteration phase.
     void note_step(std::optional<Strategy> strategy, double milliseconds);
@@ -49,7 +50,7 @@ class LoopMetrics {
         double seconds = 0.0;
     };
 
-    std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0};
+    std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0}, phases_{0};
     mutable std::mutex mutex_;
     Steps perspective_, layered_, special_;
     LoopFigures figures_;

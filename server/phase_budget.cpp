@@ -11,11 +11,17 @@ constexpr double newest = 0.3;  // share of the newest phase in the mean
 constexpr unsigned first_stage_of_two = 24;
 }  // namespace
 
-void PhaseBudget::note_phase(double milliseconds, unsigned bundles) {
-    if (bundles == 0 || !(milliseconds >= 0.0)) {
+void PhaseBudget::begin(double now_ms) {
+    since_ms_ = now_ms;
+    bundles_ = 0;
+}
+
+void PhaseBudget::note_bundle(double now_ms, bool last) {
+    ++bundles_;
+    if (!last) {
         return;
     }
-    const double each = milliseconds / bundles;
+    const double each = std::max(now_ms - since_ms_, 0.0) / bundles_;
     bundle_ms_ = bundle_ms_ > 0.0 ? bundle_ms_ + newest * (each - bundle_ms_) : each;
 }
 

@@ -16,8 +16,11 @@ class PhaseBudget {
     /// More have no numbers of their own in the phase's sequences.
     static constexpr unsigned most_bundles = 64;
 
-    /// A phase has taken so long, waiting included, for so many bundles of both stages.
-    void note_phase(double milliseconds, unsigned bundles);
+    /// A phase begins; its predecessor, where that is not at its end, does not count.
+    void begin(double now_ms);
+    /// A bundle of it, of either stage, has been transferred. last: the phase is at its end; what
+    /// it took, waiting included, is what the next one is expected to take.
+    void note_bundle(double now_ms, bool last);
 
     /// target: smallest relative error that a viewer asks for, 0 where none does. hurried: the next
     /// change waits already, as in a drag, so that what this one leaves is soon corrected anyway.
@@ -25,6 +28,8 @@ class PhaseBudget {
 
   private:
     double bundle_ms_ = 0.0;  // 0: not known
+    double since_ms_ = 0.0;   // of the running phase
+    unsigned bundles_ = 0;    // likewise
 };
 
 }  // namespace raybundle

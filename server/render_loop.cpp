@@ -150,6 +150,7 @@ void RenderLoop::handle(const ClientEvent& event) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
         requests_.forget(event.viewer);
+        std::erase(receivers_, snapshots_.picture_of(event.viewer));
         snapshots_.forget(event.viewer);
         drop_image(*found->second);
         first_look_of_ = first_look_of_ == event.viewer ? 0 : first_look_of_;
@@ -242,6 +243,9 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
             case v1::ClientMessage::kListScenes:
             case v1::ClientMessage::kOpenScene:
                 request_scenes(session, event);
+                return;
+            case v1::ClientMessage::kMeasureEffects:
+                request_effects(event);
                 return;
             default:
                 if (handle_review(session, event)) {
@@ -368,10 +372,7 @@ bool RenderLoop::solve() {
     const double cost = milliseconds_since(start);
     last_step_ms_ = cost;
     if (!solver_->last_strategy()) {
-        ++phase_slices_;
-        if (!solver_->correcting()) {
-            phase_budget_.note_phase(milliseconds_since(phase_since_), phase_slices_);
-        }
+        phase_budget_.note_bundle(Server::now_ms(), !solver_->correcting());
     }
     if (frames_pressed_) {
         solving_.charge(cost);

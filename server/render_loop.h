@@ -47,6 +47,8 @@ struct RenderLoopSettings {
     /// Takes listScenes and openScene with the viewer's name, and answers them; empty: there are
     /// no scenes to open.
     std::function<void(const ClientEvent& request, const std::string& name)> scene_requests;
+    /// Takes measureEffects and answers it; empty: effects are not measured.
+    std::function<void(const ClientEvent& request, const Scene&, const PatchMesh&)> effect_requests;
 };
 
 /// The one place that sees both the network's messages and the GPU: owns the solution and the
@@ -90,6 +92,7 @@ class RenderLoop {
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
+    void request_effects(const ClientEvent& event);
     bool set_viewport(ViewerSession& session, const ClientEvent& event);
     bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
@@ -158,8 +161,6 @@ class RenderLoop {
     bool frames_pressed_ = false;  // those that move take most of the time
     CostModel cost_;
     PhaseBudget phase_budget_;
-    unsigned phase_slices_ = 0;  // done, of the running special phase
-    Clock::time_point phase_since_{};
     LoopMetrics metrics_;
     FrameEncoder encoder_;
     ReviewBoard review_;

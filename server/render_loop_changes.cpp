@@ -115,8 +115,8 @@ void RenderLoop::begin_phase(Solver& solver) {
         }
     }
     solver.set_special(phase_budget_.settings(target, !changes_.empty()));
-    phase_slices_ = 0;
-    phase_since_ = Clock::now();
+    phase_budget_.begin(Server::now_ms());
+    metrics_.count_phase();
 }
 
 void RenderLoop::announce(const PendingChange& pending) {

@@ -164,6 +164,14 @@ void RenderLoop::request_scenes(const ViewerSession& session, const ClientEvent&
     }
 }
 
+void RenderLoop::request_effects(const ClientEvent& event) {
+    if (settings_.effect_requests) {
+        settings_.effect_requests(event, scene_, mesh_);
+    } else {
+        server_.reply_error(event, v1::Error::NOT_FOUND, "this server measures no effects");
+    }
+}
+
 /// Hands finished frames to the encoder. True if there were any.
 bool RenderLoop::collect_frames() {
     bool any = false;

@@ -77,6 +77,18 @@ void to_message(const Transform& transform, v1::Transform* message) {
     to_message(transform.scale, message->mutable_scale());
 }
 
+void to_message(const Effect& effect, v1::Effect* message) {
+    message->set_name(effect.name);
+    message->set_active(effect.active);
+    message->set_reason(effect.reason);
+    message->set_path_class(effect.path_class);
+    message->set_share_bound(static_cast<float>(effect.share_bound));
+    message->set_bytes_per_patch(static_cast<std::uint32_t>(effect.bytes_per_patch));
+    if (effect.ms_per_iteration) {
+        message->set_ms_per_iteration(static_cast<float>(*effect.ms_per_iteration));
+    }
+}
+
 Bounds world_bounds(const Object& object) {
     const glm::mat4 matrix = object.world_from_object();
     Bounds result;
@@ -113,13 +125,7 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
     for (const Effect& effect : plan_effects(scene, 0).effects) {
-        v1::Effect* out = message->add_effects();
-        out->set_name(effect.name);
-        out->set_active(effect.active);
-        out->set_reason(effect.reason);
-        out->set_path_class(effect.path_class);
-        out->set_share_bound(static_cast<float>(effect.share_bound));
-        out->set_bytes_per_patch(static_cast<std::uint32_t>(effect.bytes_per_patch));
+        to_message(effect, message->add_effects());
     }
 }
 

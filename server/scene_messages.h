@@ -3,6 +3,7 @@
 
 #include "net/client_event.h"
 #include "raybundle.pb.h"
+#include "scene/effects_plan.h"
 #include "scene/scene.h"
 #include "scene/surface_edit.h"
 
@@ -15,6 +16,7 @@ MaterialEdit from_message(const v1::SetMaterial& material);
 void to_message(const glm::vec3& v, v1::Vec3* message);
 void to_message(const Bounds& bounds, v1::Bounds* message);
 void to_message(const Transform& transform, v1::Transform* message);
+void to_message(const Effect& effect, v1::Effect* message);
 
 /// World bounds of an object at its present transform.
 Bounds world_bounds(const Object& object);

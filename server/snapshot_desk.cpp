@@ -54,8 +54,12 @@ void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const P
     }
 }
 
+const ViewerImage* SnapshotDesk::picture_of(ViewerId viewer) const {
+    return !requests_.empty() && requests_.front().event.viewer == viewer ? image_.get() : nullptr;
+}
+
 void SnapshotDesk::forget(ViewerId viewer) {
-    if (!requests_.empty() && requests_.front().event.viewer == viewer) {
+    if (picture_of(viewer) != nullptr) {
         drop_picture();
     }
     std::erase_if(requests_, [viewer](const Request& r) { return r.event.viewer == viewer; });

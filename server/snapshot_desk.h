@@ -42,6 +42,8 @@ class SnapshotDesk {
     void add(const ClientEvent& request, const Camera& camera, const PictureLook& look);
     /// A viewer has left: what it has asked for is dropped.
     void forget(ViewerId viewer);
+    /// The picture that is being made for a viewer, null where there is none. forget() destroys it.
+    [[nodiscard]] const ViewerImage* picture_of(ViewerId viewer) const;
     /// The scene has changed, or another solver has it: a picture of it begins anew.
     void restart();
     /// Answers all that waits: the server is stopping.

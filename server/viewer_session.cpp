@@ -127,6 +127,9 @@ void ViewerSession::set_display(const v1::SetDisplay& message) {
     if (message.has_isolines()) {
         isolines_ = message.isolines();
     }
+    if (message.has_scale_unit()) {
+        scale_unit_ = message.scale_unit();
+    }
     shown_exposure_.reset();
     changed_ = true;
 }
@@ -196,13 +199,15 @@ float ViewerSession::exposure(const ViewerImage& image) {
 }
 
 ColourScale ViewerSession::colour_scale(float exposure) const {
+    const float isolines = isolines_ ? scale_unit_ : 0.0F;
     if (scale_maximum_ > 0.0F) {
-        return {scale_maximum_, isolines_};
+        return {scale_maximum_, isolines};
     }
     // Display white, in lx on a surface of albedo 0.5 where illuminance is shown.
     const float white = 1.0F / ViewerImage::display_factor(exposure);
     const bool lux = mode_ == DisplayMode::false_illuminance;
-    return {round_up_125(lux ? 2.0F * std::numbers::pi_v<float> * white : white), isolines_};
+    const float top = lux ? 2.0F * std::numbers::pi_v<float> * white : white;
+    return {round_up_125(top / scale_unit_) * scale_unit_, isolines};
 }
 
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,

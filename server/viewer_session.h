@@ -126,6 +126,7 @@ class ViewerSession {
     bool auto_exposure_ = true;
     float scale_maximum_ = 0.0F;  // 0: follows the exposure
     bool isolines_ = false;
+    float scale_unit_ = 1.0F;  // lx or cd/m²
     std::optional<float> shown_exposure_;
     double target_error_ = 0.0;
     double target_seconds_ = 0.0;

@@ -13,15 +13,19 @@ constexpr TrialLength length = {.size = {320, 240}, .first_iterations = 8, .iter
 
 }  // namespace
 
-void measure_effects(const Options& options, const LoadedScene& loaded, EffectsPlan& plan) {
+void measure_effects(const Options& options, const Scene& scene, const PatchMesh& mesh,
+                     EffectsPlan& plan, const std::stop_token& stop) {
     const EglContext context = create_egl_context({options.gpu, false});
     const auto cost = [&](const EffectTrial& trial) {
         return run_trial(trial, length, options.seed).ms;
     };
-    const EffectTrial all{loaded.scene, loaded.mesh};
+    const EffectTrial all{scene, mesh};
     EffectTrial bare = all;
     const double whole = cost(all);
     for (Effect& effect : plan.effects) {
+        if (stop.stop_requested()) {
+            return;
+        }
         EffectTrial without = all;
         if (effect.active && without.remove(effect.name)) {
             effect.ms_per_iteration = std::max(whole - cost(without), 0.0);

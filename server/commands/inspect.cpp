@@ -62,7 +62,7 @@ int run_inspect(const Options& options) {
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
     EffectsPlan plan = plan_effects(loaded.scene, loaded.mesh.patch_count());
     try {
-        measure_effects(options, loaded, plan);
+        measure_effects(options, loaded.scene, loaded.mesh, plan);
     } catch (const GpuError& error) {
         spdlog::warn("the costs of the effects are not measured: {}", error.what());
     }

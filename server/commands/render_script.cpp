@@ -20,7 +20,8 @@ namespace raybundle {
 
 namespace {
 
-constexpr std::uint64_t least_iterations = 2 * BATCHES;  // of a frame, for an estimate of its error
+constexpr std::uint64_t least_iterations =
+    2 * GROUP_SIZE;  // of a frame, for an estimate of its error
 
 std::string read_text(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -69,7 +70,7 @@ class Sequence {
         while (progress < 1.0) {
             solver_->step(receivers());
             done = solver_->iterations() - first;
-            if (done % BATCHES == 0) {
+            if (done % GROUP_SIZE == 0) {
                 image_->request_statistics();
                 glFinish();
                 const double error =

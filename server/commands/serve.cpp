@@ -9,6 +9,7 @@
 
 #include "change_log.h"
 #include "commands/command.h"
+#include "commands/effect_bench.h"
 #include "commands/scene_opener.h"
 #include "commands/scene_watch.h"
 #include "commands/signal_watch.h"
@@ -117,7 +118,8 @@ class SceneServer {
         : options_(options),
           server_(server),
           control_(control),
-          context_(create_egl_context({options.gpu, false})) {
+          context_(create_egl_context({options.gpu, false})),
+          effect_bench_(options, server) {
         settings_.solver.seed = options.seed;
         settings_.solver.special = interactive_special();
         settings_.rehearse = true;
@@ -125,6 +127,10 @@ class SceneServer {
         settings_.renderer = context_->renderer();
         settings_.software_rendering = context_->is_software();
         settings_.lost_after_change = injected_fault();
+        settings_.effect_requests = [this](const ClientEvent& request, const Scene& scene,
+                                           const PatchMesh& mesh) {
+            effect_bench_.measure(request, scene, mesh);
+        };
         if (control.opener) {
             settings_.scene_requests = [this](const ClientEvent& request, const std::string& name) {
                 control_.opener->handle(request, name);
@@ -275,6 +281,7 @@ class SceneServer {
     Server& server_;
     Control& control_;
     std::optional<EglContext> context_;
+    EffectBench effect_bench_;
     RenderLoopSettings settings_;
     std::string shown_file_;
     int recoveries_ = 0;

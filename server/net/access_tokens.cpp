@@ -100,6 +100,7 @@ v1::Role required_role(v1::ClientMessage::BodyCase body) {
         case Body::kUndo:
         case Body::kListScenes:
         case Body::kOpenScene:
+        case Body::kMeasureEffects:
             return v1::EDITOR;
         case Body::kAddPin:
         case Body::kRemovePin:

@@ -169,6 +169,8 @@ void check_body(const v1::SetDisplay& display, Checker& check) {
                   "must be -30..30");
     check.require(display.scale_maximum() >= 0.0F, "setDisplay.scaleMaximum",
                   "must not be negative");
+    check.require(!display.has_scale_unit() || display.scale_unit() > 0.0F, "setDisplay.scaleUnit",
+                  "must be above 0");
 }
 
 void check_body(const v1::SetDepths& depths, Checker& check) {
@@ -326,6 +328,7 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
         case Body::kPing:
         case Body::kUndo:
         case Body::kListScenes:
+        case Body::kMeasureEffects:
         case Body::BODY_NOT_SET:
             return;
     }

@@ -6,9 +6,17 @@
 namespace raybundle {
 namespace {
 
+void note_phase(PhaseBudget& budget, double milliseconds, unsigned bundles) {
+    constexpr double begin_ms = 1000.0;
+    budget.begin(begin_ms);
+    for (unsigned i = 1; i <= bundles; ++i) {
+        budget.note_bundle(begin_ms + i * milliseconds / bundles, i == bundles);
+    }
+}
+
 PhaseBudget with_bundles_of(double milliseconds) {
     PhaseBudget budget;
-    budget.note_phase(8.0 * milliseconds, 8);
+    note_phase(budget, 8.0 * milliseconds, 8);
     return budget;
 }
 
@@ -59,11 +67,19 @@ TEST(PhaseBudget, IsMoreCarefulForATarget) {
 TEST(PhaseBudget, FollowsWhatPhasesTake) {
     PhaseBudget budget = with_bundles_of(30.0);
     for (int i = 0; i < 20; ++i) {
-        budget.note_phase(8.0, 8);
+        note_phase(budget, 8.0, 8);
     }
     EXPECT_GT(budget.settings(0.0, false).most_bundles, 8U);
-    budget.note_phase(1.0, 0);  // tells nothing
-    EXPECT_GT(budget.settings(0.0, false).most_bundles, 8U);
+}
+
+TEST(PhaseBudget, LearnsNothingFromAPhaseThatIsCutOff) {
+    PhaseBudget budget = with_bundles_of(1.0);
+    const unsigned before = budget.settings(0.0, false).most_bundles;
+    budget.begin(0.0);
+    budget.note_bundle(1e6, false);
+    EXPECT_EQ(budget.settings(0.0, false).most_bundles, before);
+    note_phase(budget, 8.0, 8);
+    EXPECT_EQ(budget.settings(0.0, false).most_bundles, before);
 }
 
 }  // namespace

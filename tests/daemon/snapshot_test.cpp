@@ -113,6 +113,24 @@ TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
     EXPECT_TRUE(answer.contains("snapshotReady")) << answer.dump();
 }
 
+TEST_F(SnapshotTest, MayLoseItsViewerWhileItGathersLight) {
+    JsonViewer viewer(daemon_.port());
+    viewer.join("", width, height);
+    for (int round = 0; round < 6; ++round) {
+        JsonViewer hasty(daemon_.port());
+        hasty.join("", width, height);
+        hasty.send(snapshot("EXR", 16, 16, 1e-6));
+        const auto iterations = [](const Json& message) {
+            return message.contains("solution") ? message["solution"].value("iterations", 0) : 0;
+        };
+        const Json first = hasty.next([&](const Json& m) { return iterations(m) > 0; });
+        // Its edges are smoothed in far fewer iterations than these.
+        hasty.next([&](const Json& m) { return iterations(m) > iterations(first) + 100 + round; });
+    }
+    be_content(viewer);
+    EXPECT_TRUE(viewer.request(snapshot("PNG", 64, 48, 0.5)).contains("snapshotReady"));
+}
+
 /// Mean luminance of a picture whose radiance is read from an address.
 double mean_luminance(const std::string& exr) {
     const TestFolder folder;

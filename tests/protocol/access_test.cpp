@@ -62,6 +62,7 @@ TEST(RequiredRole, ReviewersLeaveNotesAndViewersLookAndMeasure) {
     for (const Body body : {Body::kFollow, Body::kProbe, Body::kProbeGrid, Body::kSetDisplay}) {
         EXPECT_EQ(required_role(body), v1::VIEWER) << body;
     }
+    EXPECT_EQ(required_role(Body::kMeasureEffects), v1::EDITOR) << "it slows everybody down";
 }
 
 TEST(Gate, CountsWhoIsThere) {

@@ -101,6 +101,7 @@ TEST(MessageValidation, Requests) {
          Case{R"({"removeViewpoint":{}})", "removeViewpoint.viewpoint"},
          Case{R"({"pointAt":{}})", "pointAt.position"},
          Case{R"({"setDisplay":{"scaleMaximum":-1}})", "setDisplay.scaleMaximum"},
+         Case{R"({"setDisplay":{"scaleUnit":0}})", "setDisplay.scaleUnit"},
          Case{R"({"saveViewpoint":{"name":"","eye":{},"target":{"z":1},"verticalFov":1}})",
               "saveViewpoint.name"},
          Case{R"({"saveViewpoint":{"name":"a","eye":{},"target":{},"verticalFov":1}})",
