@@ -19,6 +19,8 @@ packages=(clang-format clang-tidy chromium git libgtest-dev openssl python3 shel
 min_node_version=18
 passed=0
 failed=0
+failed_checks=()
+check_log=""
 
 install_tools() {
     local version
@@ -39,17 +41,19 @@ install_browser_tools() {
     npm ci --prefix "$folder" --no-audit --no-fund && cp "$lock" "$installed"
 }
 
-# Runs one check, counts it, and says how it went.
+# Runs one check, counts it, and says how it went. The end of what a failed one printed is kept for
+# the last lines of the run: a thousand tests later nobody finds it.
 check() {
     local name=$1 start=$SECONDS
     shift
     say "$name"
-    if "$@"; then
+    if "$@" 2>&1 | tee "$check_log"; then
         passed=$((passed + 1))
         printf 'ok: %s (%d s)\n' "$name" $((SECONDS - start))
     else
         failed=$((failed + 1))
         printf 'FAILED: %s (%d s)\n' "$name" $((SECONDS - start))
+        failed_checks+=("FAILED: $name"$'\n'"$(tail -n 40 "$check_log")")
     fi
 }
 
@@ -111,9 +115,12 @@ main() {
         -h | --help) usage && exit 0 ;;
         *) usage >&2 && exit 2 ;;
     esac
+    check_log=$(mktemp)
+    trap 'rm -f "$check_log"' EXIT
     install_tools
     check "build" "$root/deploy/setup.sh" --with-tests
     ((failed > 0)) || run_checks "$mode"
+    ((${#failed_checks[@]} == 0)) || printf '%s\n' "${failed_checks[@]}"
     echo "raybundle tests: $passed passed, $failed failed"
     ((failed == 0))
 }

@@ -48,7 +48,7 @@ tidy_one() {
         touch "$stamps/$1"
         printf 'tidy: %s\n' "${2#"$PWD"/}"
     else
-        printf '%s\n' "$log"
+        printf '%s\n' "$log" "tidy: FAILED ${2#"$PWD"/}"
         return 1
     fi
 }
