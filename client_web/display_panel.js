@@ -4,6 +4,7 @@
 import {SCALE_DECADES, onScale, turbo} from './colour.js';
 import {byId, fileName, returnFocus, saveFile} from './elements.js';
 import {FrameThrottle} from './frame_throttle.js';
+import {withLegend} from './legend.js';
 import {LUX_PER_FOOTCANDLE, threeDigits} from './units.js';
 
 /**
@@ -105,9 +106,15 @@ export class DisplayPanel {
         this.#sending.run();
     }
 
-    /** Saves the picture, as it is on screen, as PNG. */
+    /** Saves the picture, as it is on screen, as PNG; below one in false colour its legend. */
     async savePicture() {
-        const blob = await pictureBlob(this.app);
+        const {canvas, element} = this.app.picture;
+        const {scale} = this;
+        // A small picture that is shown larger has a legend of readable size all the same.
+        const ratio = Math.max(canvas.width / Math.max(element.clientWidth, 1), 1);
+        const whole = scale ? withLegend(canvas, scale, ratio) : canvas;
+        /** @type {Blob | null} */
+        const blob = await new Promise((resolve) => whole.toBlob(resolve, 'image/png'));
         if (blob) {
             saveFile(blob, `${fileName(this.app.scene?.title ?? 'picture')}.png`);
         }
@@ -208,14 +215,4 @@ export class DisplayPanel {
         });
         byId('legend-ticks', HTMLElement).replaceChildren(...ticks);
     }
-}
-
-/**
- * The picture on screen as PNG.
- *
- * @param {RaybundleApp} app
- * @returns {Promise<Blob | null>}
- */
-export function pictureBlob(app) {
-    return new Promise((resolve) => app.picture.canvas.toBlob(resolve, 'image/png'));
 }

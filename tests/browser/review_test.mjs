@@ -109,6 +109,31 @@ describe('a review', () => {
         assert.deepEqual([ticks[0], ticks.at(-1)], ['2\u202f000', '2']);
         assert.ok(difference(photo, await thumbnail(page)) > 20);
         await keepScreenshot(page, 'false_colour');
+        const {bytes} = await saved(page, '#save-picture');
+        const {wider, ends, wanted} = await page.evaluate(async (base64) => {
+            const file = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+            const image = await createImageBitmap(new Blob([file], {type: 'image/png'}));
+            const {width, height} = window.raybundle.picture.canvas;
+            const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+            context.drawImage(image, 0, 0);
+            const {turbo} = await import(new URL('colour.js', location.href).href);
+            const rows = Array.from({length: image.height - height}, (_, row) => {
+                const {data} = context.getImageData(0, height + row, width, 1);
+                return Array.from({length: width}, (__, x) => [...data.slice(4 * x, 4 * x + 3)]);
+            });
+            const inColour = (pixel) => Math.max(...pixel) - Math.min(...pixel) > 20;
+            const bar = rows.map((row) => row.filter(inColour)).find((row) => row.length > width / 3) ?? [];
+            return {
+                wider: image.width - width,
+                ends: [bar[0], bar.at(-1)],
+                wanted: [turbo(0), turbo(1)].map((colour) => colour.match(/\d+/g).map(Number)),
+            };
+        }, bytes.toString('base64'));
+        assert.equal(wider, 0);
+        ends.forEach((pixel, i) => {
+            const off = Math.max(...wanted[i].map((value, channel) => Math.abs(value - pixel?.[channel])));
+            assert.ok(off <= 6, `the legend ends with ${pixel}, not ${wanted[i]}`);
+        });
         await page.selectOption('#display-mode', 'PHOTO');
         await page.waitForFunction(() => window.raybundle.frame.scaleMaximum === undefined);
         assert.ok(await page.isHidden('#legend'));

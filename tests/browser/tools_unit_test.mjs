@@ -9,6 +9,7 @@ import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
 import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf, typicalError} from '../../client_web/grid.js';
 import {History} from '../../client_web/history.js';
+import {layOutStrip} from '../../client_web/legend.js';
 import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
 import {frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
@@ -408,6 +409,36 @@ describe('the report of a picture in false colour', () => {
             pinsInPicture: [],
         });
         assert.match(html, /Illuminance, fc.*linear-gradient\(to right,#000,#fff\).*left:66\.67%">2</s);
+    });
+});
+
+describe('the legend below a saved picture', () => {
+    const MARKS = [2000, 1000, 500, 200, 100, 50].map((value, i) => ({text: String(value), at: 1 - i / 9}));
+    const widthOf = (text, size) => text.length * size * 0.6;
+
+    it('is as large on every screen, in more pixels', () => {
+        const one = layOutStrip(900, 1, MARKS, widthOf);
+        const two = layOutStrip(1800, 2, MARKS, widthOf);
+        assert.equal(two.height, 2 * one.height);
+        assert.equal(two.textSize, 2 * one.textSize);
+        close(two.bar.width, 2 * one.bar.width, 1e-9);
+        assert.deepEqual(two.labels.map(({text}) => text), MARKS.map(({text}) => text));
+    });
+
+    it('has its labels below their values, within the picture and apart', () => {
+        for (const width of [120, 300, 900]) {
+            const {bar, labels, textSize} = layOutStrip(width, 1, MARKS, widthOf);
+            assert.ok(bar.x + bar.width < width);
+            assert.equal(labels[0].text, '2000');
+            let free = width;
+            for (const {text, x, tick} of labels) {
+                const half = widthOf(text, textSize) / 2;
+                close(tick, bar.x + MARKS.find((mark) => mark.text === text).at * bar.width, 1e-9);
+                assert.ok(x - half >= 0 && x + half <= free, `${text} at ${x} of ${width}`);
+                free = x - half;
+            }
+        }
+        assert.ok(layOutStrip(120, 1, MARKS, widthOf).labels.length < MARKS.length);
     });
 });
 
