@@ -3,17 +3,13 @@
 // what fits; and what becomes of files that are dropped on it.
 
 import assert from 'node:assert/strict';
-import {after, afterEach, before, describe, it} from 'node:test';
+import {describe, it} from 'node:test';
 
-import {PATIENCE_MS, keepScreenshot, launchBrowser} from './browser.mjs';
-import {FileServer, WELCOME, fakeSocket} from './fake_server.mjs';
+import {keepScreenshot} from './browser.mjs';
+import {fakePages} from './fake_page.mjs';
+import {WELCOME} from './fake_server.mjs';
 
-/** @type {import('playwright-core').Browser} */
-let browser;
-/** @type {FileServer} */
-let files;
-/** @type {import('playwright-core').BrowserContext} */
-let context;
+const openAny = fakePages();
 
 const PROBE = {
     hit: true,
@@ -56,14 +52,11 @@ const obeys =
         send(answers[Object.keys(request).find((key) => key in answers)] ?? {ok: {}});
     };
 
+/** A page that is connected. */
 async function openPage(answer = obeys(), options = {}) {
-    context = await browser.newContext({viewport: {width: 1280, height: 800}, ...options});
-    const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE_MS);
-    const sent = await fakeSocket(page, answer);
-    await page.goto(files.url);
-    await page.waitForFunction(() => window.raybundle?.client.state === 'connected');
-    return {page, sent};
+    const opened = await openAny(answer, options);
+    await opened.page.waitForFunction(() => window.raybundle?.client.state === 'connected');
+    return opened;
 }
 
 /** What has the focus, for people who read a failure. */
@@ -74,18 +67,6 @@ const focused = (page) =>
     });
 
 const PHONE = {viewport: {width: 360, height: 740}, hasTouch: true, isMobile: true};
-
-before(async () => {
-    browser = await launchBrowser();
-    files = await FileServer.start();
-});
-
-after(async () => {
-    await browser?.close();
-    files?.stop();
-});
-
-afterEach(() => context?.close());
 
 /** Everybody in a review; the first is the page's own viewer. */
 const crowd = (count) =>
@@ -186,7 +167,7 @@ describe('by keyboard', () => {
             await page.click(`#tab-${id}`);
             assert.ok(await page.isVisible('#undo'), id);
         }
-        await context.close();
+        await page.context().close();
         const looking = await openPage(obeys({role: 'VIEWER'}));
         assert.ok(await looking.page.isHidden('#undo'));
     });
@@ -195,7 +176,7 @@ describe('by keyboard', () => {
 describe('by ear', () => {
     it('every control has a name in the accessibility tree, and the countdown is not said each second', async () => {
         const {page} = await openPage(obeys({pins: [PIN]}));
-        const session = await context.newCDPSession(page);
+        const session = await page.context().newCDPSession(page);
         const roles = ['button', 'textbox', 'slider', 'checkbox', 'switch', 'combobox', 'spinbutton', 'tab', 'link'];
         for (const id of ['scene', 'light', 'measure', 'review', 'accuracy']) {
             await page.click(`#tab-${id}`);

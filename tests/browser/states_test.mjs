@@ -3,34 +3,13 @@
 // it can be used by everybody.
 
 import assert from 'node:assert/strict';
-import {after, afterEach, before, describe, it} from 'node:test';
+import {describe, it} from 'node:test';
 
-import {PATIENCE_MS, keepScreenshot, launchBrowser} from './browser.mjs';
-import {FileServer, WELCOME, fakeSocket} from './fake_server.mjs';
+import {keepScreenshot} from './browser.mjs';
+import {fakePages} from './fake_page.mjs';
+import {WELCOME} from './fake_server.mjs';
 
-/** @type {import('playwright-core').Browser} */
-let browser;
-/** @type {FileServer} */
-let files;
-/** @type {import('playwright-core').BrowserContext} */
-let context;
-
-/**
- * A page whose server answers as told.
- *
- * @param {Parameters<typeof fakeSocket>[1]} answer
- * @param {import('playwright-core').BrowserContextOptions} options
- */
-async function openPage(answer, options = {}) {
-    context = await browser.newContext({viewport: {width: 1280, height: 800}, ...options});
-    const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE_MS);
-    const faults = [];
-    page.on('pageerror', (error) => faults.push(error.message));
-    const sent = await fakeSocket(page, answer);
-    await page.goto(files.url);
-    return {page, sent, faults};
-}
+const openPage = fakePages();
 
 /** Refuses the first hello, welcomes later ones. */
 const refuseOnce = (code, message, closeCode) => {
@@ -49,18 +28,6 @@ const refuseOnce = (code, message, closeCode) => {
         }
     };
 };
-
-before(async () => {
-    browser = await launchBrowser();
-    files = await FileServer.start();
-});
-
-after(async () => {
-    await browser?.close();
-    files?.stop();
-});
-
-afterEach(() => context?.close());
 
 describe('the page without its server', () => {
     it('asks for a token where its own is refused, and comes in with it', async () => {
