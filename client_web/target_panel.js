@@ -131,34 +131,43 @@ export function effectCost({active, pathClass, shareBound, bytesPerPatch, msPerI
 }
 
 /**
- * Lists the effects plan: what the scene calls for, and why or why not; what is on first.
+ * @param {import('./protocol.js').Effect} effect
+ * @returns {HTMLLIElement}
+ */
+function effectRow(effect) {
+    const {name, active, reason} = effect;
+    const item = document.createElement('li');
+    item.className = active ? 'on' : 'off';
+    const title = document.createElement('b');
+    title.textContent = name.replaceAll('-', ' ');
+    const state = document.createElement('span');
+    state.className = 'tag';
+    state.textContent = active ? 'on' : 'off';
+    const why = document.createElement('p');
+    why.textContent = reason;
+    item.append(title, state, why);
+    const cost = effectCost(effect);
+    if (cost) {
+        const figures = document.createElement('p');
+        figures.className = 'cost';
+        figures.textContent = cost;
+        item.append(figures);
+    }
+    return item;
+}
+
+/**
+ * Lists the effects plan: what the scene calls for, and why; folded, what it does not, and why not.
  *
  * @param {import('./protocol.js').Effect[]} effects
  */
 export function showEffects(effects) {
-    const rank = (/** @type {import('./protocol.js').Effect} */ {active}) => (active ? 0 : 1);
-    const rows = [...effects].sort((a, b) => rank(a) - rank(b)).map((effect) => {
-        const {name, active, reason} = effect;
-        const item = document.createElement('li');
-        item.className = active ? 'on' : 'off';
-        const title = document.createElement('b');
-        title.textContent = name.replaceAll('-', ' ');
-        const state = document.createElement('span');
-        state.className = 'tag';
-        state.textContent = active ? 'on' : 'off';
-        const why = document.createElement('p');
-        why.textContent = reason;
-        item.append(title, state, why);
-        const cost = effectCost(effect);
-        if (cost) {
-            const figures = document.createElement('p');
-            figures.className = 'cost';
-            figures.textContent = cost;
-            item.append(figures);
-        }
-        return item;
-    });
-    byId('effects', HTMLElement).replaceChildren(...rows);
+    const on = effects.filter(({active}) => active);
+    const off = effects.filter(({active}) => !active);
+    byId('effects', HTMLElement).replaceChildren(...on.map(effectRow));
+    byId('effects-off', HTMLElement).replaceChildren(...off.map(effectRow));
+    byId('effects-off-count', HTMLElement).textContent = `Not needed here: ${off.length}`;
+    byId('effects-off-details', HTMLElement).hidden = off.length === 0;
 }
 
 /**

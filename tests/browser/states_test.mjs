@@ -80,9 +80,15 @@ describe('the page without its server', () => {
         assert.equal(await page.textContent('#scene-name'), 'Test room');
         await page.click('#tab-accuracy');
         assert.match(await page.textContent('#renderer'), /without a graphics card.*llvmpipe/);
-        const effects = await page.$$eval('#effects li', (rows) => rows.map((r) => r.textContent));
+        const rows = (list) => page.$$eval(`${list} li`, (all) => all.map((row) => row.textContent));
         const cost = 'paths L(D|G)*E · 56 bytes a patch · at most 50 % of the light';
-        assert.deepEqual(effects, [`glossonone material is glossy${cost}`, 'skyoffno sky is set']);
+        assert.deepEqual(await rows('#effects'), [`glossonone material is glossy${cost}`]);
+        assert.ok(await page.isHidden('#effects-off li'));
+        await page.focus('#effects-off-count');
+        await page.keyboard.press('Enter');
+        await page.waitForSelector('#effects-off li', {state: 'visible'});
+        assert.equal(await page.textContent('#effects-off-count'), 'Not needed here: 1');
+        assert.deepEqual(await rows('#effects-off'), ['skyoffno sky is set']);
     });
 });
 
