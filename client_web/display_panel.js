@@ -5,7 +5,7 @@ import {SCALE_DECADES, onScale, turbo} from './colour.js';
 import {byId, fileName, returnFocus, saveFile} from './elements.js';
 import {FrameThrottle} from './frame_throttle.js';
 import {withLegend} from './legend.js';
-import {LUX_PER_FOOTCANDLE, threeDigits} from './units.js';
+import {LUX_PER_FOOTCANDLE, oneDigit} from './units.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -204,7 +204,7 @@ export class DisplayPanel {
             context.fillRect(0, row, 1, 1);
         }
         this.#marks = scaleTicks(top).map((value) => ({
-            text: value < 1000 ? String(Number(value.toPrecision(1))) : threeDigits(value),
+            text: oneDigit(value),
             at: onScale(value, top),
         }));
         const ticks = this.#marks.map(({text, at}) => {

@@ -22,6 +22,29 @@ export function percent(share) {
 }
 
 /**
+ * Error of the picture.
+ *
+ * @param {number | null | undefined} share
+ * @returns {string} says so where it is not known, or as large as what it is the error of
+ */
+export const pictureError = (share) => (known(share) && share < 1 ? percent(share) : 'not yet known');
+
+/**
+ * 95 % interval of the picture's error.
+ *
+ * @param {number | null | undefined} low
+ * @param {number | null | undefined} high
+ * @returns {string}
+ */
+export function interval(low, high) {
+    if (!known(low) || !known(high)) {
+        return DASH;
+    }
+    const end = high < 1 ? percent(high) : 'more than 100 %';
+    return low < 1 ? `${percent(low)} to ${end}` : end;
+}
+
+/**
  * Progress that says 100 only when it is done.
  *
  * @param {number | null | undefined} share  0..1

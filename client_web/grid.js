@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pure maths of a measuring grid: where its points lie on a surface, and what they say together.
 
-import {add, clamp, cross, dot, length, normalise, scale, sub, vec3} from './vector.js';
+import {noteOf} from './units.js';
+import {add, clamp, cross, dot, normalise, scale, sub, vec3} from './vector.js';
 
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
@@ -110,13 +111,14 @@ export function summaryOf(illuminance) {
  * @returns {string} table with a head, points that were not measured left empty
  */
 export function gridCsv(grid, {illuminance, relativeError, epoch}) {
-    const lines = ['row,column,x_m,y_m,z_m,illuminance_lx,relative_standard_error,epoch'];
+    const lines = ['row,column,x_m,y_m,z_m,illuminance_lx,relative_standard_error,epoch,note'];
     pointsOf(grid).forEach(({x, y, z}, i) => {
         const at = [Math.floor(i / grid.columns) + 1, (i % grid.columns) + 1];
         const place = [x, y, z].map((value) => value.toFixed(4));
         const value = illuminance[i] >= 0 ? illuminance[i].toPrecision(6) : '';
         const error = relativeError[i] >= 0 ? relativeError[i].toPrecision(3) : '';
-        lines.push([...at, ...place, value, error, epoch].join(','));
+        const note = illuminance[i] >= 0 ? noteOf(relativeError[i]) : 'not in view';
+        lines.push([...at, ...place, value, error, epoch, note].join(','));
     });
     return `${lines.join('\r\n')}\r\n`;
 }
@@ -132,8 +134,63 @@ export function csvCell(text) {
     return /[",\r\n]/.test(harmless) ? `"${harmless.replaceAll('"', '""')}"` : harmless;
 }
 
-/** @type {(grid: Grid) => number} */
-export const cellSide = ({stepX, stepY}) => Math.min(length(stepX), length(stepY));
+/** @typedef {{position: Vec3, normal: Vec3}} Hit */
+
+/** Hits are on one plane where they are no further apart, along their normal, metres. */
+const SAME_PLANE = 0.02;
+
+/**
+ * The largest face of an object, judged by where it was met: one that looks upwards, if there is any.
+ *
+ * @template {Hit} T
+ * @param {T[]} hits
+ * @returns {T | null} one of that face
+ */
+export function mainFace(hits) {
+    const sizeOf = (/** @type {Hit} */ {position, normal}) =>
+        hits.filter(
+            (other) =>
+                dot(other.normal, normal) > 0.99 &&
+                Math.abs(dot(sub(other.position, position), normal)) < SAME_PLANE,
+        ).length;
+    const ranked = hits.map((hit) => {
+        const upwards = faceName(hit.normal) === 'upper side';
+        return {hit, rank: sizeOf(hit) + (upwards ? hits.length : 0)};
+    });
+    return ranked.sort((a, b) => b.rank - a.rank)[0]?.hit ?? null;
+}
+
+/**
+ * @param {Vec3} normal
+ * @returns {string} for people
+ */
+export const faceName = ({y}) => (y > 0.9 ? 'upper side' : y < -0.9 ? 'underside' : 'side');
+
+/**
+ * Points spread evenly over the part of the picture that an object may cover.
+ *
+ * @param {{x: number, y: number, depth: number}[]} corners  of the object's bounds, CSS pixels
+ * @param {number} width  of the picture, CSS pixels
+ * @param {number} height
+ * @param {number} perSide
+ * @returns {{x: number, y: number}[]} none where it covers nothing
+ */
+export function spreadOver(corners, width, height, perSide) {
+    // Bounds that reach behind the eye may cover all.
+    const around = corners.some(({depth}) => depth <= 0);
+    const [xs, ys] = [corners.map(({x}) => x), corners.map(({y}) => y)];
+    const left = around ? 0 : Math.max(Math.min(...xs), 0);
+    const right = around ? width : Math.min(Math.max(...xs), width);
+    const top = around ? 0 : Math.max(Math.min(...ys), 0);
+    const bottom = around ? height : Math.min(Math.max(...ys), height);
+    if (left >= right || top >= bottom) {
+        return [];
+    }
+    return Array.from({length: perSide * perSide}, (_, i) => ({
+        x: left + ((right - left) * ((i % perSide) + 0.5)) / perSide,
+        y: top + ((bottom - top) * (Math.floor(i / perSide) + 0.5)) / perSide,
+    }));
+}
 
 /**
  * What the points of a grid are typically known to.

@@ -7,6 +7,7 @@ import {DisplayPanel} from './display_panel.js';
 import {byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
+import {GridPanel} from './grid_panel.js';
 import {ChangeList, History, addHistory} from './history.js';
 import {addKeys} from './keys.js';
 import {LightPanel} from './light_panel.js';
@@ -52,6 +53,7 @@ const walking = new Walking(app);
 const gizmo = new Gizmo(app);
 const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
+const gridPanel = new GridPanel(app, measuring, display);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
 const changes = new ChangeList(app, (viewer) => people.name(viewer));
@@ -128,11 +130,11 @@ function saveReport() {
         const at = {pin: pin.pin, x: x / clientWidth, y: y / clientHeight};
         return depth > 0 && at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1 ? [at] : [];
     });
-    const grid = measuring.grid && {
-        object: measuring.grid.object,
-        columns: measuring.grid.grid.columns,
-        rows: measuring.grid.grid.rows,
-        illuminance: measuring.grid.result.illuminance,
+    const grid = gridPanel.shown && {
+        object: gridPanel.shown.surface,
+        columns: gridPanel.shown.grid.columns,
+        rows: gridPanel.shown.grid.rows,
+        ...gridPanel.shown.result,
     };
     const title = app.scene?.title ?? 'Scene';
     const html = reportHtml({
@@ -259,5 +261,5 @@ restoreShared();
 document.addEventListener('visibilitychange', () => {
     app.client.paused = document.hidden;
 });
-Object.assign(window, {raybundle: app, raybundleParts: {display, walking, measuring, people, pins, compare, history}});
+Object.assign(window, {raybundle: app, raybundleParts: {display, walking, measuring, gridPanel, people, pins, compare, history}});
 app.start();

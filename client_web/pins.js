@@ -2,7 +2,7 @@
 // Pins: notes at points of the scene that keep the light measured there, and say when it has changed.
 
 import {byId, replaceRows, smallButton} from './elements.js';
-import {illuminance as inLux, plusMinus} from './units.js';
+import {measured} from './units.js';
 import {matrixPoint, transformPoint} from './vector.js';
 
 /**
@@ -142,7 +142,7 @@ export class Pins {
         const form = document.createElement('form');
         form.className = 'pin-editor';
         const value = document.createElement('p');
-        value.textContent = `${inLux(probe.illuminance ?? 0, this.measuring.unit)} ${plusMinus(probe.relativeError)}`;
+        value.textContent = measured(probe.illuminance ?? 0, this.measuring.unit, probe.relativeError);
         const text = document.createElement('textarea');
         text.rows = 2;
         text.maxLength = MAX_TEXT;
@@ -248,8 +248,8 @@ export class Pins {
         detail.className = 'quiet';
         const when = new Date(pin.setAtMs).toLocaleString([], {dateStyle: 'short', timeStyle: 'short'});
         const who = pin.byName || `Viewer ${pin.by}`;
-        const value = inLux(pin.illuminance, this.measuring.unit);
-        detail.textContent = `${value} ${plusMinus(pin.relativeError)} · epoch ${pin.epoch} · ${who}, ${when}`;
+        const value = measured(pin.illuminance, this.measuring.unit, pin.relativeError);
+        detail.textContent = `${value} · epoch ${pin.epoch} · ${who}, ${when}`;
         const body = document.createElement('div');
         body.append(text, detail);
         const change = changeOf(pin);

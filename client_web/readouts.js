@@ -4,7 +4,7 @@
 
 import {announce, byId, showValue} from './elements.js';
 import {drawErrorPlot} from './error_plot.js';
-import {count, milliseconds, percent, progress, rate} from './format.js';
+import {count, interval, milliseconds, percent, pictureError, progress, rate} from './format.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
 
 /**
@@ -100,10 +100,8 @@ export class Readouts {
         const stats = this.stats;
         const {errorLow: low, errorHigh: high, settled} = stats;
         const known = this.#header !== null || this.#solution !== null;
-        const unknown = known && stats.relativeError === null;
-        showValue('error', unknown ? 'not known yet' : percent(stats.relativeError));
-        const hasInterval = low !== null && high !== null;
-        showValue('errorInterval', hasInterval ? `${percent(low)} to ${percent(high)}` : '–');
+        showValue('error', known ? pictureError(stats.relativeError) : percent(null));
+        showValue('errorInterval', interval(low, high));
         showValue('iterations', count(stats.iterations));
         showValue('iterationRate', rate(stats.iterationsPerSecond));
         showValue('frameRate', rate(stats.framesPerSecond));
@@ -121,7 +119,7 @@ export class Readouts {
         const before = this.#state.dataset.settled;
         this.#state.dataset.settled = known && done ? 'yes' : 'no';
         if (known && done && before === 'no') {
-            announce(`The light has settled, error ${percent(stats.relativeError)}.`);
+            announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
         }
         const text = done ? 'Light has settled' : `Light is settling, ${progress(settled)}`;
         showValue('settledState', known ? text : 'Waiting for light');

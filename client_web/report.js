@@ -2,10 +2,10 @@
 // The review report: one HTML file that needs nothing else, with the picture, the pins and what was
 // measured, and who changed what.
 
-import {percent} from './format.js';
-import {summaryOf} from './grid.js';
+import {pictureError} from './format.js';
+import {summaryOf, typicalError} from './grid.js';
 import {changeOf} from './pins.js';
-import {illuminance, plusMinus, threeDigits} from './units.js';
+import {estimated, illuminance, inUnit, measured, plusMinus} from './units.js';
 
 /**
  * @typedef {import('./protocol.js').Pin} Pin
@@ -27,7 +27,7 @@ import {illuminance, plusMinus, threeDigits} from './units.js';
  * @property {IlluminanceUnit} unit
  * @property {Pin[]} pins
  * @property {{number: number, probe: import('./protocol.js').ProbeResult}[]} points
- * @property {{object: string, columns: number, rows: number, illuminance: number[]} | null} grid
+ * @property {{object: string, columns: number, rows: number, illuminance: number[], relativeError: number[]} | null} grid
  * @property {import('./history.js').LogEntry[]} changes
  * @property {{pin: number, x: number, y: number}[]} pinsInPicture  shares of its width and height
  */
@@ -84,19 +84,19 @@ function scaleHtml({title, colours, marks}) {
  */
 export function reportHtml(content) {
     const {title, server, time, epoch, error, picture, address, unit} = content;
-    const value = (/** @type {number | undefined} */ lux) => illuminance(lux ?? 0, unit);
+    const value = (/** @type {number} */ lux) => illuminance(lux, unit);
     const pins = content.pins.map((pin) => [
         String(pin.pin),
         `<div style="white-space:normal">${escaped(pin.text)}</div>`,
-        `${value(pin.illuminance)} ${escaped(plusMinus(pin.relativeError))}`,
+        escaped(measured(pin.illuminance, unit, pin.relativeError)),
         String(pin.epoch),
         `<span class="flag">${escaped(changeOf(pin))}</span>`,
         escaped(`${pin.byName || `Viewer ${pin.by}`}, ${new Date(pin.setAtMs).toLocaleString()}`),
     ]);
     const points = content.points.map(({number, probe}) => [
         String(number),
-        value(probe.illuminance),
-        `${threeDigits(probe.luminance ?? 0)} cd/m²`,
+        escaped(estimated(inUnit(probe.illuminance ?? 0, unit), unit, probe.relativeError)),
+        escaped(estimated(probe.luminance ?? 0, 'cd/m²', probe.relativeError)),
         escaped(plusMinus(probe.relativeError)),
         String(probe.epoch),
     ]);
@@ -110,6 +110,7 @@ export function reportHtml(content) {
                   value(summary.mean),
                   value(summary.maximum),
                   summary.uniformity.toFixed(2),
+                  escaped(plusMinus(typicalError(content.grid?.relativeError ?? []))),
               ],
           ]
         : [];
@@ -128,12 +129,12 @@ export function reportHtml(content) {
 <style>${STYLE}</style></head><body>
 <h1>${escaped(title)}</h1>
 <p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. Epoch ${epoch}, estimated error of the
-picture ${escaped(percent(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
+picture ${escaped(pictureError(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
 <figure><img alt="The scene as seen during the review" src="${escaped(picture)}">${marks.join('')}</figure>
 ${content.scale ? scaleHtml(content.scale) : ''}
 ${section('Pins', ['#', 'Note', 'Illuminance then', 'Epoch', 'Light', 'By'], pins)}
 ${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'Epoch'], points)}
-${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uo'], grid)}
+${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uo', 'Typical error (95 %)'], grid)}
 ${section('Changes', ['Epoch', 'Time', 'By', 'What'], changes)}
 </body></html>
 `;

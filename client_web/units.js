@@ -31,6 +31,12 @@ export function threeDigits(value) {
     return digits > 0 ? text : whole.replace(/\B(?=(\d{3})+$)/g, '\u202f');
 }
 
+/** @type {(value: number) => string} */
+export const oneDigit = (value) => {
+    const rounded = Number(value.toPrecision(1));
+    return rounded < 1000 ? String(rounded) : threeDigits(rounded);
+};
+
 /**
  * @param {number} lux
  * @param {IlluminanceUnit} unit
@@ -38,19 +44,71 @@ export function threeDigits(value) {
  */
 export const illuminance = (lux, unit) => `${threeDigits(inUnit(lux, unit))} ${unit}`;
 
+/** What somebody reads of a value that is hardly known: its 95 % interval reaches down to nothing. */
+export const NOT_YET = 'not yet known';
+
+/** @typedef {number | null | undefined} StandardError  relative; neither known nor 0 where there is none yet */
+
+/** @type {(standardError: StandardError) => standardError is number} */
+const estimatedAtAll = (standardError) => typeof standardError === 'number' && standardError >= 0;
+
+/** @type {(standardError: StandardError) => boolean} */
+const hopeless = (standardError) => estimatedAtAll(standardError) && 1.96 * standardError >= 1;
+
 /**
  * The 95 % interval's half width from a standard error.
  *
- * @param {number | null | undefined} standardError  relative
- * @returns {string} e.g. "± 2.3 %"; says so where it is not known, or hardly
+ * @param {StandardError} standardError
+ * @returns {string} e.g. "± 2.3 %"
  */
 export function plusMinus(standardError) {
-    if (typeof standardError !== 'number' || !(standardError >= 0)) {
-        return '± ?';
+    if (!estimatedAtAll(standardError) || hopeless(standardError)) {
+        return NOT_YET;
     }
     const share = 196 * standardError;
-    if (share >= 100) {
-        return '± > 100 %';  // next to nothing is known: no digits
-    }
     return `± ${share < 9.95 ? share.toFixed(1) : share.toFixed(0)} %`;
+}
+
+/**
+ * What is wrong with a value, for a table.
+ *
+ * @param {StandardError} standardError
+ * @returns {string} empty: nothing
+ */
+export function noteOf(standardError) {
+    if (!estimatedAtAll(standardError)) {
+        return `error ${NOT_YET}`;
+    }
+    return hopeless(standardError) ? NOT_YET : '';
+}
+
+/**
+ * A value with as many digits as it is worth.
+ *
+ * @param {number} value
+ * @param {string} unit
+ * @param {StandardError} standardError
+ * @returns {string} e.g. "482 lx", or "about 500 lx" where it is hardly known
+ */
+export function estimated(value, unit, standardError) {
+    const number = hopeless(standardError) ? `about ${oneDigit(value)}` : threeDigits(value);
+    return `${number} ${unit}`.trimEnd();
+}
+
+/**
+ * Illuminance with its error, in a line.
+ *
+ * @param {number} lux
+ * @param {IlluminanceUnit} unit
+ * @param {StandardError} standardError
+ * @returns {string} e.g. "482 lx ± 2.3 %", or "not yet known (about 500 lx)"
+ */
+export function measured(lux, unit, standardError) {
+    const value = estimated(inUnit(lux, unit), unit, standardError);
+    if (hopeless(standardError)) {
+        return `${NOT_YET} (${value})`;
+    }
+    return estimatedAtAll(standardError)
+        ? `${value} ${plusMinus(standardError)}`
+        : `${value}, error ${NOT_YET}`;
 }

@@ -283,6 +283,36 @@ describe('a file that is dropped', () => {
     });
 });
 
+describe('a grid', () => {
+    it('says what to do where no surface has been picked, and lies on what is selected', async () => {
+        const grid = {illuminance: Array(16).fill(100), relativeError: Array(16).fill(0.02), epoch: 0};
+        const {page, sent} = await openPage((request, send) =>
+            request.probeGrid ? send({probeGridResult: grid}) : obeys()(request, send),
+        );
+        await page.click('#tab-measure');
+        await page.focus('#measure-grid');
+        await page.keyboard.press('Enter');
+        assert.match(await page.textContent('#grid-state'), /^There is no surface yet: select an object, or/);
+        assert.ok(await page.isDisabled('#grid-surface'));
+        await page.evaluate(() => window.raybundle.select(1));
+        assert.equal(await page.textContent('#grid-state'), '');
+        assert.equal(await page.textContent('#grid-surface'), 'table (selected)');
+        await page.focus('#measure-grid');
+        await page.keyboard.press('Enter');
+        await page.waitForSelector('#grid-result', {state: 'visible'});
+        assert.match(await page.textContent('#grid-state'), /^table, upper side: .*Typical error ± 3\.9 %/);
+        const {origin} = sent.find(({probeGrid}) => probeGrid).probeGrid;
+        assert.ok(Math.abs(origin.y - PROBE.position.y) < 0.01, JSON.stringify(origin));
+        await page.focus('#picture');
+        await page.keyboard.press('Digit2');
+        await page.keyboard.press('Enter');
+        await page.waitForSelector('#points tbody tr');
+        const options = await page.$$eval('#grid-surface option', (all) => all.map((o) => o.textContent));
+        assert.deepEqual(options, ['table (selected)', 'table at point 1']);
+        assert.equal(await page.inputValue('#grid-surface'), '1');
+    });
+});
+
 describe('units, lines and costs', () => {
     it('footcandles go for the scale, its lines and the pins', async () => {
         const {page, sent} = await openPage(obeys({pins: [PIN]}));

@@ -347,6 +347,10 @@ describe('figures', () => {
         assert.equal(format.percent(undefined), '–');
         assert.equal(format.progress(0.9999), '99 %');
         assert.equal(format.progress(1), '100 %');
+        assert.equal(format.pictureError(0.018), '1.8 %');
+        assert.deepEqual([null, 1.4].map(format.pictureError), ['not yet known', 'not yet known']);
+        assert.equal(format.interval(0.4, 1.5), '40 % to more than 100 %');
+        assert.equal(format.interval(null, null), '–');
         assert.equal(format.count(1234567), '1\u202f234\u202f567');
         assert.equal(format.metres(-0.5), '−0.50 m');
         assert.equal(format.milliseconds(NaN), '–');

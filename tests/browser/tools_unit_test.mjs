@@ -7,7 +7,10 @@ import {describe, it} from 'node:test';
 import {goTo, look, project, walk} from '../../client_web/camera.js';
 import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
-import {csvCell, gridCsv, gridOn, pointsOf, standardStep, summaryOf, typicalError} from '../../client_web/grid.js';
+import {
+    csvCell, gridCsv, gridOn, mainFace, pointsOf, spreadOver, standardStep, summaryOf, typicalError,
+} from '../../client_web/grid.js';
+import {stateOf} from '../../client_web/grid_panel.js';
 import {History} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
 import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
@@ -161,14 +164,53 @@ describe('a measuring grid', () => {
     });
 
     it('becomes a table', () => {
-        const grid = {origin: vec3(0, 0, 0), stepX: vec3(1, 0, 0), stepY: vec3(0, 0, 2), columns: 2, rows: 1};
-        const lines = gridCsv(grid, {illuminance: [123.4567, -1], relativeError: [0.02, -1], epoch: 7})
-            .trim()
-            .split('\r\n');
-        assert.equal(lines[1], '1,1,0.0000,0.0000,0.0000,123.457,0.0200,7');
-        assert.equal(lines[2], '1,2,1.0000,0.0000,0.0000,,,7');
+        const grid = {origin: vec3(0, 0, 0), stepX: vec3(1, 0, 0), stepY: vec3(0, 0, 2), columns: 4, rows: 1};
+        const result = {illuminance: [123.4567, -1, 5, 5], relativeError: [0.02, -1, 0.7, -1], epoch: 7};
+        const lines = gridCsv(grid, result).trim().split('\r\n');
+        assert.equal(lines[1], '1,1,0.0000,0.0000,0.0000,123.457,0.0200,7,');
+        assert.equal(lines[2], '1,2,1.0000,0.0000,0.0000,,,7,not in view');
+        assert.match(lines[3], /,5\.00000,0\.700,7,not yet known$/);
+        assert.match(lines[4], /,5\.00000,,7,error not yet known$/);
         assert.equal(csvCell('=1+1'), "'=1+1");
         assert.equal(csvCell('a "b", c'), '"a ""b"", c"');
+    });
+});
+
+describe('the surface that a grid is laid on', () => {
+    const hit = (x, y, z, normal) => ({position: vec3(x, y, z), normal});
+    const up = vec3(0, 1, 0);
+    const front = vec3(0, 0, 1);
+
+    it('is the largest one that looks upwards, or the largest one', () => {
+        const sides = [hit(0, 0.2, 1, front), hit(0.1, 0.3, 1, front), hit(0.2, 0.4, 1, front)];
+        const top = [hit(0, 0.8, 0, up), hit(0.5, 0.8, 0.5, up)];
+        const shelf = hit(0, 0.3, 0, up);
+        assert.equal(mainFace([...sides, shelf, ...top]).position.y, 0.8);
+        assert.equal(mainFace([...sides, hit(1, 1, 0, vec3(1, 0, 0))]).normal, front);
+        assert.equal(mainFace([]), null);
+    });
+
+    it('is looked for where the picture may show it', () => {
+        const corner = (x, y, depth = 1) => ({x, y, depth});
+        for (const {x, y} of spreadOver([corner(-50, 20), corner(100, 60)], 300, 200, 4)) {
+            assert.ok(x > 0 && x < 100 && y > 20 && y < 60, `${x}, ${y}`);
+        }
+        assert.deepEqual(spreadOver([corner(400, 20), corner(500, 60)], 300, 200, 4), []);
+        const all = spreadOver([corner(10, 10, -1), corner(20, 20)], 300, 200, 2);
+        assert.deepEqual(all, [{x: 75, y: 50}, {x: 225, y: 50}, {x: 75, y: 150}, {x: 225, y: 150}]);
+    });
+
+    it('is named, with what the grid is worth', () => {
+        const grid = {origin: vec3(0, 0, 0), stepX: vec3(0.2, 0, 0), stepY: vec3(0, 0, 0.2), columns: 2, rows: 1};
+        const state = (illuminance, error, settled = true) => {
+            const result = {illuminance, relativeError: [error, error], epoch: 0};
+            return stateOf({grid, result, surface: 'desk, upper side', settled});
+        };
+        const size = 'desk, upper side: 2 × 1 points, 0.20 m apart.';
+        assert.equal(state([100, -1], 0.02), `${size} 1 of 2 are in view. Typical error ± 3.9 %.`);
+        assert.match(state([100, 90], 0.6), /Most values are not yet known\. Measure again later\.$/);
+        assert.match(state([100, 90], 0.02, false), /still settling\. Measure again later\.$/);
+        assert.match(state([-1, -1], -1), /None of them is in view: turn/);
     });
 });
 
@@ -266,8 +308,17 @@ describe('colours and units', () => {
         assert.equal(units.illuminance(107.639, 'fc'), '10.0 fc');
         assert.equal(units.illuminance(12345, 'lx'), '12\u202f345 lx');
         assert.equal(units.plusMinus(0.012), '± 2.4 %');
-        assert.equal(units.plusMinus(undefined), '± ?');
-        assert.equal(units.plusMinus(0.6), '± > 100 %');
+    });
+
+    it('say plainly what is not yet known', () => {
+        assert.equal(units.plusMinus(undefined), 'not yet known');
+        assert.equal(units.plusMinus(0.6), 'not yet known');
+        assert.equal(units.measured(482.1, 'lx', 0.012), '482 lx ± 2.4 %');
+        assert.equal(units.measured(482.1, 'lx', 0.6), 'not yet known (about 500 lx)');
+        assert.equal(units.measured(107.639, 'fc', undefined), '10.0 fc, error not yet known');
+        assert.equal(units.estimated(38.2, '', 0.6), 'about 40');
+        assert.equal(units.estimated(38.2, '', 0.1), '38.2');
+        assert.deepEqual([0.1, 0.6, -1].map(units.noteOf), ['', 'not yet known', 'error not yet known']);
     });
 });
 
@@ -372,7 +423,7 @@ describe('the report', () => {
                     epoch: 1, setAtMs: 0, change: 0.5},
             ],
             points: [{number: 1, probe: {illuminance: 50, luminance: 5, epoch: 2}}],
-            grid: {object: 'table', columns: 1, rows: 2, illuminance: [10, 30]},
+            grid: {object: 'table', columns: 1, rows: 2, illuminance: [10, 30], relativeError: [0.6, 0.7]},
             changes: [{time: new Date(0), epoch: 2, by: 'Ann', text: 'moved chair'}],
             pinsInPicture: [{pin: 1, x: 0.5, y: 0.25}],
         });
@@ -380,6 +431,7 @@ describe('the report', () => {
         assert.ok(html.includes('&lt;script&gt;'));
         assert.ok(html.includes('+50 % since') && html.includes('moved chair'));
         assert.ok(html.includes('left:50.00%;top:25.00%'));
+        assert.ok(html.includes('100 lx, error not yet known') && html.includes('>not yet known</td></tr>'));
         assert.ok(!/(src|href)="https?:(?!\/\/a\/)/.test(html), 'needs nothing else');
         assert.ok(!html.includes('linear-gradient'), 'a photograph has no scale');
         assert.equal(escaped(`<a href="x">&'`), '&lt;a href=&quot;x&quot;&gt;&amp;&#39;');

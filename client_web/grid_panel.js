@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// A grid of measured points: on which surface, what they say together, and their dots in the picture.
+
+import {onScale, turbo} from './colour.js';
+import {byId, fileName, saveFile, showValue} from './elements.js';
+import {faceName, gridCsv, gridOn, mainFace, pointsOf, spreadOver, summaryOf, typicalError} from './grid.js';
+import {SETTLED} from './readouts.js';
+import {NOT_YET, illuminance, plusMinus} from './units.js';
+import {corners, length} from './vector.js';
+
+/**
+ * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./measure.js').Measuring} Measuring
+ * @typedef {import('./display_panel.js').DisplayPanel} DisplayPanel
+ * @typedef {import('./protocol.js').ProbeResult} ProbeResult
+ * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
+ * @typedef {object} ShownGrid
+ * @property {import('./grid.js').Grid} grid
+ * @property {import('./protocol.js').ProbeGridResult} result
+ * @property {string} surface  that it lies on, for people
+ * @property {boolean} settled  whether the light was
+ */
+
+/** Choice of the selected object; those of points are their numbers. */
+const SELECTED = 'selected';
+/** A selected object is looked for at so many places squared, fewer than the server lets wait. */
+const PLACES_PER_SIDE = 6;
+const SVG = 'http://www.w3.org/2000/svg';
+const NOTHING =
+    'There is no surface yet: select an object, or choose Measure below the picture and click the surface.';
+
+export class GridPanel {
+    /** @type {ShownGrid | null} */
+    shown = null;
+    #surface = byId('grid-surface', HTMLSelectElement);
+    #button = byId('measure-grid', HTMLButtonElement);
+    #state = byId('grid-state', HTMLElement);
+
+    /**
+     * @param {RaybundleApp} app
+     * @param {Measuring} measuring
+     * @param {DisplayPanel} display
+     */
+    constructor(app, measuring, display) {
+        this.app = app;
+        this.measuring = measuring;
+        this.#addButtons();
+        this.#addDots(display);
+        app.on('selection', (object) => this.#list(object ? SELECTED : ''));
+        measuring.addEventListener('points', () => this.#list(String(measuring.points.at(-1)?.number ?? '')));
+        measuring.addEventListener('unit', () => this.#show());
+        this.#list('');
+    }
+
+    /** Measures a grid on the chosen surface. */
+    async measure() {
+        const {scene} = this.app;
+        if (!scene || this.#surface.value === '') {
+            this.#state.textContent = NOTHING;
+            return;
+        }
+        this.#button.disabled = true;
+        this.#state.textContent = 'Measuring …';
+        const problem = await this.#measureOn(this.#surface.value, scene);
+        this.#button.disabled = false;
+        this.#show();
+        if (problem) {
+            this.#state.textContent = problem;
+        }
+    }
+
+    /**
+     * @param {string} chosen
+     * @param {import('./scene_model.js').SceneModel} scene
+     * @returns {Promise<string>} what went wrong; empty: nothing
+     */
+    async #measureOn(chosen, scene) {
+        const {selected} = this.app;
+        const hit =
+            chosen === SELECTED && selected
+                ? await this.#faceOf(selected)
+                : this.measuring.points.find(({number}) => String(number) === chosen)?.probe;
+        if (!hit?.position || !hit.normal) {
+            return `The picture does not show ${selected?.name}: turn to it, then measure again.`;
+        }
+        const object = scene.object(hit.object);
+        const step = Number(byId('grid-step', HTMLSelectElement).value);
+        const grid = gridOn(hit.position, hit.normal, object?.bounds ?? scene.bounds, step);
+        const {origin, stepX, stepY, columns, rows} = grid;
+        const answer = await this.app.ask({probeGrid: {origin, stepX, stepY, columns, rows}});
+        const result = answer?.probeGridResult;
+        if (!result) {
+            return 'The grid could not be measured.';
+        }
+        const surface = `${object?.name ?? 'Surface'}, ${faceName(hit.normal)}`;
+        this.shown = {grid, result, surface, settled: this.app.stats.settled >= SETTLED};
+        return '';
+    }
+
+    /**
+     * Looks for an object where the picture may show it.
+     *
+     * @param {PlacedObject} object
+     * @returns {Promise<(ProbeResult & import('./grid.js').Hit) | null>} a point of its largest face
+     */
+    async #faceOf(object) {
+        const {app} = this;
+        const {clientWidth, clientHeight} = app.picture.element;
+        const around = corners(object.bounds).map((corner) => app.project(corner));
+        const places = spreadOver(around, clientWidth, clientHeight, PLACES_PER_SIDE);
+        const probes = await Promise.all(places.map((at) => app.probeAt(at)));
+        const hits = probes.flatMap((probe) => {
+            const {position, normal} = probe ?? {};
+            return probe && position && normal && probe.object === object.id
+                ? [{...probe, position, normal}]
+                : [];
+        });
+        return mainFace(hits);
+    }
+
+    #addButtons() {
+        this.#button.addEventListener('click', () => this.measure());
+        byId('clear-grid', HTMLElement).addEventListener('click', () => {
+            this.shown = null;
+            this.#show();
+            this.#button.focus({preventScroll: true});
+        });
+        byId('grid-csv', HTMLElement).addEventListener('click', () => {
+            if (this.shown) {
+                const {grid, result, surface} = this.shown;
+                const name = fileName(`${this.app.scene?.title} ${surface} grid`);
+                saveFile(new Blob([gridCsv(grid, result)], {type: 'text/csv'}), `${name}.csv`);
+            }
+        });
+    }
+
+    /**
+     * Offers the surfaces that have been picked: the selected object, and those under the points.
+     *
+     * @param {string} newest  taken, where it is offered
+     */
+    #list(newest) {
+        const {selected, scene} = this.app;
+        const before = this.#surface.value;
+        const options = this.measuring.points.map(({number, probe}) => {
+            const name = scene?.object(probe.object)?.name ?? 'surface';
+            return new Option(`${name} at point ${number}`, String(number));
+        });
+        if (selected) {
+            options.push(new Option(`${selected.name} (selected)`, SELECTED));
+        }
+        options.reverse();
+        this.#surface.disabled = options.length === 0;
+        this.#surface.replaceChildren(...(options.length > 0 ? options : [new Option('nothing picked yet', '')]));
+        const wanted = [newest, before].find((value) => value && options.some((o) => o.value === value));
+        this.#surface.value = wanted ?? options[0]?.value ?? '';
+        if (this.#state.textContent === NOTHING && options.length > 0) {
+            this.#state.textContent = '';
+        }
+    }
+
+    #show() {
+        const summary = this.shown ? summaryOf(this.shown.result.illuminance) : null;
+        byId('grid-result', HTMLElement).hidden = summary === null;
+        byId('grid-actions', HTMLElement).hidden = this.shown === null;
+        this.#state.textContent = this.shown ? stateOf(this.shown) : '';
+        if (summary) {
+            const {unit} = this.measuring;
+            showValue('gridMin', illuminance(summary.minimum, unit));
+            showValue('gridMean', illuminance(summary.mean, unit));
+            showValue('gridMax', illuminance(summary.maximum, unit));
+            showValue('gridUniformity', summary.uniformity.toFixed(2));
+        }
+        this.app.drawOverlay();
+    }
+
+    /**
+     * Dots of the grid, coloured by their value, on the scale of the picture where it has the same.
+     *
+     * @param {DisplayPanel} display
+     */
+    #addDots(display) {
+        const group = this.app.overlay.group('grid-points');
+        this.app.overlay.add(({place}) => {
+            if (!this.shown) {
+                group.replaceChildren();
+                return;
+            }
+            const {grid, result} = this.shown;
+            const scale = display.mode === 'FALSE_ILLUMINANCE' ? this.app.frame?.scaleMaximum : undefined;
+            const top = scale ?? Math.max(...result.illuminance, 1e-3);
+            const points = pointsOf(grid);
+            while (group.childElementCount < points.length) {
+                group.append(document.createElementNS(SVG, 'circle'));
+            }
+            while (group.childElementCount > points.length) {
+                group.lastElementChild?.remove();
+            }
+            points.forEach((point, i) => {
+                const {x, y, depth} = place(point);
+                const dot = group.children[i];
+                const measured = result.illuminance[i] >= 0;
+                dot.setAttribute('r', depth > 0.02 ? (measured ? '4.5' : '2') : '0');
+                dot.setAttribute('cx', x.toFixed(1));
+                dot.setAttribute('cy', y.toFixed(1));
+                dot.setAttribute('class', measured ? 'measured' : 'unseen');
+                const colour = measured ? turbo(onScale(result.illuminance[i], top)) : 'none';
+                dot.setAttribute('fill', colour);
+            });
+        });
+    }
+}
+
+/**
+ * How far a grid can be relied on.
+ *
+ * @param {ShownGrid} shown
+ * @returns {string}
+ */
+export function stateOf({grid, result, surface, settled}) {
+    const seen = summaryOf(result.illuminance)?.measured ?? 0;
+    const total = grid.columns * grid.rows;
+    const size = `${surface}: ${grid.columns} × ${grid.rows} points, ${length(grid.stepX).toFixed(2)} m apart.`;
+    if (seen === 0) {
+        return `${size} None of them is in view: turn until the picture shows this surface, then measure again.`;
+    }
+    const error = plusMinus(typicalError(result.relativeError));
+    const unknown = error === NOT_YET;
+    const known = unknown ? `Most values are ${NOT_YET}.` : `Typical error ${error}.`;
+    const settling = settled ? '' : ' The light is still settling.';
+    const later = unknown || !settled ? ' Measure again later.' : '';
+    return `${size} ${seen} of ${total} are in view. ${known}${settling}${later}`;
+}
