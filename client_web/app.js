@@ -298,6 +298,7 @@ export class RaybundleApp extends EventTarget {
     /** @param {Welcome} welcome */
     #welcomed(welcome) {
         const sameScene = this.scene?.name === welcome.scene.name;
+        const anew = sameScene && welcome.epoch < (this.scene?.epoch ?? 0);
         this.scene = new SceneModel(welcome.scene, welcome.epoch);
         this.picture.limits = welcome.limits ?? this.picture.limits;
         this.#viewportChanged();
@@ -312,6 +313,9 @@ export class RaybundleApp extends EventTarget {
             this.#firstView = null;
         } else if (!sameScene && this.scene.cameras.length > 0) {
             this.camera.set(this.framed(this.scene.cameras[0]));
+        }
+        if (anew) {
+            this.status.notify('The server has started anew: changes of the scene may be gone.');
         }
         this.#emit('welcome', welcome);
         this.select(sameScene ? (this.selected?.id ?? null) : null);

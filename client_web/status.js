@@ -51,8 +51,37 @@ export function bannerOf({state, code}, hasPicture, opening = '') {
         reconnecting: code === 'RESOURCE_EXHAUSTED' ? 'The server is full' : lost,
         refused: 'The server has refused the connection',
     };
-    const retry = state === 'connecting' || state === 'connected' ? '' : 'Try again now';
+    const soon = state === 'connecting' || state === 'connected' || (opening !== '' && code === '');
+    const retry = soon ? '' : 'Try again now';
     return {title: titles[state], retry, asksForToken};
+}
+
+/**
+ * Why, and what somebody can do, or need not do.
+ *
+ * @param {StateChange} change
+ * @param {boolean} hasPicture
+ * @param {string} opening  as for bannerOf()
+ * @returns {string} empty: nothing
+ */
+export function adviceOf({state, code, reason}, hasPicture, opening = '') {
+    const why = sentence(reason);
+    if (state === 'refused' && code === 'UNAUTHENTICATED') {
+        return reason.endsWith('is missing')
+            ? 'Whoever runs the server can give you one.'
+            : `${why} Is it copied whole? Whoever runs the server can give you another.`;
+    }
+    if (state === 'refused' && code === 'UNIMPLEMENTED') {
+        return `The server has probably been updated. ${why} If loading the page again does not help, ask whoever runs the server.`;
+    }
+    if (state === 'reconnecting' && code === 'RESOURCE_EXHAUSTED') {
+        const limit = sentence(reason.replace(/^the server is full, /, ''));
+        return `${limit} You come in by yourself as soon as somebody leaves.`;
+    }
+    if (state === 'reconnecting' && !reason && hasPicture && !opening) {
+        return 'You see the last picture meanwhile. The page comes back by itself.';
+    }
+    return why;
 }
 
 export class Status {
@@ -64,6 +93,7 @@ export class Status {
     #preparing = byId('preparing', HTMLElement);
     /** Scene that somebody opens; empty: none. */
     #opening = '';
+    #hasPicture = false;
     /** @type {StateChange} */
     #shown = {state: 'idle', reason: '', code: '', retryAt: 0};
 
@@ -90,6 +120,7 @@ export class Status {
      */
     show(change, hasPicture) {
         this.#shown = change;
+        this.#hasPicture = hasPicture;
         const {state} = change;
         this.#connection.dataset.state = state;
         byId('app', HTMLElement).classList.toggle('offline', state !== 'connected');
@@ -197,7 +228,8 @@ export class Status {
         const seconds = Math.max(0, Math.ceil((retryAt - performance.now()) / 1000));
         const next = seconds > 0 ? `Next attempt in ${seconds}\u00a0s.` : reason ? '' : 'Trying again.';
         // Apart, since screen readers say a changed text anew, and this one changes every second.
-        byId('banner-reason', HTMLElement).textContent = sentence(reason);
+        const advice = adviceOf(this.#shown, this.#hasPicture, this.#opening);
+        byId('banner-reason', HTMLElement).textContent = advice;
         byId('banner-next', HTMLElement).textContent = state === 'reconnecting' ? next : '';
     }
 }

@@ -50,9 +50,36 @@ describe('the page without its server', () => {
             const [title, text] = ['banner-title', 'banner-text'].map(
                 (id) => document.getElementById(id).textContent,
             );
-            return title === 'The server is full' && /Next attempt|Trying/.test(text);
+            return title === 'The server is full' && /come in by yourself .*(Next attempt|Trying)/.test(text);
         });
         await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+    });
+
+    it('comes back to a server that has started anew, and says so', async () => {
+        let starts = 0;
+        const {page} = await openPage((request, send, close) => {
+            if (request.hello) {
+                send({welcome: {...WELCOME, epoch: ++starts === 1 ? 3 : 0}});
+            } else {
+                send({ok: {}});
+                if (request.probe) {
+                    close(1001);
+                }
+            }
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        const x = await page.evaluate(() => {
+            const app = window.raybundle;
+            app.select(1);
+            app.view = {...app.view, eye: {...app.view.eye, x: 3}};
+            app.ask({probe: {pixel: {x: 0, y: 0}}});
+            return app.view.eye.x;
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'reconnecting');
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        const after = await page.evaluate(() => [window.raybundle.view.eye.x, window.raybundle.selected?.name]);
+        assert.deepEqual(after, [x, 'table']);
+        assert.match(await page.textContent('#notices'), /started anew: changes of the scene may be gone/);
     });
 
     it('says that the versions differ', async () => {

@@ -22,7 +22,7 @@ import {openingText, progressText, sizeText, uploadProblem} from '../../client_w
 import {PlacedObject} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
-import {bannerOf, sentence} from '../../client_web/status.js';
+import {adviceOf, bannerOf, sentence} from '../../client_web/status.js';
 import {duration, effectCost, targetAt} from '../../client_web/target_panel.js';
 import * as units from '../../client_web/units.js';
 import {centre, length, sub, vec3} from '../../client_web/vector.js';
@@ -61,6 +61,7 @@ describe('a scene that somebody opens', () => {
     it('is no lost connection', () => {
         const away = {state: 'reconnecting', reason: '', code: '', retryAt: 0};
         assert.equal(bannerOf(away, true, 'a.glb').title, 'a.glb is about to be shown');
+        assert.equal(bannerOf(away, true, 'a.glb').retry, '', 'nothing is gained by trying again');
         assert.match(bannerOf(away, true).title, /lost/);
     });
 });
@@ -510,6 +511,21 @@ describe('what the page says', () => {
         assert.match(bannerOf(change('refused', 'UNIMPLEMENTED'), false).title, /versions/);
         assert.match(bannerOf(change('reconnecting', 'RESOURCE_EXHAUSTED'), false).title, /full/);
         assert.match(bannerOf(change('reconnecting', ''), true).title, /lost/);
+    });
+
+    it('of what to do meanwhile', () => {
+        const advice = (state, code, reason, hasPicture = false, opening = '') =>
+            adviceOf({state, code, reason, retryAt: 0}, hasPicture, opening);
+        const token = (reason) => advice('refused', 'UNAUTHENTICATED', `hello.token: ${reason}`);
+        assert.equal(token('is missing'), 'Whoever runs the server can give you one.');
+        assert.match(token('is not valid'), /^Token is not valid\. Is it copied whole\?/);
+        const full = advice('reconnecting', 'RESOURCE_EXHAUSTED', 'the server is full, it takes 16 viewers');
+        assert.equal(full, 'It takes 16 viewers. You come in by yourself as soon as somebody leaves.');
+        assert.match(advice('refused', 'UNIMPLEMENTED', 'hello.protocol: client speaks 1.0, server speaks 2.0'),
+            /updated\. Client speaks 1\.0, server speaks 2\.0\. If loading/);
+        assert.match(advice('reconnecting', '', '', true), /last picture.*by itself/);
+        assert.equal(advice('reconnecting', '', '', true, 'a.glb'), '');
+        assert.equal(advice('reconnecting', '', 'The server has gone silent.'), 'The server has gone silent.');
     });
 
     it('of targets', () => {
