@@ -5,7 +5,7 @@ import {onScale, turbo} from './colour.js';
 import {byId, fileName, saveFile, showValue} from './elements.js';
 import {faceName, gridCsv, gridOn, mainFace, pointsOf, spreadOver, summaryOf, typicalError} from './grid.js';
 import {SETTLED} from './readouts.js';
-import {NOT_YET, illuminance, plusMinus} from './units.js';
+import {NOT_YET, estimated, inUnit, plusMinus} from './units.js';
 import {corners, length} from './vector.js';
 
 /**
@@ -166,9 +166,11 @@ export class GridPanel {
         this.#state.textContent = this.shown ? stateOf(this.shown) : '';
         if (summary) {
             const {unit} = this.measuring;
-            showValue('gridMin', illuminance(summary.minimum, unit));
-            showValue('gridMean', illuminance(summary.mean, unit));
-            showValue('gridMax', illuminance(summary.maximum, unit));
+            const error = typicalError(this.shown?.result.relativeError ?? []);
+            const show = (/** @type {number} */ lux) => estimated(inUnit(lux, unit), unit, error);
+            showValue('gridMin', show(summary.minimum));
+            showValue('gridMean', show(summary.mean));
+            showValue('gridMax', show(summary.maximum));
             showValue('gridUniformity', summary.uniformity.toFixed(2));
         }
         this.app.drawOverlay();

@@ -44,6 +44,10 @@ export class Measuring extends EventTarget {
         this.app = app;
         this.marks = marks;
         this.#addButtons(display);
+        app.on('tool', (tool) => {
+            byId('points-choose', HTMLElement).hidden = tool === 'measure';
+            byId('points-click', HTMLElement).hidden = tool !== 'measure';
+        });
         setInterval(() => this.#refresh(), REFRESH_MS);
     }
 

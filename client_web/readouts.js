@@ -17,6 +17,9 @@ const REFRESH_MS = 250;
 /** From here on the light counts as settled. */
 export const SETTLED = 0.85;
 
+/** From this error on a picture is rough, however far its light has settled. */
+const ROUGH = 0.1;
+
 export class Readouts {
     #frames = new RateMeter();
     #latency = new Samples();
@@ -121,7 +124,9 @@ export class Readouts {
         if (known && done && before === 'no') {
             announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
         }
-        const text = done ? 'Light has settled' : `Light is settling, ${progress(settled)}`;
+        const rough = stats.relativeError === null || stats.relativeError >= ROUGH;
+        const settledText = rough ? 'Settled, still rough' : 'Light has settled';
+        const text = done ? settledText : `Light is settling, ${progress(settled)}`;
         showValue('settledState', known ? text : 'Waiting for light');
         this.#showFormat();
         drawErrorPlot(this.#plot, this.#history.samples, this.target);

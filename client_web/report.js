@@ -5,7 +5,7 @@
 import {pictureError} from './format.js';
 import {summaryOf, typicalError} from './grid.js';
 import {changeOf} from './pins.js';
-import {estimated, illuminance, inUnit, measured, plusMinus} from './units.js';
+import {estimated, inUnit, measured, plusMinus} from './units.js';
 
 /**
  * @typedef {import('./protocol.js').Pin} Pin
@@ -84,7 +84,6 @@ function scaleHtml({title, colours, marks}) {
  */
 export function reportHtml(content) {
     const {title, server, time, epoch, error, picture, address, unit} = content;
-    const value = (/** @type {number} */ lux) => illuminance(lux, unit);
     const pins = content.pins.map((pin) => [
         String(pin.pin),
         `<div style="white-space:normal">${escaped(pin.text)}</div>`,
@@ -100,6 +99,8 @@ export function reportHtml(content) {
         escaped(plusMinus(probe.relativeError)),
         String(probe.epoch),
     ]);
+    const gridError = typicalError(content.grid?.relativeError ?? []);
+    const value = (/** @type {number} */ lux) => escaped(estimated(inUnit(lux, unit), unit, gridError));
     const summary = content.grid ? summaryOf(content.grid.illuminance) : null;
     const grid = summary
         ? [
@@ -110,7 +111,7 @@ export function reportHtml(content) {
                   value(summary.mean),
                   value(summary.maximum),
                   summary.uniformity.toFixed(2),
-                  escaped(plusMinus(typicalError(content.grid?.relativeError ?? []))),
+                  escaped(plusMinus(gridError)),
               ],
           ]
         : [];
