@@ -10,6 +10,9 @@
 export function addTabs(list) {
     const tabs = [...list.querySelectorAll('[role="tab"]')].map((tab) => /** @type {HTMLElement} */ (tab));
     const show = (/** @type {HTMLElement} */ chosen) => {
+        if (chosen.getAttribute('aria-selected') !== 'true') {
+            list.parentElement?.scrollTo({top: 0});  // another page begins at its beginning
+        }
         for (const tab of tabs) {
             const on = tab === chosen;
             tab.setAttribute('aria-selected', String(on));

@@ -240,6 +240,29 @@ describe('on a phone', () => {
         assert.ok(editor.top >= picture.top && editor.bottom <= picture.bottom, JSON.stringify({editor, picture}));
     });
 
+    it('another page of the panel begins at its beginning', async () => {
+        const {page} = await openPage(obeys({pins: Array.from({length: 9}, (_, i) => ({...PIN, pin: i + 1}))}), PHONE);
+        await page.tap('#panel-toggle');
+        await page.click('#tab-review');
+        await page.evaluate(() => document.getElementById('panel').scrollTo({top: 400}));
+        await page.click('#tab-measure');
+        assert.equal(await page.evaluate(() => document.getElementById('panel').scrollTop), 0);
+    });
+
+    it('the legend is whole beside the open panel', async () => {
+        const {page} = await openPage(obeys(), PHONE);
+        await page.tap('#panel-toggle');
+        const {legend, picture} = await page.evaluate(() => {
+            const app = window.raybundle;
+            app.frame = {scaleMaximum: 2000};
+            app.dispatchEvent(new CustomEvent('picture', {detail: app.frame}));
+            const bottom = (/** @type {string} */ id) => document.getElementById(id).getBoundingClientRect().bottom;
+            return {legend: bottom('legend'), picture: bottom('picture')};
+        });
+        await keepScreenshot(page, 'phone_legend');
+        assert.ok(legend > 0 && legend <= picture, `${legend} of ${picture}`);
+    });
+
     it('Escape closes the panel and goes back to its button', async () => {
         const {page} = await openPage(obeys(), PHONE);
         await page.tap('#panel-toggle');
