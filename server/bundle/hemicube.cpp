@@ -116,6 +116,7 @@ void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     raster_.use();
+    raster_.set("facet_base", scene.facet_base(place));
     const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
     const float far_depth = 0.0F;
     for (int face = 0; face < face_count; ++face) {

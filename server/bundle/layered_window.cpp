@@ -43,6 +43,7 @@ void LayeredWindow::draw(const GpuScene& scene, const ParallelWindow& window, Pl
     glEnable(GL_SCISSOR_TEST);
     glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
     raster_.use();
+    raster_.set("facet_base", scene.facet_base(place));
     raster_.set("clip_from_world", clip_from_world);
     scene.draw(place, clip_from_world, false, raster_);
     glDisable(GL_SCISSOR_TEST);

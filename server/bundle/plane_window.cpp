@@ -22,7 +22,7 @@ PlaneWindow::PlaneWindow(int n, const std::vector<std::string>& defines)
       depths_(create_texture_2d("plane depths", GL_DEPTH_COMPONENT32F, n, 2 * n)),
       framebuffer_(create_framebuffer("plane window", surface_ids_.get(), depths_.get())),
       raster_({"bundle_raster.vert", exact_depths_ ? "bundle_planes.frag" : "bundle_nearest.frag"},
-              defines) {}
+              with(defines, "PARALLEL 1")) {}
 
 void PlaneWindow::draw(const GpuScene& scene, const ParallelWindow& window, Place place) const {
     const GlScope scope("plane raster");

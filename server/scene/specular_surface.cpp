@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/base_colour.h"
+#include "scene/patch_colour.h"
 
 namespace raybundle {
 namespace {
@@ -15,6 +16,8 @@ constexpr float least_index = 1.0F;           // glass in air
 constexpr float most_index = 5.0F;            // no glass bends more
 constexpr float darkest_attenuation = 1e-6F;  // colour: absorption stays finite
 constexpr float coat_f0 = 0.04F;              // index of refraction 1.5
+constexpr float clear_tint = 0.9999F;         // more is no absorption
+constexpr float least_tint = 1e-6F;           // 0 stands for no glass on the GPU
 
 /// Schlick's (1 - cosine)^5.
 float schlick(float cosine) {
@@ -118,6 +121,68 @@ std::optional<glm::vec3> refracted(const glm::vec3& direction, const glm::vec3& 
     }
     return glm::normalize(direction / relative_index +
                           (cosine / relative_index - std::sqrt(1.0F - sine2)) * normal);
+}
+
+float BundleGlass::passing_share(float cosine) const {
+    // Reflected and transmitted share of pane_shares().
+    const float f = fresnel_reflectance(cosine, ior);
+    const float passing = f + (1.0F - f) * (1.0F - f) * tint / std::max(1.0F - f * tint, 1e-6F);
+    return std::pow(passing, 1.0F / surfaces);
+}
+
+BundleGlass bundle_glass(const SpecularSurface& glass, float mean_chord) {
+    BundleGlass result;
+    if (!glass.is_glass()) {
+        return result;
+    }
+    const bool body = glass.kind == SpecularKind::glass;
+    const glm::vec3 left =
+        body ? glass.tint * glass.tint * glm::exp(-glass.absorption * mean_chord) : glass.tint;
+    result.tint = std::clamp(luminance(left), least_tint, 1.0F);
+    result.tint = result.tint >= clear_tint ? 1.0F : result.tint;
+    result.ior = glass.ior;
+    result.surfaces = body ? 2.0F : 1.0F;
+    return result;
+}
+
+BundleGlass bundle_glass(const Scene& scene, const Material& material) {
+    if (!is_glass(material)) {
+        return {};
+    }
+    const SpecularSurface glass = specular_surface(material, mean_base_colour(scene, material));
+    const bool absorbs = glass.absorption != glm::vec3(0.0F);
+    return bundle_glass(glass, absorbs ? mean_chord(scene, material) : 0.0F);
+}
+
+float mean_chord(const Scene& scene, const Material& material) {
+    constexpr double open = 1e-3;  // of the area: the area vectors of a closed surface add up to 0
+    const auto index = static_cast<std::size_t>(&material - scene.materials.data());
+    double volume6 = 0.0;
+    double area2 = 0.0;
+    glm::dvec3 sum(0.0);
+    for (const Triangle& t : scene.triangles) {
+        if (t.material != index) {
+            continue;
+        }
+        const glm::mat4 world = scene.objects[t.object].world_from_object();
+        const auto corner = [&](int k) {
+            return glm::dvec3(world * glm::vec4(scene.vertices[t.vertex[k]].position, 1.0F));
+        };
+        const glm::dvec3 a = corner(0);
+        const glm::dvec3 across = glm::cross(corner(1) - a, corner(2) - a);
+        volume6 += glm::dot(a, across);
+        area2 += glm::length(across);
+        sum += across;
+    }
+    if (glm::length(sum) > open * area2 || !(area2 > 0.0)) {
+        return material.thickness;
+    }
+    return static_cast<float>(4.0 * std::abs(volume6 / 6.0) / (0.5 * area2));
+}
+
+bool has_absorbing_glass(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const Material& m) { return bundle_glass(scene, m).tint < 1.0F; });
 }
 
 PaneShares pane_shares(const SpecularSurface& pane, float cosine) {

@@ -77,4 +77,27 @@ struct PaneShares {
 };
 PaneShares pane_shares(const SpecularSurface& pane, float cosine);
 
+/// Glass as bundles know it, which go straight through: of the light on a pane, or on one boundary
+/// of a body, so much is not absorbed, by luminance. What is reflected goes on, too, as if as much
+/// had come from the other side.
+struct BundleGlass {
+    float tint = 1.0F;  ///< luminance of what passes a pane or a whole body once; 1: all of it
+    float ior = 1.5F;
+    float surfaces = 1.0F;  ///< that share the absorption: 1 of a pane, 2 of a body
+
+    [[nodiscard]] float passing_share(float cosine) const;
+};
+
+/// Every line through a body is as long as its mean chord, m.
+BundleGlass bundle_glass(const SpecularSurface& glass, float mean_chord);
+/// The same for a material of the scene; all of it passes where that is no glass.
+BundleGlass bundle_glass(const Scene& scene, const Material& material);
+
+/// Mean chord 4 V/S of the bodies with a material (Cauchy), m; what the material says of its
+/// thickness where the surfaces do not close.
+float mean_chord(const Scene& scene, const Material& material);
+
+/// Whether any glass absorbs what passes.
+bool has_absorbing_glass(const Scene& scene);
+
 }  // namespace raybundle

@@ -10,6 +10,8 @@
 #include "alpha_mask.glsl"
 #endif
 #ifdef GLASS
+uniform uint facet_base;
+vec3 line_direction() { return bundle.axis_z.xyz; }
 #include "glass.glsl"
 #endif
 
@@ -24,7 +26,7 @@ void main() {
     }
 #endif
 #ifdef GLASS
-    if (is_glass(facet)) {
+    if (passes(facet)) {
         return;
     }
 #endif

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest surface: 2 * facet + side (0 front, 1 back).
+// Nearest surface: 2 * facet + side (0 front, 1 back), of a hemicube or, with PARALLEL, a window.
 #include "layouts.glsl"
+#include "density.glsl"
+#include "hemicube.glsl"
 #ifdef ALPHA_MASK
 #include "alpha_mask.glsl"
 #endif
 #if defined(GLASS) && !defined(SHOW_GLASS)
 #define GLASS_PASSES
+uniform uint facet_base;
+vec3 line_direction() {
+#ifdef PARALLEL
+    return bundle.axis_z.xyz;
+#else
+    int face;
+    vec3 d = hemicube_direction(sample_point(ivec2(gl_FragCoord.xy)), float(bundle.resolution.x), face);
+    return mat3(bundle.axis_x.xyz, bundle.axis_y.xyz, bundle.axis_z.xyz) * normalize(d);
+#endif
+}
 #include "glass.glsl"
 #endif
 #if !defined(ALPHA_MASK) && !defined(GLASS_PASSES)
@@ -23,7 +35,7 @@ void main() {
     }
 #endif
 #ifdef GLASS_PASSES
-    if (is_glass(facet)) {
+    if (passes(facet)) {
         discard;
     }
 #endif

@@ -12,12 +12,13 @@
 #elif !defined(GLASS)
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;
 #endif
+uniform uint facet_base;
 #ifdef GLASS
+vec3 line_direction() { return bundle.axis_z.xyz; }
 #include "glass.glsl"
 #endif
 layout(location = 0) out uint surface;
 uniform uint first_facet;
-uniform uint facet_base;
 uniform bool ahead;  // of the plane; its picture lies above the other one
 
 /// Depth that orders the surfaces of a line. Of two that coincide back to back the one that faces the
@@ -36,7 +37,7 @@ void main() {
     }
 #endif
 #ifdef GLASS
-    if (is_glass(facet)) {
+    if (passes(facet)) {
         discard;
     }
 #endif

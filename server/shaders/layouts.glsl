@@ -206,9 +206,9 @@ struct VertexData {
 
 struct MaterialData {
     vec4 base_colour;   // rgb factor of the Lambert albedo; w: alpha of the texture below which nothing is there, 0: none
-    vec4 emission;      // rgb, radiance units; w: 1: glass
-    vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv
-    vec4 uv_row1;       // xyz: second row
+    vec4 emission;      // rgb, radiance units; w: BundleGlass::tint of glass, see scene/specular_surface.h, else 0
+    vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv; w: BundleGlass::ior
+    vec4 uv_row1;       // xyz: second row; w: 1/BundleGlass::surfaces
     uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
 };
 

@@ -191,6 +191,7 @@ std::optional<LightRay> CausticLights::from_emitter(const Emitter& emitter, doub
 std::optional<LightRay> CausticLights::from_point(const PlacedLight& light, double chance,
                                                   const Numbers& numbers) const {
     LightRay ray;
+    ray.punctual = true;
     ray.origin = glm::vec3(light.position);
     const Aim aimed = aim(ray.origin, nullptr, numbers);
     if (aimed.density <= 0.0F) {
@@ -215,6 +216,7 @@ std::optional<LightRay> CausticLights::from_far(const PlacedLight& light, double
         left -= sphere.radius * sphere.radius;
     }
     LightRay ray;
+    ray.punctual = true;
     ray.direction = glm::normalize(glm::vec3(light.direction()));
     const glm::mat3 frame = frame_about(ray.direction);
     const float angle = glm::two_pi<float>() * numbers[5];

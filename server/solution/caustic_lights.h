@@ -17,7 +17,8 @@ namespace raybundle {
 struct LightRay {
     glm::vec3 origin{0.0F};  ///< shifted world, m
     glm::vec3 direction{0.0F};
-    glm::vec3 flux{0.0F};  ///< lm of a ray, over its density: the mean of all rays is what arrives
+    glm::vec3 flux{0.0F};   ///< lm of a ray, over its density: the mean of all rays is what arrives
+    bool punctual = false;  ///< of a punctual light, whose first shot sees through glass undimmed
 };
 
 /// Columns x, y and z of a frame about a unit vector z (Duff et al. 2017, "Building an Orthonormal

@@ -53,6 +53,7 @@ class CausticRays::Random {
 CausticRays::CausticRays(const Scene& scene, const PatchMesh& mesh, const SpecularRays& rays)
     : rays_(rays),
       lobes_(scene.materials.size()),
+      glass_(scene.materials.size()),
       facet_material_(mesh.facets.empty() ? mesh.triangle_material : mesh.facet_material),
       back_patch_(mesh.back_patch),
       triangles_(mesh.triangles),
@@ -68,6 +69,7 @@ void CausticRays::update(const Scene& scene, std::size_t material) {
     if (specular_kind(m) == SpecularKind::mirror) {
         lobes_[material] = make_brdf(transported_model(m), mean_base_colour(scene, m));
     }
+    glass_[material] = bundle_glass(scene, m);
 }
 
 std::uint32_t CausticRays::triangle_of(std::uint32_t facet, const glm::vec3& position) const {
@@ -133,7 +135,7 @@ bool CausticRays::scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& r
     return ray.flux != glm::vec3(0.0F);
 }
 
-/// As bundles go; what arrives is taken away.
+/// As bundles go, with what glass absorbs of them in the mean; what arrives is taken away.
 void CausticRays::follow_as_bundles(LightRay ray, Random& random,
                                     std::vector<CausticDeposit>& deposits) const {
     glm::vec3 from = ray.origin;  // straight through glass: behind the last of it
@@ -151,6 +153,10 @@ void CausticRays::follow_as_bundles(LightRay ray, Random& random,
             return;
         }
         if (kind != SpecularKind::mirror) {
+            if (!ray.punctual) {
+                const float cosine = std::abs(glm::dot(ray.direction, hit->geometric));
+                ray.flux *= glass_[facet_material_[hit->facet]].passing_share(cosine);
+            }
             from = hit->position - rays_.offset() * hit->geometric;
             continue;
         }
@@ -159,6 +165,7 @@ void CausticRays::follow_as_bundles(LightRay ray, Random& random,
             return;
         }
         from = ray.origin;
+        ray.punctual = false;
         const float chance = std::clamp(luminance(ray.flux) / before, 0.05F, 1.0F);
         if (i >= certain_surfaces) {
             if (random.next() >= chance) {

@@ -21,10 +21,10 @@ struct CausticDeposit {
 
 /// Single rays of light from lamps through mirrors and glass to the first other surface (ch. 4.2;
 /// class LS+D). Bundles carry that class, too, but not as it is: they go straight through glass,
-/// and mirrors scatter them into a wide lobe (solution/reflectance_tables.h). So every ray goes two
-/// ways: as light does, and, with its flux taken away where it ends, as bundles do. The sum is the
-/// correction that belongs to what bundles bring, without bias but for branches of less than
-/// SpecularRays::least_throughput.
+/// which absorbs without colour, and mirrors scatter them into a wide lobe
+/// (solution/reflectance_tables.h). So every ray goes two ways: as light does, and, with its flux
+/// taken away where it ends, as bundles do. The sum is the correction that belongs to what bundles
+/// bring, without bias but for branches of less than SpecularRays::least_throughput.
 class CausticRays {
   public:
     CausticRays(const Scene& scene, const PatchMesh& mesh, const SpecularRays& rays);
@@ -49,7 +49,8 @@ class CausticRays {
                                          const glm::vec3& position) const;
 
     const SpecularRays& rays_;
-    std::vector<Brdf> lobes_;  // of mirrors, as bundles know them; by material
+    std::vector<Brdf> lobes_;         // of mirrors, as bundles know them; by material
+    std::vector<BundleGlass> glass_;  // likewise
     std::vector<std::uint32_t> facet_material_, back_patch_;
     std::vector<glm::uvec3> triangles_;
     std::vector<FacetNode> facet_roots_, facet_tree_;  // empty: facets are triangles

@@ -186,7 +186,7 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     }
     std::vector<layout::MaterialData> materials;
     for (const Material& material : scene.materials) {
-        materials.push_back(material_data(material));
+        materials.push_back(material_data(scene, material));
     }
     materials_ = Buffer::from<layout::MaterialData>("materials", materials);
     texels_ = Buffer::from<std::uint32_t>("texels", texels);
@@ -287,6 +287,8 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(specular_rays_ != nullptr, "MIRRORS");
     glass_ = has_glass(scene);
     define_if(glass_, "GLASS");
+    absorbing_glass_ = has_absorbing_glass(scene);
+    define_if(absorbing_glass_, "GLASS_ABSORBS");
     const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
     mirror_or_glass_ = has_mirror_or_glass(scene);
     caustics_ = trace_caustics_ && mirror_or_glass_ &&

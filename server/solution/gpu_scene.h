@@ -122,7 +122,8 @@ class GpuScene {
     void upload_geometry(const Scene& scene, const PatchMesh& mesh);
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
     void upload_surfaces(const PatchMesh& mesh);
-    [[nodiscard]] layout::MaterialData material_data(const Material& material) const;
+    [[nodiscard]] layout::MaterialData material_data(const Scene& scene,
+                                                     const Material& material) const;
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
     void upload_details(const Scene& scene);
@@ -146,6 +147,7 @@ class GpuScene {
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool caustics_ = false;
     bool glass_ = false;            // some surfaces let bundles pass
+    bool absorbing_glass_ = false;  // and absorb some of their light
     bool mirror_or_glass_ = false;  // some are more than a smooth coat
     bool trace_caustics_;
     bool constant_radiance_;

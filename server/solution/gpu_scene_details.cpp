@@ -30,10 +30,12 @@ std::array<glm::vec4, 2> uv_rows(const TextureSlot& slot) {
 
 }  // namespace
 
-layout::MaterialData GpuScene::material_data(const Material& material) const {
+layout::MaterialData GpuScene::material_data(const Scene& scene, const Material& material) const {
     layout::MaterialData data{};
-    data.base_colour = glm::vec4(is_glass(material) ? glm::vec3(0.0F) : material.base_colour, 0.0F);
-    data.emission = glm::vec4(material.emission / radiance_unit_, is_glass(material) ? 1.0F : 0.0F);
+    const bool transparent = is_glass(material);
+    const BundleGlass glass = bundle_glass(scene, material);
+    data.base_colour = glm::vec4(transparent ? glm::vec3(0.0F) : material.base_colour, 0.0F);
+    data.emission = glm::vec4(material.emission / radiance_unit_, transparent ? glass.tint : 0.0F);
     const TextureSlot& slot = material.base_colour_texture;
     if (slot.texture >= 0) {
         const auto rows = uv_rows(slot);
@@ -42,6 +44,8 @@ layout::MaterialData GpuScene::material_data(const Material& material) const {
         data.base_colour.w = texture_alpha_cutoff(material).value_or(0.0F);
         data.texture_info = texture_info_[static_cast<std::size_t>(slot.texture)];
     }
+    data.uv_row0.w = glass.ior;
+    data.uv_row1.w = 1.0F / glass.surfaces;
     return data;
 }
 

@@ -34,7 +34,7 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
         if (specular_rays_) {
             specular_rays_->update(scene, index);
         }
-        const layout::MaterialData data = material_data(scene.materials[index]);
+        const layout::MaterialData data = material_data(scene, scene.materials[index]);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                index * sizeof(layout::MaterialData));
     }
@@ -47,7 +47,8 @@ bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const SpecularKind kind = specular_kind(scene.materials[material]);
     const bool followed = kind == SpecularKind::none || mirror_or_glass_ ||
                           (kind == SpecularKind::coat && specular_rays_);
-    const bool passed = glass_ || !is_glass(scene.materials[material]);
+    const bool passed = (glass_ || !is_glass(scene.materials[material])) &&
+                        (absorbing_glass_ || !has_absorbing_glass(scene));
     const bool lit = caustics_ || !trace_caustics_ || !mirror_or_glass_ ||
                      scene.materials[material].emission == glm::vec3(0.0F);
     return followed && passed && lit && reflectance_.covers(scene, material);
@@ -56,7 +57,7 @@ bool GpuScene::covers(const Scene& scene, std::size_t material) const {
 void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {
     radiance_unit_ = unit;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const layout::MaterialData data = material_data(scene.materials[i]);
+        const layout::MaterialData data = material_data(scene, scene.materials[i]);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                i * sizeof(layout::MaterialData));
     }

@@ -74,7 +74,9 @@ glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
 }  // namespace
 
 ShadowMaps::ShadowMaps(const GpuScene& scene)
-    : scene_(scene), raster_({"bundle_raster.vert", "bundle_nearest.frag"}, scene.defines()) {
+    : scene_(scene),
+      raster_({"bundle_raster.vert", "bundle_nearest.frag"},
+              with(scene.defines(), "CLEAR_GLASS 1")) {
     for (const PunctualLight& light : scene.punctual_lights()) {
         layers_ += layers_of(light);
         if (light.profile &&

@@ -163,6 +163,32 @@ TEST(Caustics, AFlatPaneLetsItsShareThrough) {
     EXPECT_LT(error_of(solver.store().read_irradiance(), b.mesh, expected), 0.03);
 }
 
+/// The same with an emitting surface, whose light bundles carry, too, and dim by chance.
+TEST(Caustics, AFlatPaneLetsTheShareOfAnEmitterThrough) {
+    SceneBuilder b;
+    b.add_quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 8, 8, b.add_material(glm::vec3(0.0F)));
+    const auto pane = b.add_material(glass_material({0.9F, 0.6F, 0.3F}, 0.0F));
+    b.add_quad({-2, 1, -2}, {0, 0, 4}, {4, 0, 0}, 1, 1, pane);
+    constexpr float radiance = 1000.0F;
+    b.add_quad({-0.1F, 2, -0.1F}, {0.2F, 0, 0}, {0, 0, 0.2F}, 1, 1,
+               b.add_material(glm::vec3(0.0F), glm::vec3(radiance)));
+    Solver solver(b.scene, b.mesh, settings_for());
+    iterate(solver, 1024);
+    const SpecularSurface surface =
+        specular_surface(b.scene.materials[pane], b.scene.materials[pane].base_colour);
+    const auto expected = [&](const glm::vec3& at) -> std::optional<glm::dvec3> {
+        if (at.y > 0.01F) {
+            return std::nullopt;
+        }
+        const glm::vec3 way = at - glm::vec3(0, 2, 0);
+        const float square = glm::dot(way, way);
+        const float cosine = 2.0F / std::sqrt(square);
+        return glm::dvec3(pane_shares(surface, cosine).transmitted *
+                          (radiance * 0.04F * cosine * cosine / square));
+    };
+    EXPECT_LT(error_of(solver.store().read_irradiance(), b.mesh, expected), 0.05);
+}
+
 /// A black room with a lamp and something that neither takes light nor gives any.
 SceneBuilder black_room_with_ball(const glm::vec3& ball_at, float radiance = 400.0F) {
     SceneBuilder b;

@@ -122,5 +122,53 @@ TEST(SpecularSurface, GlassReflectsNothingByItsBrdf) {
     EXPECT_EQ(make_brdf(glass, glm::vec3(1.0F)), Brdf{});
 }
 
+TEST(BundleGlass, IsWhatAPaneReflectsAndTransmits) {
+    SpecularSurface pane;
+    pane.kind = SpecularKind::pane;
+    pane.tint = glm::vec3(0.6F);
+    const BundleGlass glass = bundle_glass(pane, 0.0F);
+    for (const float cosine : {1.0F, 0.7F, 0.3F, 0.05F}) {
+        const PaneShares shares = pane_shares(pane, cosine);
+        EXPECT_NEAR(glass.passing_share(cosine), shares.reflected.g + shares.transmitted.g, 1e-6F);
+    }
+    pane.tint = glm::vec3(1.0F);
+    EXPECT_EQ(bundle_glass(pane, 0.0F).tint, 1.0F);
+    EXPECT_NEAR(bundle_glass(pane, 0.0F).passing_share(0.4F), 1.0F, 1e-6F);
+}
+
+/// Both boundaries of a body together absorb what a pane of the same transmission does.
+TEST(BundleGlass, OfABodyAbsorbsAlongItsMeanChord) {
+    SpecularSurface body;
+    body.kind = SpecularKind::glass;
+    body.absorption = glm::vec3(2.0F);
+    SpecularSurface pane;
+    pane.kind = SpecularKind::pane;
+    pane.tint = glm::vec3(std::exp(-2.0F * 0.3F));
+    const float boundary = bundle_glass(body, 0.3F).passing_share(0.8F);
+    EXPECT_NEAR(boundary * boundary, bundle_glass(pane, 0.0F).passing_share(0.8F), 1e-6F);
+}
+
+/// 4 V/S of a box of 1 x 2 x 3 m: 24/22; what the material says where a face is missing.
+TEST(BundleGlass, TheMeanChordIsCauchys) {
+    Scene scene;
+    scene.objects.emplace_back();
+    scene.materials.emplace_back().thickness = 0.25F;
+    for (int k = 0; k < 8; ++k) {
+        Vertex vertex;
+        vertex.position = {(k & 1) != 0 ? 1.0F : 0.0F, (k & 2) != 0 ? 2.0F : 0.0F,
+                           (k & 4) != 0 ? 3.0F : 0.0F};
+        scene.vertices.push_back(vertex);
+    }
+    const std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& f : faces) {
+        scene.triangles.push_back({{f[0], f[1], f[2]}, 0, 0});
+        scene.triangles.push_back({{f[0], f[2], f[3]}, 0, 0});
+    }
+    EXPECT_NEAR(mean_chord(scene, scene.materials[0]), 24.0F / 22.0F, 1e-5F);
+    scene.triangles.pop_back();
+    EXPECT_EQ(mean_chord(scene, scene.materials[0]), 0.25F);
+}
+
 }  // namespace
 }  // namespace raybundle::test
