@@ -148,7 +148,9 @@ void add_render(CLI::App& app, Options& o) {
     app.add_option("--seconds", o.seconds, "Solving time")->check(CLI::PositiveNumber);
     app.add_option("--iterations", o.iterations, "Number of iterations; no clock decides anything")
         ->check(CLI::PositiveNumber);
-    app.add_option("--error", o.error, "Stop when the estimated relative error is below, e.g. 0.02")
+    app.add_option("--error", o.error,
+                   "Stop when the estimated relative error is below, e.g. 0.02; "
+                   "caustics that cannot be a tenth of it are skipped")
         ->check(CLI::PositiveNumber);
     app.add_option("--method", o.method,
                    "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
@@ -237,6 +239,11 @@ void define_options(CLI::App& app, Options& options) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");
+            command
+                ->add_option("--error", options.error,
+                             "Plan for pictures of this relative error: effects that cannot be a "
+                             "tenth of it are skipped, as render --error does")
+                ->check(CLI::PositiveNumber);
             CLI::Option* const sheet =
                 command->add_option("--contact-sheet", options.contact_sheet,
                                     "PNG of the scene with --effect and without, and its cost");

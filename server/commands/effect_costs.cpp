@@ -19,7 +19,8 @@ void measure_effects(const Options& options, const Scene& scene, const PatchMesh
     const auto cost = [&](const EffectTrial& trial) {
         return run_trial(trial, length, options.seed).ms;
     };
-    const EffectTrial all{scene, mesh};
+    EffectTrial all{scene, mesh};
+    all.caustics = is_active(plan, "caustics");
     EffectTrial bare = all;
     const double whole = cost(all);
     for (Effect& effect : plan.effects) {

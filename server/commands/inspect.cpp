@@ -60,7 +60,8 @@ int run_inspect(const Options& options) {
         return inspect_effect(options, loaded);
     }
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
-    EffectsPlan plan = plan_effects(loaded.scene, loaded.mesh.patch_count());
+    EffectsPlan plan =
+        plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
     try {
         measure_effects(options, loaded.scene, loaded.mesh, plan);
     } catch (const GpuError& error) {

@@ -70,10 +70,13 @@ void write_picture(ViewerImage& image, const std::string& path) {
     }
 }
 
+EffectsPlan effects_plan(const Options& options, const LoadedScene& loaded) {
+    return plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
+}
+
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
                       const LoadedScene& loaded, const ViewerImage& image, const Outcome& outcome) {
-    const nlohmann::json plan =
-        effects_plan_json(plan_effects(loaded.scene, loaded.mesh.patch_count()));
+    const nlohmann::json plan = effects_plan_json(effects_plan(options, loaded));
     const StrategyProbabilities& p = solver.probabilities();
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
@@ -137,6 +140,7 @@ int run_render(const Options& options) {
     const EglContext context = create_egl_context({options.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
+    settings.caustics = is_active(effects_plan(options, loaded), "caustics");
     Solver solver(loaded.scene, loaded.mesh, settings);
     if (options.constant_radiance && !solver.scene().constant_radiance()) {
         spdlog::warn("--constant-radiance: left out, since {} has glossy surfaces", options.scene);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/brdf.h"
+#include "scene/caustic_bound.h"
 #include "scene/environment.h"
 #include "scene/patch_colour.h"
 #include "scene/specular_surface.h"
@@ -16,6 +17,7 @@
 namespace raybundle {
 namespace {
 
+constexpr double skipped_share = 0.1;      // of the accuracy: smaller classes are not simulated
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
 constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
@@ -30,6 +32,7 @@ struct Survey {
     double sky_flux = 0.0;  // through the scene's bounding sphere, as are the next two
     double environment_flux = 0.0;
     double sun_flux = 0.0;
+    double caustic_flux = 0.0;  // of lamps, at most, that meets mirrors and glass first
     std::size_t punctual = 0, suns = 0;
     std::size_t mirrors = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
@@ -70,6 +73,7 @@ void survey_lights(const Scene& scene, Survey& survey) {
     }
     const auto diameter = static_cast<double>(glm::length(scene.bounds.extent()));
     const double sphere = pi * diameter * diameter;
+    survey.caustic_flux = flux_on_specular_surfaces(scene);
     const bool image = scene.environment && scene.environment->is_image();
     const auto from_environment =
         scene.environment
@@ -80,10 +84,10 @@ void survey_lights(const Scene& scene, Survey& survey) {
     for (const PunctualLight& light : scene.punctual_lights) {
         const PlacedLight placed = place_light(scene, light);
         const bool directional = light.kind == PunctualKind::directional;
-        const glm::vec3 flux(directional ? placed.intensity * (0.25 * pi * diameter * diameter)
-                                         : placed.flux());
+        const auto flux = static_cast<double>(
+            luminance(glm::vec3(directional ? placed.intensity : placed.flux())));
         (light.of_sky ? survey.sun_flux : survey.punctual_flux) +=
-            static_cast<double>(luminance(flux));
+            directional ? directional_flux(scene, flux) : flux;
         ++(light.of_sky ? survey.suns : survey.punctual);
         survey.profiles += light.profile ? 1 : 0;
     }
@@ -145,7 +149,7 @@ std::string count_of(std::size_t count, const char* one, const char* several) {
 
 class Planner {
   public:
-    explicit Planner(const Scene& scene) : scene_(scene) {
+    Planner(const Scene& scene, double accuracy) : scene_(scene), accuracy_(accuracy) {
         survey_.used.resize(scene.materials.size(), false);
         survey_lights(scene, survey_);
         survey_materials(scene, survey_);
@@ -177,6 +181,18 @@ class Planner {
     }
     void absent(const char* name, std::string reason, const char* path_class) {
         add(name, false, std::move(reason), path_class, 0.0, 0);
+    }
+
+    /// Whether a class of light paths is too small for the accuracy that is asked for.
+    [[nodiscard]] bool skips(double bound) const {
+        return bound > 0.0 && bound < skipped_share * accuracy_;
+    }
+    void add_skipped(const char* name, double bound, const char* path_class) {
+        effects_.push_back({name, false,
+                            fmt::format("skipped: at most {:.2g} % of the light, less than a tenth "
+                                        "of the accuracy of {:.3g} % that is asked for",
+                                        100.0 * bound, 100.0 * accuracy_),
+                            path_class, bound, 0, std::nullopt});
     }
 
     void plan_reflection() {
@@ -222,7 +238,13 @@ class Planner {
         const std::size_t surfaces = survey_.mirrors + survey_.panes + survey_.bodies;
         const double lamps =
             survey_.share(survey_.area_flux + survey_.punctual_flux + survey_.sun_flux);
-        const bool active = surfaces > 0 && lamps > 0.0;
+        const double bound = std::min(survey_.share(survey_.caustic_flux), lamps) *
+                             std::max(survey_.mirrored_share, survey_.transmitted_share);
+        if (skips(bound)) {
+            add_skipped("caustics", bound, "LS+D(D|G)*E");
+            return;
+        }
+        const bool active = surfaces > 0 && bound > 0.0;
         std::string reason = surfaces > 0 ? "no lamp shines at the mirrors and the glass"
                                           : "nothing reflects or refracts like a mirror";
         if (active) {
@@ -231,8 +253,7 @@ class Planner {
                      " throw it; light of other surfaces and of skies goes straight through glass, "
                      "and from mirrors as from a surface of roughness 0.4";
         }
-        add("caustics", active, std::move(reason), "LS+D(D|G)*E",
-            lamps * std::max(survey_.mirrored_share, survey_.transmitted_share), caustic_bytes);
+        add("caustics", active, std::move(reason), "LS+D(D|G)*E", bound, caustic_bytes);
     }
 
     void plan_lights() {
@@ -274,6 +295,7 @@ class Planner {
     }
 
     const Scene& scene_;
+    double accuracy_;  // relative error that is asked for; 0: none
     Survey survey_;
     std::vector<Effect> effects_;
 };
@@ -317,14 +339,19 @@ void remove_textures(Scene& scene, PatchMesh& mesh) {
 
 }  // namespace
 
-EffectsPlan plan_effects(const Scene& scene, std::size_t patches) {
+EffectsPlan plan_effects(const Scene& scene, std::size_t patches, double accuracy) {
     EffectsPlan plan;
     plan.patches = patches;
-    plan.effects = Planner(scene).plan();
+    plan.effects = Planner(scene, accuracy).plan();
     for (const Effect& effect : plan.effects) {
         plan.bytes_per_patch += effect.bytes_per_patch;
     }
     return plan;
+}
+
+bool is_active(const EffectsPlan& plan, std::string_view name) {
+    return std::any_of(plan.effects.begin(), plan.effects.end(),
+                       [&](const Effect& e) { return e.name == name && e.active; });
 }
 
 bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {

@@ -20,7 +20,8 @@ struct Effect {
     std::string reason;      ///< why, or why not
     std::string path_class;  ///< light paths in Heckbert's notation, G: glossy
     /// Upper bound of the share that such paths can have: of the light that a surface reflects, for
-    /// a kind of reflection; of the flux that all lights send, for a kind of light. 0..1.
+    /// a kind of reflection; of the flux that all lights send, for a kind of light, and for
+    /// caustics. 0..1, 0 where the scene has no such paths.
     double share_bound = 0.0;
     std::size_t bytes_per_patch = 0;  ///< of GPU memory that grows with the patches
     /// Measured; nothing where it was not, or the effect is not active.
@@ -34,8 +35,13 @@ struct EffectsPlan {
 };
 
 /// What loading ends with (design: effects plan): which effects the scene calls for. Buffers and
-/// shader variants of the others do not exist.
-EffectsPlan plan_effects(const Scene& scene, std::size_t patches);
+/// shader variants of the others do not exist. accuracy: relative error of the picture that is
+/// asked for; what is bounded by less than a tenth of it is skipped, where it can be told:
+/// caustics. 0: no such wish, nothing is skipped.
+EffectsPlan plan_effects(const Scene& scene, std::size_t patches, double accuracy = 0.0);
+
+/// Whether an effect of that name is simulated.
+bool is_active(const EffectsPlan& plan, std::string_view name);
 
 /// Takes an effect out of a scene and its mesh, for measuring what it costs. False where that is
 /// not possible, as for `diffuse`.

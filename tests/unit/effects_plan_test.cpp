@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "gltf_builder.h"
@@ -96,6 +97,44 @@ TEST(EffectsPlan, ActiveEffectsCanBeTakenOut) {
         EXPECT_FALSE(effect_of(plan_effects(scene, 1), name).active) << name;
     }
     EXPECT_FALSE(remove_effect("diffuse", scene, mesh));
+}
+
+/// A small mirror far from a lamp gets little of its light: what a sphere of its size there covers
+/// of all directions, and no less.
+Scene lamp_and_mirror(float distance) {
+    GltfBuilder builder =
+        triangle_of({{"name", "mirror"},
+                     {"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::array({{{"type", "point"}, {"intensity", 100}}});
+    builder.add_node({{"translation", {0.5, 0.5, distance}},
+                      {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return builder.load();
+}
+
+TEST(EffectsPlan, BoundsCausticsByWhatLampsAimAtMirrors) {
+    const double radius2 = 0.5;  // of the sphere round the triangle's box, squared
+    for (const float distance : {2.0F, 10.0F, 100.0F}) {
+        const double sine2 = radius2 / static_cast<double>(distance * distance);
+        const double share = 0.5 * (1.0 - std::sqrt(1.0 - sine2));
+        const Effect found = effect_of(plan_effects(lamp_and_mirror(distance), 1), "caustics");
+        EXPECT_TRUE(found.active);
+        EXPECT_NEAR(found.share_bound, share, 2e-3 * share) << distance;  // reflectance 0.999
+    }
+    EXPECT_NEAR(effect_of(plan_effects(lamp_and_mirror(0.1F), 1), "caustics").share_bound, 1.0,
+                2e-3);
+}
+
+TEST(EffectsPlan, SkipsCausticsBelowATenthOfTheAccuracy) {
+    const Scene scene = lamp_and_mirror(10.0F);
+    const double bound = effect_of(plan_effects(scene, 1), "caustics").share_bound;
+    EXPECT_TRUE(is_active(plan_effects(scene, 1, 9.9 * bound), "caustics"));
+    const EffectsPlan plan = plan_effects(scene, 1, 10.1 * bound);
+    const Effect& skipped = effect_of(plan, "caustics");
+    EXPECT_FALSE(skipped.active);
+    EXPECT_EQ(skipped.share_bound, bound);
+    EXPECT_EQ(skipped.bytes_per_patch, 0U);
+    EXPECT_NE(skipped.reason.find("skipped"), std::string::npos) << skipped.reason;
 }
 
 }  // namespace
