@@ -16,14 +16,12 @@ namespace {
 constexpr int encoder_threads = 1;
 constexpr double solution_interval_s = 0.25;
 /// Of the time: of first frames while others move, for those who answer and those who do not; of
-/// statistics; of the solver where frames of those who move leave none. In ms: what each may take
-/// at once.
+/// statistics. In ms: what each may take at once.
 constexpr double greeting_share = 0.1;
 constexpr double silent_greeting_share = 0.03;
 constexpr double greeting_burst_ms = 250.0;
 constexpr double statistics_share = 0.1;
 constexpr double statistics_burst_ms = 20.0;
-constexpr double pressed_solver_share = 0.33;
 constexpr double solver_burst_ms = 50.0;
 constexpr double rate_interval_s = 1.0;
 constexpr std::chrono::milliseconds idle_wait(50);
@@ -63,7 +61,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
       greeting_(greeting_share, greeting_burst_ms),
       silent_greeting_(silent_greeting_share, greeting_burst_ms),
       statistics_(statistics_share, statistics_burst_ms),
-      solving_(pressed_solver_share, solver_burst_ms),
+      solving_(1.0, solver_burst_ms),
       encoder_(encoder_threads,
                [this](const EncodedFrame& frame) {
                    metrics_.count_frame(frame.bytes.size());
@@ -356,7 +354,7 @@ bool RenderLoop::solve() {
         return false;
     }
     if (!solver_may_run()) {
-        return true;
+        return false;  // the encoder and the viewers can use the time
     }
     if (settings_.lost_after_change != 0 && iterations_at_change_ != 0 &&
         solver_->iterations() >= iterations_at_change_ + settings_.lost_after_change) {
@@ -374,7 +372,7 @@ bool RenderLoop::solve() {
     if (!solver_->last_strategy()) {
         phase_budget_.note_bundle(Server::now_ms(), !solver_->correcting());
     }
-    if (frames_pressed_) {
+    if (walking(Clock::now())) {
         solving_.charge(cost);
     }
     metrics_.note_step(solver_->last_strategy(), cost);

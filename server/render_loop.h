@@ -126,6 +126,7 @@ class RenderLoop {
     void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
+    [[nodiscard]] bool walking(Clock::time_point now) const;
     [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
     void send_solutions();
@@ -158,7 +159,7 @@ class RenderLoop {
     RequestShare requests_;
     ReceiverRota rota_;
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
-    bool frames_pressed_ = false;  // those that move take most of the time
+    Clock::time_point last_walk_frame_;  // of somebody who moves
     CostModel cost_;
     PhaseBudget phase_budget_;
     LoopMetrics metrics_;

@@ -14,6 +14,9 @@ namespace raybundle {
 namespace {
 
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
+constexpr double walkthrough_ms = 45.0;      // from frame to frame, at best, while somebody moves
+constexpr double walk_pause_ms = 250.0;      // without a frame nobody walks
+constexpr double least_solver_share = 0.2;   // of the time, where frames take more than that
 constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
 constexpr double forget_limit_ms = 60e3;     // and after this its picture is forgotten
@@ -22,9 +25,13 @@ constexpr double forget_limit_ms = 60e3;     // and after this its picture is fo
 constexpr double least_receive_ms = 40.0;
 constexpr double resting_receive_ms = 100.0;
 
+double milliseconds_between(std::chrono::steady_clock::time_point start,
+                            std::chrono::steady_clock::time_point end) {
+    return std::chrono::duration<double, std::milli>(end - start).count();
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
+    return milliseconds_between(start, std::chrono::steady_clock::now());
 }
 
 }  // namespace
@@ -107,9 +114,21 @@ double RenderLoop::moving_frames_ms(Clock::time_point now) const {
     return sum;
 }
 
-/// Those who move come first, but the solution never stands still for them.
+/// Whether somebody gets frames of a walk, and these and the solver's steps do not fit into its
+/// rhythm. Who takes no frames for a while, does not hold up the solver.
+bool RenderLoop::walking(Clock::time_point now) const {
+    return milliseconds_between(last_walk_frame_, now) < walk_pause_ms &&
+           moving_frames_ms(now) + last_step_ms_ > walkthrough_ms;
+}
+
+/// Those who move come first: the solver has what their frames leave, and never nothing.
 bool RenderLoop::solver_may_run() {
-    return !frames_pressed_ || solver_->correcting() || solving_.may(Server::now_ms());
+    const auto now = Clock::now();
+    if (!walking(now) || solver_->correcting()) {
+        return true;
+    }
+    solving_.set_share(std::max(1.0 - moving_frames_ms(now) / walkthrough_ms, least_solver_share));
+    return solving_.may(Server::now_ms());
 }
 
 /// Shows to viewers in turn how good their pictures are, oldest news first.
@@ -262,7 +281,7 @@ bool RenderLoop::send_frames() {
     const auto now = Clock::now();
     DueFrames due = due_frames(now);
     const double moving_ms = moving_frames_ms(now);
-    frames_pressed_ = due.moving && moving_ms > frame_slice_ms;
+    last_walk_frame_ = due.moving ? now : last_walk_frame_;
     // A step takes long where many pictures gather light: those who move shall not wait for it.
     const double slice_ms =
         due.moving ? std::max(frame_slice_ms, moving_share * last_step_ms_) : frame_slice_ms;

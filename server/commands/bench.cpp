@@ -189,6 +189,7 @@ class SceneBench {
         };
         report_["frame"] = measure(40, frame);
         print("frame of a moving camera, 800x800, read back", report_["frame"]);
+        report_["profile"]["frame of a moving camera"] = profile(16, frame);
         report_["frameAndIteration"] = measure(40, [&] {
             frame();
             solver.step(receivers);

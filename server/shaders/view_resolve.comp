@@ -7,7 +7,11 @@
 // MOVED (objects have just moved), CONTINUED (pixels behind mirrors and glass, see continued.glsl).
 #include "layouts.glsl"
 #include "rarely.glsl"
+#ifdef SOFTWARE_RENDERER  // as pixels lie in memory: squares take a third longer
+layout(local_size_x = 64, local_size_y = 1) in;
+#else
 layout(local_size_x = 8, local_size_y = 8) in;
+#endif
 #include "scene_geometry.glsl"
 #include "facets.glsl"
 #include "mesh.glsl"
@@ -194,7 +198,7 @@ void main() {
 #endif
     vec3 shaded = normal;
 #ifdef SMOOTH
-    if ((triangle.w & TRIANGLE_SMOOTH) != 0u) {
+    RARELY((triangle.w & TRIANGLE_SMOOTH) != 0u) {
         shaded = shading_normal(triangle.xyz, weights, normal, object);
     }
 #endif

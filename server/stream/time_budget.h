@@ -22,6 +22,8 @@ class TimeBudget {
         return credit_ms_ > 0.0;
     }
 
+    /// From now on.
+    void set_share(double share) { share_ = share; }
     void charge(double cost_ms) { credit_ms_ -= cost_ms; }
 
   private:
