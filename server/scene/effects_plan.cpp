@@ -251,6 +251,7 @@ class Planner {
             reason = "light of lamps is followed by single rays to where " +
                      count_of(surfaces, "mirror or glass", "mirrors and kinds of glass") +
                      " throw it; light of other surfaces and of skies goes straight through glass, "
+                     "which absorbs without colour, "
                      "and from mirrors as from a surface of roughness 0.4";
         }
         add("caustics", active, std::move(reason), "LS+D(D|G)*E", bound, caustic_bytes);
