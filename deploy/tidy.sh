@@ -29,7 +29,8 @@ project_dependencies() {
         /^[^ ]/ { flush(); first = 1; next }
         NF {
             file = $0; sub(/^ +/, "", file)
-            if (file !~ /^\//) file = build file
+            if (file !~ /^\//) file = build file  # ccache may write paths so
+            while (sub(/[^\/]+\/\.\.\//, "", file)) {}
             own = index(file, root) == 1 && index(file, build) != 1
             if (first) { if (own) line = file; first = 0 }
             else if (own && line != "") line = line "\t" file
