@@ -145,23 +145,23 @@ BundleGlass bundle_glass(const SpecularSurface& glass, float mean_chord) {
     return result;
 }
 
-BundleGlass bundle_glass(const Scene& scene, const Material& material) {
-    if (!is_glass(material)) {
+BundleGlass bundle_glass(const Scene& scene, std::size_t material) {
+    const Material& m = scene.materials[material];
+    if (!is_glass(m)) {
         return {};
     }
-    const SpecularSurface glass = specular_surface(material, mean_base_colour(scene, material));
+    const SpecularSurface glass = specular_surface(m, mean_base_colour(scene, m));
     const bool absorbs = glass.absorption != glm::vec3(0.0F);
     return bundle_glass(glass, absorbs ? mean_chord(scene, material) : 0.0F);
 }
 
-float mean_chord(const Scene& scene, const Material& material) {
+float mean_chord(const Scene& scene, std::size_t material) {
     constexpr double open = 1e-3;  // of the area: the area vectors of a closed surface add up to 0
-    const auto index = static_cast<std::size_t>(&material - scene.materials.data());
     double volume6 = 0.0;
     double area2 = 0.0;
     glm::dvec3 sum(0.0);
     for (const Triangle& t : scene.triangles) {
-        if (t.material != index) {
+        if (t.material != material) {
             continue;
         }
         const glm::mat4 world = scene.objects[t.object].world_from_object();
@@ -175,14 +175,18 @@ float mean_chord(const Scene& scene, const Material& material) {
         sum += across;
     }
     if (glm::length(sum) > open * area2 || !(area2 > 0.0)) {
-        return material.thickness;
+        return scene.materials[material].thickness;
     }
     return static_cast<float>(4.0 * std::abs(volume6 / 6.0) / (0.5 * area2));
 }
 
 bool has_absorbing_glass(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [&](const Material& m) { return bundle_glass(scene, m).tint < 1.0F; });
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (bundle_glass(scene, i).tint < 1.0F) {
+            return true;
+        }
+    }
+    return false;
 }
 
 PaneShares pane_shares(const SpecularSurface& pane, float cosine) {

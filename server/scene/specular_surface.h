@@ -90,12 +90,12 @@ struct BundleGlass {
 
 /// Every line through a body is as long as its mean chord, m.
 BundleGlass bundle_glass(const SpecularSurface& glass, float mean_chord);
-/// The same for a material of the scene; all of it passes where that is no glass.
-BundleGlass bundle_glass(const Scene& scene, const Material& material);
+/// The same for a material of the scene, by its index; all of it passes where that is no glass.
+BundleGlass bundle_glass(const Scene& scene, std::size_t material);
 
 /// Mean chord 4 V/S of the bodies with a material (Cauchy), m; what the material says of its
 /// thickness where the surfaces do not close.
-float mean_chord(const Scene& scene, const Material& material);
+float mean_chord(const Scene& scene, std::size_t material);
 
 /// Whether any glass absorbs what passes.
 bool has_absorbing_glass(const Scene& scene);

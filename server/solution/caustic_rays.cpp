@@ -69,7 +69,7 @@ void CausticRays::update(const Scene& scene, std::size_t material) {
     if (specular_kind(m) == SpecularKind::mirror) {
         lobes_[material] = make_brdf(transported_model(m), mean_base_colour(scene, m));
     }
-    glass_[material] = bundle_glass(scene, m);
+    glass_[material] = bundle_glass(scene, material);
 }
 
 std::uint32_t CausticRays::triangle_of(std::uint32_t facet, const glm::vec3& position) const {

@@ -185,8 +185,8 @@ void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
         }
     }
     std::vector<layout::MaterialData> materials;
-    for (const Material& material : scene.materials) {
-        materials.push_back(material_data(scene, material));
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        materials.push_back(material_data(scene, i));
     }
     materials_ = Buffer::from<layout::MaterialData>("materials", materials);
     texels_ = Buffer::from<std::uint32_t>("texels", texels);

@@ -123,7 +123,7 @@ class GpuScene {
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
     void upload_surfaces(const PatchMesh& mesh);
     [[nodiscard]] layout::MaterialData material_data(const Scene& scene,
-                                                     const Material& material) const;
+                                                     std::size_t material) const;
     void upload_vertex_data(const PatchMesh& mesh);
     void create_textures();
     void upload_details(const Scene& scene);

@@ -30,10 +30,11 @@ std::array<glm::vec4, 2> uv_rows(const TextureSlot& slot) {
 
 }  // namespace
 
-layout::MaterialData GpuScene::material_data(const Scene& scene, const Material& material) const {
+layout::MaterialData GpuScene::material_data(const Scene& scene, std::size_t index) const {
+    const Material& material = scene.materials[index];
     layout::MaterialData data{};
     const bool transparent = is_glass(material);
-    const BundleGlass glass = bundle_glass(scene, material);
+    const BundleGlass glass = bundle_glass(scene, index);
     data.base_colour = glm::vec4(transparent ? glm::vec3(0.0F) : material.base_colour, 0.0F);
     data.emission = glm::vec4(material.emission / radiance_unit_, transparent ? glass.tint : 0.0F);
     const TextureSlot& slot = material.base_colour_texture;

@@ -34,7 +34,7 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
         if (specular_rays_) {
             specular_rays_->update(scene, index);
         }
-        const layout::MaterialData data = material_data(scene, scene.materials[index]);
+        const layout::MaterialData data = material_data(scene, index);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                index * sizeof(layout::MaterialData));
     }
@@ -57,7 +57,7 @@ bool GpuScene::covers(const Scene& scene, std::size_t material) const {
 void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh& mesh) {
     radiance_unit_ = unit;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const layout::MaterialData data = material_data(scene, scene.materials[i]);
+        const layout::MaterialData data = material_data(scene, i);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                i * sizeof(layout::MaterialData));
     }

@@ -128,7 +128,7 @@ class GlassAbsorption : public testing::TestWithParam<Case> {};
 /// seeds, or more; the worst are 1 %, and 2 % of plane bundles. Undimmed light would be 30 % over.
 TEST_P(GlassAbsorption, DimsWhatOtherSurfacesSendThroughIt) {
     const Arrangement s = wall_behind(GetParam().glass);
-    const BundleGlass glass = bundle_glass(s.b.scene, s.b.scene.materials[s.glass]);
+    const BundleGlass glass = bundle_glass(s.b.scene, s.glass);
     ASSERT_LT(glass.tint, 0.75F);
     const auto passing = [&](float cosine) {
         return std::pow(glass.passing_share(cosine), glass.surfaces);

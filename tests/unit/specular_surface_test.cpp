@@ -165,9 +165,9 @@ TEST(BundleGlass, TheMeanChordIsCauchys) {
         scene.triangles.push_back({{f[0], f[1], f[2]}, 0, 0});
         scene.triangles.push_back({{f[0], f[2], f[3]}, 0, 0});
     }
-    EXPECT_NEAR(mean_chord(scene, scene.materials[0]), 24.0F / 22.0F, 1e-5F);
+    EXPECT_NEAR(mean_chord(scene, 0), 24.0F / 22.0F, 1e-5F);
     scene.triangles.pop_back();
-    EXPECT_EQ(mean_chord(scene, scene.materials[0]), 0.25F);
+    EXPECT_EQ(mean_chord(scene, 0), 0.25F);
 }
 
 }  // namespace
