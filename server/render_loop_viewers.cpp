@@ -13,11 +13,11 @@ namespace raybundle {
 
 namespace {
 
-constexpr double frame_slice_ms = 60.0;     // of frames between two steps of the solver
-constexpr double walkthrough_ms = 42.0;     // drawing and solving: encoded, some 20 frames a second
-constexpr double walk_pause_ms = 250.0;     // without a frame nobody walks
-constexpr double least_solver_share = 0.2;  // of the time, where frames take more than that
-constexpr double moving_share = 2.0;        // of a step, for frames while somebody moves
+constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
+constexpr double walkthrough_ms = 42.0;      // drawing and solving; with encoding some 50
+constexpr double walk_pause_ms = 250.0;      // without a frame nobody walks
+constexpr double least_solver_share = 0.2;   // of the time, where frames take more than that
+constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
 constexpr double forget_limit_ms = 60e3;     // and after this its picture is forgotten
 /// What gathering light adds to an iteration at most: while somebody moves, at least, or half of
