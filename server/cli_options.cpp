@@ -150,7 +150,8 @@ void add_render(CLI::App& app, Options& o) {
         ->check(CLI::PositiveNumber);
     app.add_option("--error", o.error,
                    "Stop when the estimated relative error is below, e.g. 0.02; "
-                   "caustics that cannot be a tenth of it are skipped")
+                   "caustics that cannot be a tenth of it are skipped (not with --script, where "
+                   "things move)")
         ->check(CLI::PositiveNumber);
     app.add_option("--method", o.method,
                    "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "

@@ -12,7 +12,6 @@
 #include "commands/command.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
-#include "scene/effects_plan.h"
 #include "transport/solver.h"
 #include "view/image_file.h"
 #include "view/viewer_image.h"
@@ -192,9 +191,6 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
     SolverSettings settings;
     settings.seed = options.seed;
     settings.probabilities = probabilities;
-    const EffectsPlan plan =
-        plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
-    settings.caustics = is_active(plan, "caustics");
     nlohmann::ordered_json report = {{"scene", loaded.scene.name},
                                      {"device", context.renderer()},
                                      {"script", options.script},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/specular_surface.h"
+#include "scene/world_triangle.h"
 
 namespace raybundle {
 namespace {
@@ -19,16 +20,6 @@ struct Sphere {
     glm::dvec3 centre{0.0};
     double radius = 0.0;
 };
-
-std::array<glm::dvec3, 3> world_corners(const Scene& scene, const Triangle& triangle) {
-    const glm::mat4 world = scene.objects[triangle.object].world_from_object();
-    std::array<glm::dvec3, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] =
-            glm::dvec3(world * glm::vec4(scene.vertices[triangle.vertex[k]].position, 1.0F));
-    }
-    return corners;
-}
 
 /// Round the mirrors and the glass of each object.
 std::vector<Sphere> specular_spheres(const Scene& scene) {
@@ -114,8 +105,7 @@ double flux_on_specular_surfaces(const Scene& scene) {
         const auto radiance = static_cast<double>(luminance(material.emission));
         if (radiance > 0.0) {
             const auto corners = world_corners(scene, triangle);
-            const double area =
-                0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+            const double area = 0.5 * glm::length(double_area(corners));
             flux += (material.double_sided ? 2.0 : 1.0) * pi * radiance * area *
                     emitter_share(spheres, corners);
         }

@@ -13,6 +13,7 @@
 #include "scene/environment.h"
 #include "scene/patch_colour.h"
 #include "scene/specular_surface.h"
+#include "scene/world_triangle.h"
 
 namespace raybundle {
 namespace {
@@ -48,14 +49,6 @@ struct Survey {
     }
 };
 
-double triangle_area(const Scene& scene, const Triangle& triangle) {
-    const glm::mat3 world(scene.objects[triangle.object].world_from_object());
-    const glm::vec3 a = scene.vertices[triangle.vertex[0]].position;
-    const glm::vec3 e1 = world * (scene.vertices[triangle.vertex[1]].position - a);
-    const glm::vec3 e2 = world * (scene.vertices[triangle.vertex[2]].position - a);
-    return 0.5 * static_cast<double>(glm::length(glm::cross(e1, e2)));
-}
-
 void survey_lights(const Scene& scene, Survey& survey) {
     constexpr double pi = glm::pi<double>();
     std::vector<double> radiance(scene.materials.size(), 0.0);
@@ -67,8 +60,8 @@ void survey_lights(const Scene& scene, Survey& survey) {
         survey.used[triangle.material] = true;
         if (radiance[triangle.material] > 0.0) {
             const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
-            survey.area_flux +=
-                sides * pi * radiance[triangle.material] * triangle_area(scene, triangle);
+            survey.area_flux += sides * pi * radiance[triangle.material] * 0.5 *
+                                glm::length(double_area(world_corners(scene, triangle)));
         }
     }
     const auto diameter = static_cast<double>(glm::length(scene.bounds.extent()));

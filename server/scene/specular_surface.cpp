@@ -6,6 +6,7 @@
 
 #include "scene/base_colour.h"
 #include "scene/patch_colour.h"
+#include "scene/world_triangle.h"
 
 namespace raybundle {
 namespace {
@@ -164,13 +165,9 @@ float mean_chord(const Scene& scene, std::size_t material) {
         if (t.material != material) {
             continue;
         }
-        const glm::mat4 world = scene.objects[t.object].world_from_object();
-        const auto corner = [&](int k) {
-            return glm::dvec3(world * glm::vec4(scene.vertices[t.vertex[k]].position, 1.0F));
-        };
-        const glm::dvec3 a = corner(0);
-        const glm::dvec3 across = glm::cross(corner(1) - a, corner(2) - a);
-        volume6 += glm::dot(a, across);
+        const std::array<glm::dvec3, 3> corners = world_corners(scene, t);
+        const glm::dvec3 across = double_area(corners);
+        volume6 += glm::dot(corners[0], across);
         area2 += glm::length(across);
         sum += across;
     }
