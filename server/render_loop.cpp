@@ -276,7 +276,8 @@ void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) 
         server_.reply_error(event, v1::Error::INVALID_ARGUMENT, "probe.pixel: outside the picture");
         return;
     }
-    const std::optional<PixelProbe> hit = own_image(session).probe(glm::uvec2(pixel));
+    prepare_image(session);
+    const std::optional<PixelProbe> hit = session.probe(glm::uvec2(pixel));
     v1::ServerMessage message;
     v1::ProbeResult* result = message.mutable_probe_result();
     result->set_hit(hit.has_value());

@@ -22,6 +22,7 @@
 #include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
+#include "stream/moving_scale.h"
 #include "stream/receiver_rota.h"
 #include "stream/request_share.h"
 #include "stream/time_budget.h"
@@ -109,7 +110,7 @@ class RenderLoop {
     void send_presence(Clock::time_point now);
     void check_pin();
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
-    ViewerImage& own_image(ViewerSession& session);
+    void prepare_image(ViewerSession& session);
     void drop_image(ViewerSession& session);
     void refuse_picture(ViewerSession& session, const std::string& reason);
     bool collect_frames();
@@ -126,6 +127,7 @@ class RenderLoop {
     void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
+    void choose_moving_scale(Clock::time_point now);
     [[nodiscard]] bool walking(Clock::time_point now) const;
     [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
@@ -160,6 +162,7 @@ class RenderLoop {
     ReceiverRota rota_;
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     Clock::time_point last_walk_frame_;  // of somebody who moves
+    MovingScale moving_scale_;
     CostModel cost_;
     PhaseBudget phase_budget_;
     LoopMetrics metrics_;

@@ -191,7 +191,8 @@ void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     message.set_set_at_ms(unix_ms());
     *message.mutable_local_position() = wanted.position();
     const auto pixel = pixel_of(session.camera(), session.size(), position);
-    const auto hit = pixel ? own_image(session).probe(*pixel) : std::nullopt;
+    prepare_image(session);
+    const auto hit = pixel ? session.probe(*pixel) : std::nullopt;
     // The pixel tells more than the patch, where it shows the pin's place and nothing before it.
     if (hit && hit->patch == pin.patch) {
         const Object& object = scene_.objects[hit->object];
@@ -290,7 +291,8 @@ void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
     result.set_epoch(epoch_);
     result.mutable_illuminance()->Resize(static_cast<int>(points.size()), -1.0F);
     result.mutable_relative_error()->Resize(static_cast<int>(points.size()), -1.0F);
-    const auto found = own_image(session).probe(pixels);
+    prepare_image(session);
+    const auto found = session.probe(pixels);
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i] && grid.shows(found[i]->position, points[indices[i]], camera.eye)) {
             const int at = static_cast<int>(indices[i]);

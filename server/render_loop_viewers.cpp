@@ -14,7 +14,7 @@ namespace raybundle {
 namespace {
 
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
-constexpr double walkthrough_ms = 42.0;      // drawing and solving; with encoding some 50
+constexpr double walkthrough_ms = 40.0;      // drawing and solving; with encoding some 50
 constexpr double walk_pause_ms = 250.0;      // without a frame nobody walks
 constexpr double least_solver_share = 0.2;   // of the time, where frames take more than that
 constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
@@ -83,7 +83,8 @@ void RenderLoop::choose_receivers() {
     std::vector<RotaMember> members;
     for (const auto& [id, session] : sessions_) {
         if (session->has_image() && (!watched || !session->paused())) {
-            members.push_back({id, session->moving(now), cost_.receive_ms(session->pixels())});
+            members.push_back(
+                {id, session->moving(now), cost_.receive_ms(session->drawn_pixels())});
         }
     }
     const double moving_ms = moving_frames_ms(now);
@@ -94,7 +95,7 @@ void RenderLoop::choose_receivers() {
     for (const ViewerId viewer : rota_.next(members, budget_ms)) {
         ViewerSession& session = *sessions_.at(viewer);
         receivers_.push_back(&session.image());
-        receiver_pixels_ += session.pixels();
+        receiver_pixels_ += session.drawn_pixels();
     }
     const bool alone = !watched || nobody_waits();
     ViewerImage* const snapshot =
@@ -112,6 +113,17 @@ double RenderLoop::moving_frames_ms(Clock::time_point now) const {
         sum += session->has_image() && session->moving(now) ? scheduler_.cost_ms(id) : 0.0;
     }
     return sum;
+}
+
+/// Pictures of those who move are as large as their frames have time for.
+void RenderLoop::choose_moving_scale(Clock::time_point now) {
+    double full_ms = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        full_ms += session->has_image() && session->moving(now) ? session->full_frame_ms() : 0.0;
+    }
+    if (full_ms > 0.0) {
+        moving_scale_.note(full_ms, (1.0 - least_solver_share) * walkthrough_ms);
+    }
 }
 
 /// Whether somebody gets frames of a walk, and these and the solver's steps do not fit into its
@@ -205,9 +217,9 @@ bool RenderLoop::collect_frames() {
     return any;
 }
 
-/// The viewer's own picture, showing what it wants to see; where it has none, the one that showed
-/// its first frame, or a new one.
-ViewerImage& RenderLoop::own_image(ViewerSession& session) {
+/// The viewer's own picture shows what it wants to see; where it has none, it gets the one that
+/// showed its first frame, or a new one.
+void RenderLoop::prepare_image(ViewerSession& session) {
     if (!session.has_image()) {
         const bool shown = first_look_ != nullptr && first_look_of_ == session.id();
         session.give_image(shown ? std::move(first_look_)
@@ -217,7 +229,6 @@ ViewerImage& RenderLoop::own_image(ViewerSession& session) {
         first_look_of_ = shown ? 0 : first_look_of_;
     }
     session.apply_view();
-    return session.image();
 }
 
 void RenderLoop::drop_image(ViewerSession& session) {
@@ -281,6 +292,7 @@ bool RenderLoop::send_frames() {
     const auto now = Clock::now();
     DueFrames due = due_frames(now);
     const double moving_ms = moving_frames_ms(now);
+    choose_moving_scale(now);
     last_walk_frame_ = due.moving ? now : last_walk_frame_;
     // A step takes long where many pictures gather light: those who move shall not wait for it.
     const double slice_ms =
@@ -319,15 +331,17 @@ bool RenderLoop::greet_within(TimeBudget& budget, std::span<const Wanted> newcom
 void RenderLoop::send_frame(const Wanted& wanted) {
     ViewerSession& session = *sessions_.at(wanted.viewer);
     const auto start = Clock::now();
+    session.set_moving_scale(moving_scale_.scale(), start);
     try {
-        own_image(session);
+        prepare_image(session);
         session.render(wanted.advice, figures(), start);
     } catch (const GpuError& error) {
         refuse_picture(session, error.what());
     }
     const double cost = milliseconds_since(start);
     scheduler_.charge(wanted.viewer, cost);
-    cost_.note_frame(cost, session.pixels());
+    session.note_frame_cost(cost);
+    cost_.note_frame(cost, session.drawn_pixels());
 }
 
 /// First frames, all of one picture: a viewer that never acknowledges one costs no more than that.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "net/server.h"
 #include "scene_messages.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr double moving_s = 0.4;             // after the last change a viewer counts as moving
 constexpr double moving_interval_s = 0.016;  // between frames while moving
 constexpr double statistics_interval_s = 0.15;
+constexpr double cost_smoothing = 0.2;        // weight of a new measurement
 constexpr std::uint64_t target_samples = 32;  // before an error is believed
 constexpr glm::uvec2 default_size(800, 600);
 
@@ -70,24 +72,63 @@ void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t reque
     view_waits_ = true;
     camera_id_ = request_id;
     note_change();
+    last_camera_ = last_change_;
 }
 
 void ViewerSession::adopt_camera(const Camera& camera) {
     camera_ = camera;
     view_waits_ = true;
     note_change();
+    last_camera_ = last_change_;
 }
 
 void ViewerSession::apply_view() {
-    if (view_waits_) {
-        rendering_ = rendering_ && image_->size() == size_;
-        image_->set_view(camera_, size_);
-        view_waits_ = false;
+    if (!view_waits_) {
+        return;
     }
+    view_waits_ = false;
+    if (image_->full_size() != size_) {
+        rendering_ = false;
+        image_->set_view(camera_, size_);
+        return;
+    }
+    image_->set_camera(camera_, glm::uvec2(glm::round(glm::dvec2(size_) * moving_scale_)));
+    redrawn_ = true;
+}
+
+void ViewerSession::set_moving_scale(double scale, Clock::time_point now) {
+    const bool moves = camera_moves(now);
+    // A picture in motion changes its size with its camera, one that has come to rest at once.
+    view_waits_ = view_waits_ || (!moves && image_ && image_->size() != image_->full_size());
+    moving_scale_ = moves ? scale : 1.0;
+}
+
+void ViewerSession::note_frame_cost(double cost_ms) {
+    if (std::exchange(redrawn_, false)) {
+        const double full_ms = cost_ms * pixels() / std::max(drawn_pixels(), 1.0);
+        full_frame_ms_ += (full_frame_ms_ > 0.0 ? cost_smoothing : 1.0) * (full_ms - full_frame_ms_);
+    }
+}
+
+std::vector<std::optional<PixelProbe>> ViewerSession::probe(std::span<const glm::uvec2> pixels) {
+    std::vector<glm::uvec2> drawn(pixels.begin(), pixels.end());
+    for (glm::uvec2& pixel : drawn) {
+        pixel = (2U * pixel + 1U) * image_->size() / (2U * image_->full_size());
+    }
+    return image_->probe(drawn);
+}
+
+std::optional<PixelProbe> ViewerSession::probe(glm::uvec2 pixel) {
+    return probe(std::span(&pixel, 1)).front();
 }
 
 double ViewerSession::pixels() const {
     return static_cast<double>(size_.x) * static_cast<double>(size_.y);
+}
+
+double ViewerSession::drawn_pixels() const {
+    const glm::uvec2 size = image_ ? image_->size() : size_;
+    return static_cast<double>(size.x) * static_cast<double>(size.y);
 }
 
 void ViewerSession::set_viewport(glm::uvec2 size) {
@@ -144,6 +185,10 @@ bool ViewerSession::moving(Clock::time_point now) const {
     return view_waits_ || since_change_s(now) < moving_s;
 }
 
+bool ViewerSession::camera_moves(Clock::time_point now) const {
+    return seconds(now - last_camera_) < moving_s;
+}
+
 bool ViewerSession::smooth(Clock::time_point now) {
     if (!image_ || moving(now) || image_->smoothed()) {
         return false;
@@ -163,6 +208,9 @@ bool ViewerSession::due(Clock::time_point now) const {
     }
     if (!image_) {
         return acknowledged_;
+    }
+    if (image_->size() != image_->full_size() && !camera_moves(now)) {
+        return true;
     }
     return image_->samples() > samples_at_frame_ &&
            since_frame >= refining_interval(since_change_s(now));
@@ -247,11 +295,11 @@ std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::render_
 
 void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
                             const v1::FrameHeader& figures, Clock::time_point now) {
-    const glm::uvec2 size = image.size();
     const auto scaled = [&](unsigned pixels) {
         return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));
     };
-    const glm::uvec2 frame_size(scaled(size.x), scaled(size.y));
+    const glm::uvec2 frame_size =
+        glm::min(glm::uvec2(scaled(size_.x), scaled(size_.y)), image.size());
     const ImageStatistics& statistics = image.statistics();
     header_ = figures;
     header_.set_frame(++frame_);

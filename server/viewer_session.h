@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "net/client_event.h"
 #include "raybundle.pb.h"
@@ -32,12 +34,22 @@ class ViewerSession {
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void set_viewport(glm::uvec2 size);
     void apply_view();
+    /// Next frame's picture has so much of its full width and height while the camera moves.
+    /// Between special phases only.
+    void set_moving_scale(double scale, Clock::time_point now);
+    /// What a frame of the moving camera takes with a full picture, ms; 0: not known yet.
+    [[nodiscard]] double full_frame_ms() const { return full_frame_ms_; }
+    /// The frame just rendered took so long.
+    void note_frame_cost(double cost_ms);
     /// Shows what another viewer sees.
     void adopt_camera(const Camera& camera);
     /// What it looks at, or will with its next frame.
     [[nodiscard]] const Camera& camera() const { return camera_; }
-    /// Of its picture, likewise.
+    /// Of its full picture, likewise.
     [[nodiscard]] glm::uvec2 size() const { return size_; }
+    /// What pixels of the full picture show. Requires has_image().
+    [[nodiscard]] std::vector<std::optional<PixelProbe>> probe(std::span<const glm::uvec2> pixels);
+    [[nodiscard]] std::optional<PixelProbe> probe(glm::uvec2 pixel);
 
     [[nodiscard]] bool has_image() const { return image_ != nullptr; }
     /// Requires has_image().
@@ -92,7 +104,8 @@ class ViewerSession {
     [[nodiscard]] bool acknowledged() const { return acknowledged_; }
     void note_acknowledged() { acknowledged_ = true; }
 
-    [[nodiscard]] double pixels() const;
+    [[nodiscard]] double pixels() const;        ///< of the full picture
+    [[nodiscard]] double drawn_pixels() const;  ///< of the picture as it is
     /// Of the pictures it shows now.
     [[nodiscard]] PictureLook look() const;
     [[nodiscard]] ViewerId id() const { return viewer_; }
@@ -107,6 +120,7 @@ class ViewerSession {
 
   private:
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
+    [[nodiscard]] bool camera_moves(Clock::time_point now) const;
     [[nodiscard]] float exposure(const ViewerImage& image);
     void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
                  Clock::time_point now);
@@ -121,6 +135,9 @@ class ViewerSession {
     glm::uvec2 size_;
     Camera camera_;
     bool view_waits_ = true;  // the picture does not show them yet
+    bool redrawn_ = false;    // for the frame that is being rendered
+    double moving_scale_ = 1.0;
+    double full_frame_ms_ = 0.0;
     DisplayMode mode_ = DisplayMode::photo;
     float exposure_offset_ = 0.0F;
     bool auto_exposure_ = true;
@@ -139,7 +156,7 @@ class ViewerSession {
     bool paused_ = false;
     bool acknowledged_ = false;
     v1::FrameHeader header_;
-    Clock::time_point last_change_, last_frame_, last_statistics_;
+    Clock::time_point last_change_, last_camera_, last_frame_, last_statistics_;
     std::uint64_t samples_at_frame_ = 0;
 };
 

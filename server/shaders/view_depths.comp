@@ -7,6 +7,8 @@ layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { float inverse_depths[]; };
 uniform uint columns;        // at least 2
 uniform uint rows;           // likewise
+uniform uint width;          // of the picture, which may be less than the texture's
+uniform uint height;
 uniform float near_distance; // m
 
 void main() {
@@ -14,7 +16,7 @@ void main() {
     if (index >= columns * rows) {
         return;
     }
-    ivec2 size = textureSize(depths, 0);
+    ivec2 size = ivec2(width, height);
     uvec2 point = uvec2(index % columns, index / columns);
     ivec2 pixel = min(ivec2(vec2(point) / vec2(columns - 1u, rows - 1u) * vec2(size)), size - 1);
     inverse_depths[index] = texelFetch(depths, ivec2(pixel.x, size.y - 1 - pixel.y), 0).r / near_distance;

@@ -19,8 +19,12 @@ layout::ViewParameters make_view_parameters(const Camera& camera, const glm::vec
     p.right = glm::vec4(axes.right, 0.0F);
     p.up = glm::vec4(axes.up, 0.0F);
     p.forward = glm::vec4(axes.forward, 0.0F);
-    p.size = {size.x, size.y, (size.x + 3) / 4, (size.y + 3) / 4};
+    p.size = picture_size(size);
     return p;
+}
+
+glm::uvec4 picture_size(glm::uvec2 pixels) {
+    return {pixels, (pixels + 3U) / 4U};
 }
 
 glm::vec3 pixel_direction(const Camera& camera, glm::uvec2 size, glm::vec2 pixel) {

@@ -13,6 +13,9 @@ namespace raybundle {
 layout::ViewParameters make_view_parameters(const Camera& camera, const glm::vec3& scene_origin,
                                             glm::uvec2 size, float near_distance);
 
+/// ViewParameters::size of a picture with so many pixels.
+glm::uvec4 picture_size(glm::uvec2 pixels);
+
 /// Direction (unit, world) through a pixel of the picture, row 0 at the top.
 glm::vec3 pixel_direction(const Camera& camera, glm::uvec2 size, glm::vec2 pixel);
 

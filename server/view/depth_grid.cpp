@@ -29,13 +29,15 @@ DepthGrid::DepthGrid(glm::uvec2 points)
       inverse_("inverse depths", bytes_of(points)),
       readback_("inverse depths readback", bytes_of(points)) {}
 
-void DepthGrid::request(const ShaderProgram& program, const Texture2D& depths,
+void DepthGrid::request(const ShaderProgram& program, const Texture2D& depths, glm::uvec2 picture,
                         float near_distance) {
     const GlScope scope("view depths");
     inverse_.bind_storage(BINDING_FRAME);
     glBindTextureUnit(UNIT_DEPTHS, depths.get());
     program.set("columns", points_.x);
     program.set("rows", points_.y);
+    program.set("width", picture.x);
+    program.set("height", picture.y);
     program.set("near_distance", near_distance);
     program.dispatch(std::size_t{points_.x} * points_.y);
     readback_.request(inverse_, bytes_of(points_));

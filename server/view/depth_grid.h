@@ -24,7 +24,8 @@ class DepthGrid {
     [[nodiscard]] glm::uvec2 points() const { return points_; }
     /// Queues the depths of a picture. depths: of its raster, reversed, near_distance (m) at the
     /// front.
-    void request(const ShaderProgram& program, const Texture2D& depths, float near_distance);
+    void request(const ShaderProgram& program, const Texture2D& depths, glm::uvec2 picture,
+                 float near_distance);
     [[nodiscard]] bool ready() const { return readback_.ready(); }
     /// Inverse depths as DepthMap has them; waits where they are not there yet.
     std::span<const float> take() { return readback_.take_as<float>(); }

@@ -23,7 +23,8 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
     : scene_(scene),
       store_(store),
       programs_(programs),
-      size_(glm::max(size, glm::uvec2(1))),
+      full_size_(glm::max(size, glm::uvec2(1))),
+      size_(full_size_),
       view_("view parameters", sizeof(layout::ViewParameters)),
       vertex_irradiance_("vertex irradiance",
                          2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
@@ -112,8 +113,8 @@ void ViewerImage::create_pixel_textures() {
 }
 
 void ViewerImage::set_view(const Camera& camera, glm::uvec2 size) {
-    if (glm::max(size, glm::uvec2(1)) == size_) {
-        set_camera(camera);
+    if (glm::max(size, glm::uvec2(1)) == full_size_) {
+        set_camera(camera, full_size_);
     } else {
         restart(camera, size);
     }
@@ -121,18 +122,28 @@ void ViewerImage::set_view(const Camera& camera, glm::uvec2 size) {
 
 void ViewerImage::restart(const Camera& camera, glm::uvec2 size) {
     size = glm::max(size, glm::uvec2(1));
-    if (size != size_) {
+    if (size != full_size_) {
+        full_size_ = size;
         size_ = size;
         allocate();
     }
+    set_size(size);
     camera_ = camera;
     statistics_ = {};
     refresh_geometry(0.0F);
 }
 
-void ViewerImage::set_camera(const Camera& camera) {
+void ViewerImage::set_camera(const Camera& camera, glm::uvec2 size) {
     camera_ = camera;
+    set_size(glm::clamp(size, glm::uvec2(1), full_size_));
     refresh_geometry(moving_kept_weight);
+}
+
+void ViewerImage::set_size(glm::uvec2 size) {
+    if (size != size_) {
+        size_ = size;
+        affected_.emplace(size_);
+    }
 }
 
 void ViewerImage::upload_view() {
@@ -164,7 +175,7 @@ void ViewerImage::raster(const glm::mat4& clip_from_world, const PixelRectangle&
 }
 
 bool ViewerImage::smooth_step() {
-    if (!has_picture_ || edges_->complete()) {
+    if (!has_picture_ || size_ != full_size_ || edges_->complete()) {
         return false;
     }
     // A sub-sample at +x sees what the centre sees of a picture shifted by -x.
@@ -180,11 +191,12 @@ bool ViewerImage::smooth_step() {
 
 /// moved: objects have just moved, and the picture still shows them at their old places.
 void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
-    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
-            glm::vec3(parameters_.constant)};
+    old_ = {parameters_.clip_from_world, glm::uvec2(parameters_.size), glm::vec3(parameters_.eye),
+            parameters_.weights.x, glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
     parameters_ =
-        make_view_parameters(camera_, scene_.origin(), size_, near_share * scene_.diameter());
+        make_view_parameters(camera_, scene_.origin(), full_size_, near_share * scene_.diameter());
+    parameters_.size = picture_size(size_);
     parameters_.display = display;
     scene_.set_background(parameters_);
     if (continued_) {
@@ -234,15 +246,15 @@ void ViewerImage::resolve(const ViewPrograms::Resolve& programs, const PixelRect
         program.set("vertex_count", scene_.vertex_count());
         program.set("old_clip_from_world", old_.clip_from_world);
         program.set("old_eye", old_.eye);
-        program.set("old_width", size_.x);
-        program.set("old_height", size_.y);
+        program.set("old_width", old_.size.x);
+        program.set("old_height", old_.size.y);
         program.set("kept_weight", kept_weight);
         program.set("old_common_weight", old_.common_weight);
         program.set("old_constant", old_.constant);
         program.set("moved_objects", scene_.moved_objects());
-        // Two pixels' width at unit distance.
-        program.set("same_distance",
-                    4.0F * std::tan(0.5F * camera_.vertical_fov) / static_cast<float>(size_.y));
+        // Two pixels' width at unit distance, of the coarser picture.
+        program.set("same_distance", 4.0F * std::tan(0.5F * camera_.vertical_fov) /
+                                         static_cast<float>(std::min(size_.y, old_.size.y)));
     };
     set_common(programs.all);
     programs.all.set("crease_distance", crease_share * scene_.diameter());
@@ -389,7 +401,7 @@ void ViewerImage::request_depths(std::uint32_t columns) {
     if (!depth_grid_ || depth_grid_->points() != points) {
         depth_grid_.emplace(points);
     }
-    depth_grid_->request(programs_.depths, depths_, near_share * scene_.diameter());
+    depth_grid_->request(programs_.depths, depths_, size_, near_share * scene_.diameter());
 }
 
 void ViewerImage::refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight) {
@@ -415,7 +427,7 @@ std::span<const std::uint8_t> ViewerImage::take() {
 }
 
 std::size_t ViewerImage::bytes() const {
-    std::size_t sum = pixel_count(size_) * 8 + edges_->bytes() + affected_->bytes() +
+    std::size_t sum = pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() +
                       (continued_ ? continued_->bytes() : 0) +
                       (depth_grid_ ? depth_grid_->bytes() : 0);
     for (const Buffer* buffer :

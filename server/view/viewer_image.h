@@ -90,12 +90,17 @@ class ViewerImage : public BundleReceiver {
                               statistics_.samples, sample_order());
     }
     /// Changes what is seen; accumulated irradiance follows its surface points.
-    void set_camera(const Camera& camera);
-    /// The same with another size, where nothing is kept.
+    void set_camera(const Camera& camera) { set_camera(camera, size_); }
+    /// The same, drawn with fewer pixels than full_size(), or as many: quickly, for a picture that
+    /// moves. What it shows reaches as far. Between special phases only.
+    void set_camera(const Camera& camera, glm::uvec2 size);
+    /// The same with another full size, where nothing is kept.
     void set_view(const Camera& camera, glm::uvec2 size);
     /// Begins anew, with nothing accumulated.
     void restart(const Camera& camera, glm::uvec2 size);
+    /// Pixels that it is drawn with, and what there is room for.
     [[nodiscard]] glm::uvec2 size() const { return size_; }
+    [[nodiscard]] glm::uvec2 full_size() const { return full_size_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
     /// Samples taken since the camera last moved.
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
@@ -184,6 +189,7 @@ class ViewerImage : public BundleReceiver {
     static std::size_t pixel_count(glm::uvec2 size) { return std::size_t{size.x} * size.y; }
 
     void allocate();
+    void set_size(glm::uvec2 size);
     [[nodiscard]] PixelRectangle whole_picture() const;
     [[nodiscard]] PixelRectangle rectangle_of_moved() const;
     void bind_old_picture() const;
@@ -214,11 +220,13 @@ class ViewerImage : public BundleReceiver {
     const GpuScene& scene_;
     const RadianceStore& store_;
     const ViewPrograms& programs_;
-    glm::uvec2 size_;
+    glm::uvec2 full_size_;  // of the buffers
+    glm::uvec2 size_;       // in use of it
     Camera camera_;
     layout::ViewParameters parameters_{};
     struct OldPicture {  ///< what was accumulated in it is reprojected
         glm::mat4 clip_from_world{1.0F};
+        glm::uvec2 size{0};
         glm::vec3 eye{0.0F};
         float common_weight = 0.0F;
         glm::vec3 constant{0.0F};

@@ -84,7 +84,7 @@ void ViewerImage::refresh_moved() {
     if (rectangle.empty()) {
         return;
     }
-    old_ = {parameters_.clip_from_world, glm::vec3(parameters_.eye), parameters_.weights.x,
+    old_ = {parameters_.clip_from_world, size_, glm::vec3(parameters_.eye), parameters_.weights.x,
             glm::vec3(parameters_.constant)};
     upload_view();
     raster(parameters_.clip_from_world, rectangle);

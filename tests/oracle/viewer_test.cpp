@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
+#include "view/camera_matrices.h"
 
 namespace raybundle {
 namespace {
@@ -140,6 +142,56 @@ TEST(ViewerImage, CameraThereAndBackShowsTheSamePicture) {
                       static_cast<double>(before.size());
     }
     EXPECT_LT(difference, 0.02);
+}
+
+/// Share of pixels with more than so much weight.
+double share_of_weights_above(const ViewerImage& image, float least) {
+    const auto irradiance = image.read_irradiance();
+    const auto kept = std::count_if(irradiance.begin(), irradiance.end(),
+                                    [&](const glm::vec4& e) { return e.w > least; });
+    return static_cast<double>(kept) / static_cast<double>(irradiance.size());
+}
+
+TEST(ViewerImage, DrawnSmallerItShowsTheSameWithItsLight) {
+    FurnaceView view(0.5F);
+    view.iterate(256);
+    const float weight = view.image->read_irradiance().front().w;
+    for (const glm::uvec2 size : {glm::uvec2(40, 30), glm::uvec2(53, 41), glm::uvec2(64, 48)}) {
+        view.image->set_camera(view.camera, size);
+        EXPECT_EQ(view.image->size(), size);
+        EXPECT_EQ(view.image->full_size(), glm::uvec2(64, 48));
+        // Each change of the camera takes a tenth.
+        EXPECT_GT(share_of_weights_above(*view.image, 0.7F * weight), 0.95);
+        view.iterate(16);
+        const auto picture = view.image->read_radiance();
+        ASSERT_EQ(picture.size(), std::size_t{size.x} * size.y);
+        double error = 0.0;
+        for (const glm::vec4& pixel : picture) {
+            error += std::abs(static_cast<double>(pixel.g) / 200.0 - 1.0) /
+                     static_cast<double>(picture.size());
+        }
+        EXPECT_LT(error, 0.02);
+        view.image->compose(DisplayMode::photo, -7.0F);
+        EXPECT_EQ(view.image->take().size(), std::size_t{size.x} * size.y * 4);
+        // It reaches as far: corners of the picture are where they were.
+        EXPECT_FALSE(view.image->smooth_step() && size.x < 64);
+        const auto corner = view.image->probe({0, 0});
+        ASSERT_TRUE(corner.has_value());
+        const glm::vec2 pixel = 0.5F / glm::vec2(size) * glm::vec2(64, 48) - 0.5F;
+        const glm::vec3 expected = pixel_direction(view.camera, {64, 48}, pixel);
+        EXPECT_GT(glm::dot(glm::normalize(corner->position - view.camera.eye), expected), 0.99999F);
+    }
+}
+
+/// What a smaller picture shows is to the bit what a picture of that size shows.
+TEST(ViewerImage, DrawnSmallerItsSurfacesAreThoseOfASmallPicture) {
+    FurnaceView view(0.5F);
+    view.image->set_camera(view.camera, {32, 24});
+    FurnaceView small(0.5F, {}, 800, {32, 24});
+    view.iterate(64);
+    small.iterate(64);
+    EXPECT_EQ(view.image->read_irradiance(), small.image->read_irradiance());
+    EXPECT_EQ(view.image->read_radiance(), small.image->read_radiance());
 }
 
 TEST(ViewerImage, TinyAndOddSizesWork) {
