@@ -106,7 +106,8 @@ void ViewerSession::set_moving_scale(double scale, Clock::time_point now) {
 void ViewerSession::note_frame_cost(double cost_ms) {
     if (std::exchange(redrawn_, false)) {
         const double full_ms = cost_ms * pixels() / std::max(drawn_pixels(), 1.0);
-        full_frame_ms_ += (full_frame_ms_ > 0.0 ? cost_smoothing : 1.0) * (full_ms - full_frame_ms_);
+        full_frame_ms_ +=
+            (full_frame_ms_ > 0.0 ? cost_smoothing : 1.0) * (full_ms - full_frame_ms_);
     }
 }
 
