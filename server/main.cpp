@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "cli_options.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
-#include "log_settings.h"
+#include "options/cli_options.h"
+#include "options/log_settings.h"
 #include "scene/gltf_loader.h"
 
 namespace {

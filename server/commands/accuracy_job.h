@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "accuracy/error_curve.h"
-#include "cli_options.h"
+#include "options/cli_options.h"
 #include "transport/solver.h"
 
 namespace raybundle {

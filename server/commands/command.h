@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "cli_options.h"
+#include "options/cli_options.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "view/whole_file.h"

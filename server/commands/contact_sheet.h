@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "cli_options.h"
 #include "commands/command.h"
+#include "options/cli_options.h"
 
 namespace raybundle {
 

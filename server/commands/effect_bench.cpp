@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/effect_costs.h"
-#include "scene_messages.h"
+#include "loop/scene_messages.h"
 
 namespace raybundle {
 

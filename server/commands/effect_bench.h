@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
-#include "cli_options.h"
 #include "net/server.h"
+#include "options/cli_options.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 

@@ -3,7 +3,7 @@
 
 #include <stop_token>
 
-#include "cli_options.h"
+#include "options/cli_options.h"
 #include "scene/effects_plan.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "cli_options.h"
+#include "options/cli_options.h"
 #include "scene/scene.h"
 #include "view/viewer_image.h"
 

@@ -7,11 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "animation_script.h"
 #include "bundle/low_discrepancy.h"
 #include "commands/command.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
+#include "scene/animation_script.h"
 #include "transport/solver.h"
 #include "view/image_file.h"
 #include "view/viewer_image.h"

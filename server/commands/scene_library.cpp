@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "cli_options.h"
 #include "net/scene_name.h"
+#include "options/cli_options.h"
 
 namespace raybundle {
 namespace {

@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::size_t max_jobs = 4;
 
-v1::ServerMessage ok() {
-    v1::ServerMessage message;
-    message.mutable_ok();
-    return message;
-}
-
 }  // namespace
 
 /// The bytes go to a file of the library, which the opener checks.
@@ -178,7 +172,7 @@ void SceneOpener::accept(OpenedScene& scene) {
         opening_ = false;
     }
     announce(scene.progress, v1::SceneOpening::READY);
-    server_.reply(scene.request, ok());
+    server_.reply_ok(scene.request);
 }
 
 void SceneOpener::set_shown(const std::string& file) {

@@ -7,19 +7,19 @@
 #include <cstdlib>
 #include <optional>
 
-#include "change_log.h"
 #include "commands/command.h"
 #include "commands/effect_bench.h"
 #include "commands/scene_opener.h"
 #include "commands/scene_watch.h"
 #include "commands/signal_watch.h"
-#include "config_file.h"
 #include "gpu/egl_context.h"
-#include "log_settings.h"
+#include "loop/change_log.h"
+#include "loop/render_loop.h"
 #include "net/server.h"
-#include "render_loop.h"
+#include "options/config_file.h"
+#include "options/log_settings.h"
+#include "options/serve_settings.h"
 #include "scene/gltf_confinement.h"
-#include "serve_settings.h"
 
 namespace raybundle {
 

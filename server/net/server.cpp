@@ -73,6 +73,12 @@ void Server::reply(const ClientEvent& request, v1::ServerMessage answer) {
     }
 }
 
+void Server::reply_ok(const ClientEvent& request) {
+    v1::ServerMessage answer;
+    answer.mutable_ok();
+    reply(request, std::move(answer));
+}
+
 void Server::reply_error(const ClientEvent& request, v1::Error::Code code,
                          const std::string& text) {
     v1::ServerMessage answer = to_message({code, text, std::nullopt});

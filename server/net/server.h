@@ -47,6 +47,9 @@ class Server {
     /// Answers a request: once for each of its ids, not at all if it has none.
     void reply(const ClientEvent& request, v1::ServerMessage answer);
 
+    /// Answers a request that has no other answer.
+    void reply_ok(const ClientEvent& request);
+
     /// Answers a request with an error, also if it has no id.
     void reply_error(const ClientEvent& request, v1::Error::Code code, const std::string& text);
 

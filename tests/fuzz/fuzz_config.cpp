@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration files: an error that names the file, or options that print to the same file again.
-#include "config_file.h"
 #include "fuzz_target.h"
+#include "options/config_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace raybundle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "config_file.h"
+#include "options/config_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "option_table.h"
-#include "serve_settings.h"
+#include "options/option_table.h"
+#include "options/serve_settings.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "animation_script.h"
+#include "scene/animation_script.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the render loop does with changes of the scene: in which order they are made, how they are
+// recorded, who hears of them.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "bundle/low_discrepancy.h"
+#include "loop/render_loop.h"
+#include "loop/scene_messages.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr const char* not_saved = "the change could not be saved, so it was not made";
+
+/// Whether a change can be worked in together with those that come before it.
+bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
+    const bool moving = pending.front().change.has_move_object();
+    if (next.is_undo() || next.change.has_move_object() != moving) {
+        return false;
+    }
+    const auto same = [&next](const PendingChange& p) {
+        return subject_of(p.change) == subject_of(next.change);
+    };
+    return !moving ||
+           (pending.size() < MOST_MOVED && std::none_of(pending.begin(), pending.end(), same));
+}
+
+}  // namespace
+
+void RenderLoop::queue_change(const ClientEvent& event) {
+    const v1::SceneChanged change = change_of(event);
+    if (change.change_case() != v1::SceneChanged::CHANGE_NOT_SET) {
+        const v1::Error problem = problem_of(scene_, change);
+        if (problem.code() != v1::Error::CODE_UNSPECIFIED) {
+            server_.reply_error(event, problem.code(), problem.message());
+            return;
+        }
+    }
+    changes_.add(event);
+}
+
+/// Makes the change that waits longest, together with those right behind it that one special phase
+/// can work in: lights and materials, or some moved objects.
+void RenderLoop::start_pending_change() {
+    if (changes_.empty() || solver_->correcting()) {
+        return;
+    }
+    PendingChange first = changes_.take();
+    if (first.is_undo()) {
+        start_undo(first);
+        return;
+    }
+    const bool moving = first.change.has_move_object();
+    std::vector<PendingChange> pending;
+    pending.push_back(std::move(first));
+    while (!changes_.empty() && fits(changes_.front(), pending)) {
+        pending.push_back(changes_.take());
+    }
+    if (moving) {
+        start_moves(std::move(pending));
+    } else {
+        start_surfaces(std::move(pending));
+    }
+}
+
+/// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
+bool RenderLoop::record(PendingChange& pending) {
+    const v1::SceneChanged before = state_of(scene_, pending.change);
+    if (!pending.requests.empty()) {
+        pending.change.set_by(pending.requests.back().viewer);
+    }
+    if (!log_.record(pending.change, before)) {
+        undo_failed_ = true;
+        for (const ClientEvent& request : pending.requests) {
+            server_.reply_error(request, v1::Error::INTERNAL, not_saved);
+        }
+        return false;
+    }
+    epoch_ = log_.epoch();
+    apply(scene_, pending.change);
+    v1::SceneChanged after = state_of(scene_, pending.change);
+    after.set_epoch(epoch_);
+    log_.note_states(before, after);
+    return true;
+}
+
+/// A change concerns also those who look away.
+void RenderLoop::gather_all() {
+    snapshots_.restart();
+    first_look_of_ = 0;
+    receivers_.clear();
+    for (const auto& [id, session] : sessions_) {
+        if (session->has_image()) {
+            receivers_.push_back(&session->image());
+        }
+    }
+}
+
+/// Before a change is made: how much time its special phase has.
+void RenderLoop::begin_phase(Solver& solver) {
+    double target = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        if (session->target_error() > 0.0) {
+            target =
+                target > 0.0 ? std::min(target, session->target_error()) : session->target_error();
+        }
+    }
+    solver.set_special(phase_budget_.settings(target, !changes_.empty()));
+    phase_budget_.begin(Server::now_ms());
+    metrics_.count_phase();
+}
+
+void RenderLoop::announce(const PendingChange& pending) {
+    iterations_at_change_ = solver_->iterations();
+    v1::ServerMessage message;
+    *message.mutable_scene_changed() = pending.change;
+    for (const ClientEvent& request : pending.requests) {
+        server_.reply(request, message);
+    }
+    // Of an undo also the one who asked for it hears.
+    server_.broadcast(message, pending.requests.empty() ? 0 : pending.change.by());
+    for (const auto& [id, session] : sessions_) {
+        session->note_change();
+    }
+}
+
+void RenderLoop::start_moves(std::vector<PendingChange> pending) {
+    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    std::vector<ObjectMove> moves;
+    for (const PendingChange& p : pending) {
+        const std::uint32_t object = p.change.move_object().object() - 1;
+        moves.push_back({object, scene_.objects[object].world_from_object()});
+    }
+    if (moves.empty()) {
+        return;
+    }
+    gather_all();
+    begin_phase(*solver_);
+    solver_->move_objects(moves, receivers_);
+    for (const PendingChange& p : pending) {
+        announce(p);
+    }
+}
+
+void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
+    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    std::vector<std::uint32_t> materials;
+    std::vector<std::uint32_t> reflecting;
+    bool covered = true;
+    for (const PendingChange& p : pending) {
+        const std::uint32_t id = subject_of(p.change).second;
+        const bool light = p.change.has_set_light();
+        const std::uint32_t material =
+            light ? static_cast<std::uint32_t>(scene_.lights[id - 1].material) : id - 1;
+        materials.push_back(material);
+        if (!light) {
+            reflecting.push_back(material);
+            covered = covered && solver_->covers(scene_, material);
+        }
+    }
+    if (pending.empty()) {
+        return;
+    }
+    if (covered) {
+        gather_all();
+        begin_phase(*solver_);
+        solver_->change_surfaces(scene_, mesh_, materials, reflecting, receivers_);
+    } else {
+        refresh_surfaces(scene_, materials, mesh_);
+        replan(reflecting);
+    }
+    for (const PendingChange& p : pending) {
+        announce(p);
+    }
+}
+
+/// A material calls for shaders that the scene did not need so far (design: re-planned): another
+/// solver takes over the solution.
+void RenderLoop::replan(std::span<const std::uint32_t> reflecting) {
+    SolverSettings settings = settings_.solver;
+    settings.seed = mix_bits(settings.seed + ++replans_);
+    auto next = std::make_unique<Solver>(scene_, mesh_, settings);
+    auto programs = std::make_unique<ViewPrograms>(next->scene());
+    first_look_.reset();
+    for (const auto& [id, session] : sessions_) {
+        if (session->has_image()) {
+            session->give_image(std::make_unique<ViewerImage>(next->scene(), next->store(),
+                                                              *programs, session->size()),
+                                false);
+            session->apply_view();
+        }
+    }
+    gather_all();
+    begin_phase(*next);
+    next->take_over(*solver_, reflecting, receivers_);
+    solver_ = std::move(next);
+    programs_ = std::move(programs);
+    spdlog::info("shaders have been planned anew for a changed material");
+}
+
+void RenderLoop::start_undo(const PendingChange& pending) {
+    const ClientEvent& request = pending.requests.front();
+    const std::uint32_t epoch = request.message.undo().epoch();
+    if (pending.undone) {
+        if (undo_failed_) {
+            server_.reply_error(request, v1::Error::INTERNAL, not_saved);
+        } else {
+            server_.reply_ok(request);
+        }
+        return;
+    }
+    undo_failed_ = false;
+    if (const auto changes = log_.history().back_to(epoch); changes && changes->empty()) {
+        server_.reply_ok(request);
+    } else if (changes) {
+        changes_.add_undone(*changes, pending);
+    } else if (epoch > epoch_) {
+        server_.reply_error(
+            request, v1::Error::INVALID_ARGUMENT,
+            "undo.epoch: there have been only " + std::to_string(epoch_) + " changes");
+    } else {
+        server_.reply_error(request, v1::Error::NOT_FOUND,
+                            "undo.epoch: what was before change " +
+                                std::to_string(log_.history().oldest()) + " is not known any more");
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the render loop does for people who look together: who is here, who follows whom, pins,
+// viewpoints, and measuring a grid of points.
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "loop/render_loop.h"
+#include "loop/scene_messages.h"
+#include "view/camera_matrices.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr double least_presence_interval_s = 0.1;
+constexpr double presence_interval_per_viewer_s = 0.01;
+constexpr double pin_check_settled = 0.9;   // before, a pin's light is still on its way
+constexpr float on_surface_m = 0.01F;       // of a grid, besides what the distance allows
+constexpr float on_surface_share = 0.002F;  // of the distance to the eye
+constexpr float half_a_step = 0.5F;         // as far may a measured point lie from the one wanted
+
+double unix_ms() {
+    using std::chrono::system_clock;
+    return std::chrono::duration<double, std::milli>(system_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Pixel of a picture that shows a point, row 0 at the top; nothing where the point lies outside.
+std::optional<glm::uvec2> pixel_of(const Camera& camera, glm::uvec2 size, const glm::vec3& point) {
+    const layout::ViewParameters view = make_view_parameters(camera, glm::vec3(0.0F), size, 0.01F);
+    const glm::vec4 clip = view.clip_from_world * glm::vec4(point, 1.0F);
+    if (clip.w <= 0.0F) {
+        return std::nullopt;
+    }
+    const glm::vec2 ndc = glm::vec2(clip) / clip.w;
+    const glm::vec2 at = (glm::vec2(ndc.x, -ndc.y) * 0.5F + 0.5F) * glm::vec2(size);
+    if (!(at.x >= 0.0F && at.y >= 0.0F && at.x < static_cast<float>(size.x) &&
+          at.y < static_cast<float>(size.y))) {
+        return std::nullopt;
+    }
+    return glm::uvec2(at);
+}
+
+/// The points of a grid and the surface that they lie on.
+struct Grid {
+    glm::vec3 origin, step_x, step_y;
+    std::uint32_t columns, rows;
+
+    explicit Grid(const v1::ProbeGrid& message)
+        : origin(from_message(message.origin())),
+          step_x(from_message(message.step_x())),
+          step_y(from_message(message.step_y())),
+          columns(message.columns()),
+          rows(message.rows()) {}
+
+    [[nodiscard]] std::vector<glm::vec3> points() const {
+        std::vector<glm::vec3> result;
+        result.reserve(std::size_t{columns} * rows);
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            for (std::uint32_t column = 0; column < columns; ++column) {
+                result.push_back(origin + static_cast<float>(column) * step_x +
+                                 static_cast<float>(row) * step_y);
+            }
+        }
+        return result;
+    }
+
+    /// Whether what a pixel shows is the surface at a point of the grid, not something before it.
+    [[nodiscard]] bool shows(const glm::vec3& found, const glm::vec3& wanted,
+                             const glm::vec3& eye) const {
+        const glm::vec3 normal = glm::normalize(glm::cross(step_x, step_y));
+        const glm::vec3 offset = found - wanted;
+        const float off_plane = std::abs(glm::dot(offset, normal));
+        const float step = std::min(glm::length(step_x), glm::length(step_y));
+        return off_plane <= on_surface_m + on_surface_share * glm::distance(eye, wanted) &&
+               glm::length(offset) <= half_a_step * step + off_plane;
+    }
+};
+
+}  // namespace
+
+/// False: not a message of this file.
+bool RenderLoop::handle_review(ViewerSession& session, const ClientEvent& event) {
+    const v1::ClientMessage& message = event.message;
+    switch (message.body_case()) {
+        case v1::ClientMessage::kFollow:
+            follow(session, event);
+            return true;
+        case v1::ClientMessage::kAddPin:
+            add_pin(session, event);
+            return true;
+        case v1::ClientMessage::kRemovePin:
+            remove_pin(event);
+            return true;
+        case v1::ClientMessage::kSaveViewpoint:
+            save_viewpoint(event);
+            return true;
+        case v1::ClientMessage::kRemoveViewpoint:
+            remove_viewpoint(event);
+            return true;
+        case v1::ClientMessage::kPointAt:
+            point_at(event);
+            return true;
+        case v1::ClientMessage::kProbeGrid:
+            probe_grid(session, event);
+            return true;
+        default:
+            return false;
+    }
+}
+
+void RenderLoop::announce(const ClientEvent& event, const v1::ServerMessage& message) {
+    server_.reply(event, message);
+    server_.broadcast(message, event.message.has_id() ? event.viewer : 0);
+}
+
+void RenderLoop::follow(ViewerSession& session, const ClientEvent& event) {
+    const ViewerId leader = event.message.follow().viewer();
+    if (leader == session.id()) {
+        server_.reply_error(event, v1::Error::INVALID_ARGUMENT,
+                            "follow.viewer: that is this viewer itself");
+        return;
+    }
+    const auto found = sessions_.find(leader);
+    if (leader != 0 && found == sessions_.end()) {
+        server_.reply_error(event, v1::Error::NOT_FOUND,
+                            "follow.viewer: no viewer " + std::to_string(leader));
+        return;
+    }
+    session.follow(leader);
+    if (leader != 0) {
+        session.adopt_camera(found->second->camera());
+        lead(session);
+    }
+    presence_changed_ = true;
+    server_.reply_ok(event);
+}
+
+/// The followers of a viewer, and theirs, see what it sees.
+void RenderLoop::lead(const ViewerSession& leader) {
+    presence_changed_ = true;
+    std::set<ViewerId> seen{leader.id()};
+    std::vector<ViewerId> leaders{leader.id()};
+    while (!leaders.empty()) {
+        const ViewerId current = leaders.back();
+        leaders.pop_back();
+        for (const auto& [id, session] : sessions_) {
+            if (session->following() == current && seen.insert(id).second) {
+                session->adopt_camera(leader.camera());
+                leaders.push_back(id);
+            }
+        }
+    }
+}
+
+/// A viewer has left: nobody follows it any more.
+void RenderLoop::forget_leader(ViewerId viewer) {
+    presence_changed_ = true;
+    for (const auto& [id, session] : sessions_) {
+        if (session->following() == viewer) {
+            session->follow(0);
+        }
+    }
+}
+
+void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
+    const v1::AddPin& wanted = event.message.add_pin();
+    const glm::vec3 position = from_message(wanted.position());
+    if (wanted.patch() >= solver_->scene().patch_count()) {
+        server_.reply_error(event, v1::Error::NOT_FOUND,
+                            "addPin.patch: no patch " + std::to_string(wanted.patch()));
+        return;
+    }
+    Pin pin;
+    pin.patch = wanted.patch();
+    pin.patch_illuminance = luminance(solver_->store().read_irradiance(pin.patch));
+    v1::PinChanged& message = pin.message;
+    message.set_by(event.viewer);
+    message.set_by_name(session.name());
+    message.set_text(wanted.text());
+    *message.mutable_position() = wanted.position();
+    message.set_illuminance(pin.patch_illuminance);
+    message.set_epoch(epoch_);
+    message.set_set_at_ms(unix_ms());
+    *message.mutable_local_position() = wanted.position();
+    const auto pixel = pixel_of(session.camera(), session.size(), position);
+    prepare_image(session);
+    const auto hit = pixel ? session.probe(*pixel) : std::nullopt;
+    // The pixel tells more than the patch, where it shows the pin's place and nothing before it.
+    if (hit && hit->patch == pin.patch) {
+        const Object& object = scene_.objects[hit->object];
+        const glm::mat4 object_from_world = glm::inverse(object.world_from_object());
+        message.set_object(object.id);
+        to_message(glm::vec3(object_from_world * glm::vec4(position, 1.0F)),
+                   message.mutable_local_position());
+        message.set_illuminance(luminance(hit->irradiance));
+        if (hit->relative_error) {
+            message.set_relative_error(static_cast<float>(*hit->relative_error));
+        }
+    }
+    const Pin* added = review_.add_pin(std::move(pin));
+    if (added == nullptr) {
+        server_.reply_error(event, review_.refusal().code(), review_.refusal().message());
+        return;
+    }
+    v1::ServerMessage answer;
+    *answer.mutable_pin_changed() = added->message;
+    announce(event, answer);
+}
+
+void RenderLoop::remove_pin(const ClientEvent& event) {
+    const std::uint32_t number = event.message.remove_pin().pin();
+    const auto found = review_.pins().find(number);
+    v1::ServerMessage answer;
+    if (found != review_.pins().end()) {
+        *answer.mutable_pin_changed() = found->second.message;
+        answer.mutable_pin_changed()->set_removed(true);
+    }
+    if (review_.remove_pin(number)) {
+        announce(event, answer);
+    } else {
+        server_.reply_error(event, review_.refusal().code(), review_.refusal().message());
+    }
+}
+
+void RenderLoop::save_viewpoint(const ClientEvent& event) {
+    const v1::SaveViewpoint& wanted = event.message.save_viewpoint();
+    v1::ViewpointChanged viewpoint;
+    viewpoint.set_by(event.viewer);
+    v1::Camera& camera = *viewpoint.mutable_camera();
+    camera.set_name(wanted.name());
+    *camera.mutable_eye() = wanted.eye();
+    *camera.mutable_target() = wanted.target();
+    camera.mutable_up()->set_y(1.0F);
+    if (wanted.has_up()) {
+        *camera.mutable_up() = wanted.up();
+    }
+    camera.set_vertical_fov(wanted.vertical_fov());
+    const v1::ViewpointChanged* added = review_.add_viewpoint(std::move(viewpoint));
+    if (added == nullptr) {
+        server_.reply_error(event, review_.refusal().code(), review_.refusal().message());
+        return;
+    }
+    v1::ServerMessage answer;
+    *answer.mutable_viewpoint_changed() = *added;
+    announce(event, answer);
+}
+
+void RenderLoop::remove_viewpoint(const ClientEvent& event) {
+    const std::uint32_t number = event.message.remove_viewpoint().viewpoint();
+    if (!review_.remove_viewpoint(number)) {
+        server_.reply_error(event, review_.refusal().code(), review_.refusal().message());
+        return;
+    }
+    v1::ServerMessage answer;
+    answer.mutable_viewpoint_changed()->set_viewpoint(number);
+    answer.mutable_viewpoint_changed()->set_by(event.viewer);
+    answer.mutable_viewpoint_changed()->set_removed(true);
+    announce(event, answer);
+}
+
+void RenderLoop::point_at(const ClientEvent& event) {
+    v1::ServerMessage message;
+    message.mutable_pointed()->set_by(event.viewer);
+    *message.mutable_pointed()->mutable_position() = event.message.point_at().position();
+    server_.broadcast(message, event.viewer);
+    server_.reply_ok(event);
+}
+
+void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
+    const Grid grid(event.message.probe_grid());
+    const std::vector<glm::vec3> points = grid.points();
+    const Camera& camera = session.camera();
+    std::vector<glm::uvec2> pixels;
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (const auto pixel = pixel_of(camera, session.size(), points[i])) {
+            pixels.push_back(*pixel);
+            indices.push_back(i);
+        }
+    }
+    v1::ServerMessage answer;
+    v1::ProbeGridResult& result = *answer.mutable_probe_grid_result();
+    result.set_epoch(epoch_);
+    result.mutable_illuminance()->Resize(static_cast<int>(points.size()), -1.0F);
+    result.mutable_relative_error()->Resize(static_cast<int>(points.size()), -1.0F);
+    prepare_image(session);
+    const auto found = session.probe(pixels);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] && grid.shows(found[i]->position, points[indices[i]], camera.eye)) {
+            const int at = static_cast<int>(indices[i]);
+            result.set_illuminance(at, luminance(found[i]->irradiance));
+            result.set_relative_error(at,
+                                      static_cast<float>(found[i]->relative_error.value_or(-1.0)));
+        }
+    }
+    server_.reply(event, answer);
+}
+
+/// Tells everybody who is here, where that has changed and not too often.
+void RenderLoop::send_presence(Clock::time_point now) {
+    const double interval =
+        std::max(least_presence_interval_s,
+                 presence_interval_per_viewer_s * static_cast<double>(sessions_.size()));
+    const double since = std::chrono::duration<double>(now - last_presence_).count();
+    if (!presence_changed_ || since < interval) {
+        return;
+    }
+    presence_changed_ = false;
+    last_presence_ = now;
+    v1::ServerMessage message;
+    message.mutable_presence();
+    for (const auto& [id, session] : sessions_) {
+        v1::Viewer& viewer = *message.mutable_presence()->add_viewers();
+        const Camera& camera = session->camera();
+        const glm::vec2 size(session->size());
+        viewer.set_viewer(id);
+        viewer.set_name(session->name());
+        viewer.set_role(session->role());
+        to_message(camera.eye, viewer.mutable_eye());
+        to_message(camera.target, viewer.mutable_target());
+        to_message(camera.up, viewer.mutable_up());
+        viewer.set_vertical_fov(camera.vertical_fov);
+        viewer.set_aspect(size.x / size.y);
+        viewer.set_following(session->following());
+    }
+    server_.broadcast(message);
+}
+
+/// Looks at the light of one pin, and tells everybody where it has changed.
+void RenderLoop::check_pin() {
+    if (solver_->correcting() || solver_->statistics().settled < pin_check_settled) {
+        return;
+    }
+    Pin* pin = review_.next_pin();
+    if (pin == nullptr) {
+        return;
+    }
+    if (update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_)) {
+        v1::ServerMessage message;
+        *message.mutable_pin_changed() = pin->message;
+        server_.broadcast(message);
+    }
+}
+
+void RenderLoop::add_snapshot(const ViewerSession& session, const ClientEvent& event) {
+    const v1::Snapshot& wanted = event.message.snapshot();
+    if (wanted.has_epoch() && wanted.epoch() > epoch_) {
+        server_.reply_error(
+            event, v1::Error::INVALID_ARGUMENT,
+            "snapshot.epoch: there have been only " + std::to_string(epoch_) + " changes");
+    } else if (wanted.has_epoch() && wanted.epoch() < log_.history().oldest()) {
+        server_.reply_error(event, v1::Error::NOT_FOUND,
+                            "snapshot.epoch: what was before change " +
+                                std::to_string(log_.history().oldest()) + " is not known any more");
+    } else {
+        snapshots_.add(event, session.camera(), session.look());
+    }
+}
+
+/// As it was right after a change; null where that is not known any more.
+std::unique_ptr<EarlierScene> RenderLoop::earlier_scene(std::uint32_t epoch) const {
+    const auto changes = log_.history().back_to(epoch);
+    return changes
+               ? std::make_unique<EarlierScene>(epoch, scene_, mesh_, *changes, settings_.solver)
+               : nullptr;
+}
+
+}  // namespace raybundle

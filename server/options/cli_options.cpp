@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options/cli_options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+#include "options/config_file.h"
+#include "options/option_table.h"
+
+namespace raybundle {
+
+namespace {
+
+struct CommandRow {
+    const char* name;
+    const char* help;
+    Options::Command command;
+    bool scene_required;
+};
+
+constexpr CommandRow command_table[] = {
+    {"serve", "Serve a scene to browsers", Options::Command::serve, false},
+    {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
+    {"accuracy", "Measure error over time of several methods against a reference",
+     Options::Command::accuracy, true},
+    {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
+     true},
+    {"bench", "Measure speed on this machine", Options::Command::bench, false},
+    {"selftest", "Compare with closed forms on this machine", Options::Command::selftest, false},
+    {"token", "Make an access token for serve", Options::Command::token, false},
+};
+
+struct MethodRow {
+    const char* name;
+    RenderMethod method;
+};
+
+/// Methods of `render`: ray bundles on the GPU, then references on the CPU.
+const MethodRow method_table[] = {
+    {"combined", StrategyProbabilities{}},
+    {"parallel-layered", StrategyProbabilities{1.0F, 0.0F, 0.0F}},
+    {"parallel-plane", StrategyProbabilities{0.0F, 1.0F, 0.0F}},
+    {"perspective", StrategyProbabilities{0.0F, 0.0F, 1.0F}},
+    {"path", ReferenceKind::path},
+    {"single-ray", ReferenceKind::single_ray},
+    {"ray-cast", ReferenceKind::ray_cast},
+    {"light", ReferenceKind::light},
+    {"bidirectional", ReferenceKind::bidirectional},
+    {"metropolis", ReferenceKind::metropolis},
+    {"photon-map", ReferenceKind::photon_map},
+};
+
+/// Adds a row of the table of `serve`.
+void add_row(CLI::App& app, Options& o, const ServeOption& row) {
+    const auto add = [&](const auto member) {
+        if constexpr (std::is_same_v<decltype(member), bool Options::*const>) {
+            app.add_flag(flag_of(row.key), o.*member, row.help);
+        } else if constexpr (std::is_same_v<decltype(member), SkyChoice Options::*const>) {
+            app.add_option(flag_of(row.key), (o.*member).text, row.help);
+        } else {
+            app.add_option(flag_of(row.key), o.*member, row.help)->capture_default_str();
+        }
+    };
+    std::visit(add, row.member);
+}
+
+void add_common(CLI::App& app, Options& o) {
+    for (const ServeOption& row : serve_options()) {
+        if (row.common) {
+            add_row(app, o, row);
+        }
+    }
+}
+
+/// Throws UsageError where a value of the command line is out of range.
+void check_rows(const CLI::App& app, const Options& o) {
+    for (const ServeOption& row : serve_options()) {
+        const CLI::Option* const option = app.get_option_no_throw(flag_of(row.key));
+        const bool given = option != nullptr && option->count() > 0;
+        if (const std::string problem = given ? problem_of(row, o) : ""; !problem.empty()) {
+            throw UsageError(flag_of(row.key) + ": " + problem);
+        }
+    }
+}
+
+void add_scene(CLI::App& app, Options& o, bool required) {
+    auto* scene = app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
+    if (required) {
+        scene->required();
+    }
+    app.add_option("--patch-size", o.patch_size,
+                   "Target edge of the patches, m (default: about 25 000 patches)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();
+}
+
+void add_serve(CLI::App& app, Options& o) {
+    app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
+    app.add_option("--config", o.config, "JSON file with these options; those given here win");
+    app.add_flag("--print-config", o.print_config, "Print the configuration in effect and exit");
+    for (const ServeOption& row : serve_options()) {
+        if (!row.common) {
+            add_row(app, o, row);
+        }
+    }
+}
+
+/// Completes the options of `serve` from the configuration file.
+void finish_serve(const CLI::App& app, Options& o) {
+    for (const ServeOption& row : serve_options()) {
+        if (app.get_option(flag_of(row.key))->count() > 0) {
+            o.on_command_line.insert(row.key);
+        }
+    }
+    if (!o.scene.empty()) {
+        o.on_command_line.insert("scene");
+    }
+    if (!o.config.empty()) {
+        apply_config_file(o.config, o);
+    }
+    if (o.scene.empty() && !o.print_config) {
+        throw UsageError("serve: needs a SCENE, on the command line or in the --config file");
+    }
+}
+
+void add_token(CLI::App& app, Options& o) {
+    app.add_option("--name", o.token_name, "Whom it is for; appears in the log");
+    app.add_option("--role", o.token_role, "VIEWER, REVIEWER or EDITOR")->capture_default_str();
+}
+
+void add_camera(CLI::App& app, Options& o) {
+    app.add_option("--camera", o.camera, "Camera of the scene, by name or index from 0");
+    app.add_option("--eye", o.eye, "Eye, x,y,z in metres (with --target)");
+    app.add_option("--target", o.target, "Point looked at, x,y,z in metres");
+    app.add_option("--fov", o.fov, "Vertical field of view, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1F, 179.0F));
+}
+
+void add_render(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output, "Picture to write: .exr (linear, cd/m²) or .png")
+        ->required();
+    add_camera(app, o);
+    app.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--seconds", o.seconds, "Solving time")->check(CLI::PositiveNumber);
+    app.add_option("--iterations", o.iterations, "Number of iterations; no clock decides anything")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--error", o.error,
+                   "Stop when the estimated relative error is below, e.g. 0.02; "
+                   "caustics that cannot be a tenth of it are skipped (not with --script, where "
+                   "things move)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--method", o.method,
+                   "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
+                   "CPU, as references, "
+                   "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
+                   "metropolis, photon-map")
+        ->capture_default_str();
+    app.add_option(
+           "--bias-for-noise", o.bias_for_noise,
+           "Cut off rare bright contributions as fits so many planned iterations; the result "
+           "is then biased (0: never)")
+        ->check(CLI::Range(0.0, 1e9));
+    app.add_flag("--constant-radiance", o.constant_radiance,
+                 "Transfer only what radiance is beyond its mean; for matt, closed, evenly lit "
+                 "rooms");
+    app.add_flag("--random-faces", o.random_faces,
+                 "Glossy surfaces send through the faces of their hemicubes that matter most, and "
+                 "now and then through the others");
+    app.add_option("--stats", o.stats, "Write statistics as JSON");
+    app.add_option("--script", o.script,
+                   "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "
+                   "iterations and error are those of each frame")
+        ->check(CLI::ExistingFile);
+}
+
+void add_accuracy(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output, "Folder to write index.html, accuracy.json, plots to")
+        ->required();
+    add_camera(app, o);
+    app.add_option("--size", o.accuracy_size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--seconds", o.seconds, "Solving time of each run (default: 10)")
+        ->check(CLI::Range(0.1, 86400.0));
+    app.add_option("--methods", o.methods,
+                   "Methods of render, between commas (default: all but ray-cast)");
+    app.add_option("--repeats", o.repeats, "Runs of each method, with seeds one apart")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    app.add_flag("--knobs", o.knobs,
+                 "Also vary patch size, bundle resolution and strategy probabilities");
+    app.add_option("--reference", o.reference,
+                   "Reference to compare with, .exr (default: path-traced, kept in the folder)");
+    app.add_option("--reference-seconds", o.reference_seconds,
+                   "At most for each reference (default: 60 times --seconds)")
+        ->check(CLI::PositiveNumber);
+}
+
+float parse_float(const std::string& option, const std::string& text) {
+    float value = 0.0F;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        throw UsageError(option + ": '" + text + "' is not a number");
+    }
+    return value;
+}
+
+}  // namespace
+
+void define_options(CLI::App& app, Options& options) {
+    app.description("Raybundle: global illumination in object space, served to browsers");
+    app.set_version_flag("--version", "raybundle " RAYBUNDLE_VERSION);
+    app.add_flag("--list-gpus", options.list_gpus, "List the EGL devices and exit");
+    for (const CommandRow& row : command_table) {
+        CLI::App* command = app.add_subcommand(row.name, row.help);
+        command->callback([&options, row, command] {
+            options.command = row.command;
+            check_rows(*command, options);
+            if (row.command == Options::Command::serve) {
+                finish_serve(*command, options);
+            }
+        });
+        if (row.command == Options::Command::token) {
+            add_token(*command, options);
+            continue;
+        }
+        add_common(*command, options);
+        if (row.command == Options::Command::serve) {
+            add_serve(*command, options);
+            continue;
+        }
+        if (row.command != Options::Command::selftest) {
+            add_scene(*command, options, row.scene_required);
+        }
+        if (row.command == Options::Command::render) {
+            add_render(*command, options);
+        } else if (row.command == Options::Command::accuracy) {
+            add_accuracy(*command, options);
+        } else if (row.command == Options::Command::inspect) {
+            command->add_flag("--json", options.json_to_stdout, "Print JSON");
+            command
+                ->add_option("--error", options.error,
+                             "Plan for pictures of this relative error: effects that cannot be a "
+                             "tenth of it are skipped, as render --error does")
+                ->check(CLI::PositiveNumber);
+            CLI::Option* const sheet =
+                command->add_option("--contact-sheet", options.contact_sheet,
+                                    "PNG of the scene with --effect and without, and its cost");
+            CLI::Option* const effect =
+                command->add_option("--effect", options.effect, "Name of an effect of the plan");
+            sheet->needs(effect);
+            effect->needs(sheet);
+        } else {
+            command->add_option("--json", options.json_file,
+                                "Also write the results as JSON (bench: plots beside it)");
+            if (row.command == Options::Command::bench) {
+                command
+                    ->add_option("--seconds", options.seconds,
+                                 "How long moves are followed (default: 3, and fewer variants)")
+                    ->check(CLI::Range(0.5, 600.0));
+            }
+        }
+    }
+    app.require_subcommand(0, 1);
+}
+
+glm::uvec2 parse_size(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    unsigned width = 0;
+    unsigned height = 0;
+    const char* end = text.data() + text.size();
+    const bool ok =
+        cross != std::string::npos &&
+        std::from_chars(text.data(), text.data() + cross, width).ptr == text.data() + cross &&
+        std::from_chars(text.data() + cross + 1, end, height).ptr == end;
+    if (!ok || width < 1 || height < 1 || width > 16384 || height > 16384) {
+        throw UsageError("--size: '" + text + "' is not WIDTHxHEIGHT with 1..16384 pixels each");
+    }
+    return {width, height};
+}
+
+glm::vec3 parse_vector(const std::string& option, const std::string& text) {
+    const std::size_t first = text.find(',');
+    const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
+    if (second == std::string::npos) {
+        throw UsageError(option + ": '" + text + "' is not x,y,z");
+    }
+    return {parse_float(option, text.substr(0, first)),
+            parse_float(option, text.substr(first + 1, second - first - 1)),
+            parse_float(option, text.substr(second + 1))};
+}
+
+std::pair<std::string, std::uint16_t> parse_address(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    unsigned port = 0;
+    const char* end = text.data() + text.size();
+    if (colon == std::string::npos || colon == 0 || colon + 1 == text.size() ||
+        std::from_chars(text.data() + colon + 1, end, port).ptr != end || port > 65535) {
+        throw UsageError("--listen: '" + text + "' is not HOST:PORT, e.g. 127.0.0.1:8080");
+    }
+    std::string host = text.substr(0, colon);
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
+        host = host.substr(1, host.size() - 2);
+    }
+    return {host, static_cast<std::uint16_t>(port)};
+}
+
+float metres_per_unit(const std::string& unit) {
+    static const std::map<std::string, float> units = {
+        {"m", 1.0F}, {"cm", 0.01F}, {"mm", 0.001F}, {"in", 0.0254F}, {"ft", 0.3048F}};
+    const auto found = units.find(unit);
+    if (found == units.end()) {
+        throw UsageError("--unit: '" + unit + "' is none of m, cm, mm, in, ft");
+    }
+    return found->second;
+}
+
+RenderMethod parse_method(const std::string& method) {
+    for (const MethodRow& row : method_table) {
+        if (method == row.name) {
+            return row.method;
+        }
+    }
+    std::string names;
+    for (const std::string& name : method_names()) {
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    throw UsageError("--method: '" + method + "' is none of " + names);
+}
+
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const MethodRow& row : method_table) {
+        names.emplace_back(row.name);
+    }
+    return names;
+}
+
+}  // namespace raybundle
