@@ -359,6 +359,7 @@ bool RenderLoop::solve() {
     last_step_ms_ = cost;
     if (!solver_->last_strategy()) {
         phase_budget_.note_bundle(Server::now_ms(), !solver_->correcting());
+        note_phase_end();
     }
     if (walking(Clock::now())) {
         solving_.charge(cost);

@@ -89,6 +89,8 @@ class RenderLoop {
     void announce(const PendingChange& pending);
     void gather_all();
     void begin_phase(Solver& solver);
+    void draw_for_drag();
+    void note_phase_end();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
@@ -128,6 +130,7 @@ class RenderLoop {
     void refresh_statistics(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
     void choose_moving_scale(Clock::time_point now);
+    [[nodiscard]] bool dragging(Clock::time_point now) const;
     [[nodiscard]] bool walking(Clock::time_point now) const;
     [[nodiscard]] bool solver_may_run();
     bool smooth_pictures();
@@ -162,7 +165,10 @@ class RenderLoop {
     ReceiverRota rota_;
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     Clock::time_point last_walk_frame_;  // of somebody who moves
-    MovingScale moving_scale_;
+    MovingScale moving_scale_;           // of a walk's pictures
+    MovingScale drag_scale_;             // of all pictures while an object is dragged
+    double dragged_phase_ms_ = 0.0;      // mean, if all pictures were full; 0: not known
+    Clock::time_point last_drag_, phase_begin_;
     CostModel cost_;
     PhaseBudget phase_budget_;
     LoopMetrics metrics_;

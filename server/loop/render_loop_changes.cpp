@@ -8,6 +8,7 @@
 #include "bundle/low_discrepancy.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
+#include "stream/elapsed.h"
 
 namespace raybundle {
 
@@ -110,7 +111,36 @@ void RenderLoop::begin_phase(Solver& solver) {
     }
     solver.set_special(phase_budget_.settings(target, !changes_.empty()));
     phase_budget_.begin(Server::now_ms());
+    phase_begin_ = Clock::now();
     metrics_.count_phase();
+}
+
+/// An object is being dragged: its phases gather light in fewer pixels where they take too long.
+void RenderLoop::draw_for_drag() {
+    last_drag_ = Clock::now();
+    for (const auto& [id, session] : sessions_) {
+        if (session->has_image()) {
+            session->note_drag(drag_scale_.scale(), last_drag_);
+        }
+    }
+}
+
+/// After each bundle of a special phase. What a whole phase of a drag takes decides about the
+/// pictures of the next.
+void RenderLoop::note_phase_end() {
+    if (solver_->correcting() || !dragging(phase_begin_)) {
+        return;
+    }
+    double full = 0.0;
+    double drawn = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        full += session->has_image() ? session->pixels() : 0.0;
+        drawn += session->has_image() ? session->drawn_pixels() : 0.0;
+    }
+    const double full_ms = milliseconds_since(phase_begin_) * full / std::max(drawn, 1.0);
+    constexpr double newest = 0.3;
+    dragged_phase_ms_ += (dragged_phase_ms_ > 0.0 ? newest : 1.0) * (full_ms - dragged_phase_ms_);
+    drag_scale_.note(dragged_phase_ms_, PhaseBudget::deadline_ms);
 }
 
 void RenderLoop::announce(const PendingChange& pending) {
@@ -139,6 +169,15 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
     }
     gather_all();
     begin_phase(*solver_);
+    const auto waits_for_more = [](const PendingChange& p) {
+        const v1::MoveObject& last = p.requests.back().message.move_object();
+        return last.has_final() && !last.final();
+    };
+    if (std::any_of(pending.begin(), pending.end(), [&](const PendingChange& p) {
+            return !p.requests.empty() && waits_for_more(p);
+        })) {
+        draw_for_drag();
+    }
     solver_->move_objects(moves, receivers_);
     for (const PendingChange& p : pending) {
         announce(p);

@@ -17,6 +17,7 @@ namespace {
 constexpr double frame_slice_ms = 60.0;      // of frames between two steps of the solver
 constexpr double walkthrough_ms = 40.0;      // drawing and solving; with encoding some 50
 constexpr double walk_pause_ms = 250.0;      // without a frame nobody walks
+constexpr double drag_pause_ms = 400.0;      // without a step nobody drags
 constexpr double least_solver_share = 0.2;   // of the time, where frames take more than that
 constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
@@ -116,6 +117,11 @@ void RenderLoop::choose_moving_scale(Clock::time_point now) {
     if (full_ms > 0.0) {
         moving_scale_.note(full_ms, (1.0 - least_solver_share) * walkthrough_ms);
     }
+}
+
+/// Whether an object has just been dragged.
+bool RenderLoop::dragging(Clock::time_point now) const {
+    return milliseconds(now - last_drag_) < drag_pause_ms;
 }
 
 /// Whether somebody gets frames of a walk, and these and the solver's steps do not fit into its
@@ -323,7 +329,7 @@ bool RenderLoop::greet_within(TimeBudget& budget, std::span<const Wanted> newcom
 void RenderLoop::send_frame(const Wanted& wanted) {
     ViewerSession& session = *sessions_.at(wanted.viewer);
     const auto start = Clock::now();
-    session.set_moving_scale(moving_scale_.scale(), start);
+    session.set_moving_scale((dragging(start) ? drag_scale_ : moving_scale_).scale(), start);
     try {
         prepare_image(session);
         session.render(wanted.advice, figures(), start);

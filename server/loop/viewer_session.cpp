@@ -69,14 +69,14 @@ void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t reque
     view_waits_ = true;
     camera_id_ = request_id;
     note_change();
-    last_camera_ = last_change_;
+    last_motion_ = last_change_;
 }
 
 void ViewerSession::adopt_camera(const Camera& camera) {
     camera_ = camera;
     view_waits_ = true;
     note_change();
-    last_camera_ = last_change_;
+    last_motion_ = last_change_;
 }
 
 void ViewerSession::apply_view() {
@@ -89,15 +89,26 @@ void ViewerSession::apply_view() {
         image_->set_view(camera_, size_);
         return;
     }
-    image_->set_camera(camera_, glm::uvec2(glm::round(glm::dvec2(size_) * moving_scale_)));
+    image_->set_camera(camera_, drawn_size());
     redrawn_ = true;
 }
 
+glm::uvec2 ViewerSession::drawn_size() const {
+    return {glm::round(glm::dvec2(size_) * moving_scale_)};
+}
+
 void ViewerSession::set_moving_scale(double scale, Clock::time_point now) {
-    const bool moves = camera_moves(now);
+    const bool moves = in_motion(now);
     // A picture in motion changes its size with its camera, one that has come to rest at once.
     view_waits_ = view_waits_ || (!moves && image_ && image_->size() != image_->full_size());
     moving_scale_ = moves ? scale : 1.0;
+}
+
+void ViewerSession::note_drag(double scale, Clock::time_point now) {
+    last_motion_ = now;
+    moving_scale_ = scale;
+    view_waits_ = view_waits_ || image_->size() != drawn_size();
+    apply_view();
 }
 
 void ViewerSession::note_frame_cost(double cost_ms) {
@@ -183,8 +194,9 @@ bool ViewerSession::moving(Clock::time_point now) const {
     return view_waits_ || since_change_s(now) < moving_s;
 }
 
-bool ViewerSession::camera_moves(Clock::time_point now) const {
-    return seconds(now - last_camera_) < moving_s;
+/// The camera has just moved, or an object has been dragged.
+bool ViewerSession::in_motion(Clock::time_point now) const {
+    return seconds(now - last_motion_) < moving_s;
 }
 
 bool ViewerSession::smooth(Clock::time_point now) {
@@ -207,7 +219,7 @@ bool ViewerSession::due(Clock::time_point now) const {
     if (!image_) {
         return acknowledged_;
     }
-    if (image_->size() != image_->full_size() && !camera_moves(now)) {
+    if (image_->size() != image_->full_size() && !in_motion(now)) {
         return true;
     }
     return image_->samples() > samples_at_frame_ &&

@@ -34,9 +34,11 @@ class ViewerSession {
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void set_viewport(glm::uvec2 size);
     void apply_view();
-    /// Next frame's picture has so much of its full width and height while the camera moves.
-    /// Between special phases only.
+    /// Next frame's picture has so much of its full width and height while the camera moves or
+    /// objects are dragged. Between special phases only.
     void set_moving_scale(double scale, Clock::time_point now);
+    /// Somebody drags an object: the picture has this size at once. Requires has_image().
+    void note_drag(double scale, Clock::time_point now);
     /// What a frame of the moving camera takes with a full picture, ms; 0: not known yet.
     [[nodiscard]] double full_frame_ms() const { return full_frame_ms_; }
     /// The frame just rendered took so long.
@@ -120,7 +122,8 @@ class ViewerSession {
 
   private:
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
-    [[nodiscard]] bool camera_moves(Clock::time_point now) const;
+    [[nodiscard]] bool in_motion(Clock::time_point now) const;
+    [[nodiscard]] glm::uvec2 drawn_size() const;
     [[nodiscard]] float exposure(const ViewerImage& image);
     void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
                  Clock::time_point now);
@@ -156,7 +159,7 @@ class ViewerSession {
     bool paused_ = false;
     bool acknowledged_ = false;
     v1::FrameHeader header_;
-    Clock::time_point last_change_, last_camera_, last_frame_, last_statistics_;
+    Clock::time_point last_change_, last_motion_, last_frame_, last_statistics_;
     std::uint64_t samples_at_frame_ = 0;
 };
 

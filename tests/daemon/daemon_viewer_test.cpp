@@ -128,6 +128,41 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
     }
 }
 
+/// Pictures in motion may be smaller where there is no time for more; probes mean the full ones.
+TEST_F(ViewersTest, APictureInMotionMayBeSmallerAndIsFullAgainAtRest) {
+    constexpr int kWidth = 1280;
+    constexpr int kHeight = 960;
+    constexpr int kShortBox = 2;
+    JsonViewer viewer(daemon_->port());
+    const Json welcome = viewer.join("", kWidth, kHeight);
+    const auto is_full = [kWidth](const Json& f) { return f["width"] == kWidth; };
+    const auto expect_whole = [kWidth](const Json& f) {
+        EXPECT_GE(f.value("width", 0), kWidth * 5 / 8);
+        EXPECT_LE(f.value("width", 0), kWidth);
+        EXPECT_NEAR(f.value("width", 0) / 4.0, f.value("height", 0) / 3.0, 0.5);
+    };
+    for (int turn = 1; turn <= 12; ++turn) {
+        viewer.send({{"id", turn},
+                     {"setCamera",
+                      {{"eye", {{"x", 2.7 + 0.02 * turn}, {"y", 2.7}, {"z", -7.5}}},
+                       {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+        expect_whole(viewer.next_frame([&](const Json& f) { return f["cameraId"] == turn; }));
+    }
+    const Json corner = {{"probe", {{"pixel", {{"x", kWidth / 2}, {"y", kHeight - 250}}}}}};
+    EXPECT_TRUE(viewer.request(corner).at("probeResult").at("hit"));
+    EXPECT_FALSE(viewer.next_frame(is_full).empty());
+    Json transform = welcome["welcome"]["scene"]["objects"][kShortBox - 1]["transform"];
+    for (int step = 1; step <= 6; ++step) {
+        transform["translation"]["x"] = 0.02 * step;
+        const Json moved = viewer.request(
+            {{"moveObject",
+              {{"object", kShortBox}, {"transform", transform}, {"final", step == 6}}}});
+        const int epoch = moved.at("sceneChanged").at("epoch");
+        expect_whole(viewer.next_frame([&](const Json& f) { return f["epoch"] == epoch; }));
+    }
+    EXPECT_FALSE(viewer.next_frame(is_full).empty());
+}
+
 TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
     constexpr int kRequests = 60;  // fewer than may wait
     JsonViewer moving(daemon_->port());
