@@ -2,6 +2,8 @@
 // The keyboard: what each key does while the picture has the focus, or nothing has. Undo and redo work
 // everywhere but in fields of text.
 
+import {byId} from './elements.js';
+
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
  * @typedef {object} KeyTargets
@@ -24,6 +26,13 @@ const NUDGE_KEYS = new Map([
     ['ArrowDown', [0, -1]],
 ]);
 
+/** What Enter does in the middle of the picture, by tool. @type {Record<string, string>} */
+const AIMS = {
+    select: 'Enter selects this',
+    measure: 'Enter measures here',
+    pin: 'Enter leaves a note here',
+};
+
 /** @type {Map<string, (targets: KeyTargets) => void>} */
 const COMMANDS = new Map([
     ['Home', ({app}) => app.flyTo(0)],
@@ -34,11 +43,35 @@ const COMMANDS = new Map([
     ['KeyG', ({gizmo}) => gizmo.setMode('move')],
     ['KeyR', ({gizmo}) => gizmo.setMode('turn')],
     ['KeyT', ({gizmo}) => gizmo.setMode('size')],
-    ['Enter', ({clickMiddle}) => clickMiddle()],
+    ['Enter', pressMiddle],
     ['Digit1', ({setTool}) => setTool('select')],
     ['Digit2', ({setTool}) => setTool('measure')],
     ['Digit3', ({setTool}) => setTool('pin')],
 ]);
+
+/** @param {KeyTargets} targets */
+function pressMiddle({app, clickMiddle}) {
+    app.picture.element.classList.add('by-keys');
+    clickMiddle();
+}
+
+/**
+ * Marks where Enter clicks, for those who have come to the picture by the keyboard.
+ *
+ * @param {RaybundleApp} app
+ */
+function addAim(app) {
+    const {element} = app.picture;
+    element.addEventListener('focus', () => {
+        element.classList.toggle('by-keys', element.matches(':focus-visible'));
+    });
+    for (const type of ['pointerdown', 'pointermove']) {
+        element.addEventListener(type, () => element.classList.remove('by-keys'));
+    }
+    app.on('tool', (tool) => {
+        byId('aim', HTMLElement).textContent = AIMS[tool];
+    });
+}
 
 /**
  * @param {KeyTargets} targets
@@ -101,6 +134,7 @@ const isText = (target) =>
 /** @param {KeyTargets} targets */
 export function addKeys(targets) {
     const {app} = targets;
+    addAim(app);
     document.addEventListener('keydown', (event) => {
         const here = event.target === document.body || event.target === app.picture.element;
         const modified = event.ctrlKey || event.metaKey;

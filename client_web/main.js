@@ -4,6 +4,7 @@
 import {RaybundleApp} from './app.js';
 import {Compare} from './compare.js';
 import {DisplayPanel} from './display_panel.js';
+import {addEffects} from './effects.js';
 import {byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
@@ -23,7 +24,7 @@ import {ScenePanel} from './scene_panel.js';
 import {fromHash, toHash} from './share.js';
 import {SnapshotPanel} from './snapshot_panel.js';
 import {addTabs} from './tabs.js';
-import {TargetPanel, addEffects} from './target_panel.js';
+import {TargetPanel} from './target_panel.js';
 import {Viewpoints} from './viewpoints.js';
 import {FirstHint, Walking, remembered} from './walking.js';
 

@@ -135,7 +135,7 @@ picture ${escaped(pictureError(error))}. ${escaped(server)}. <a href="${escaped(
 ${content.scale ? scaleHtml(content.scale) : ''}
 ${section('Pins', ['#', 'Note', 'Illuminance then', 'Epoch', 'Light', 'By'], pins)}
 ${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'Epoch'], points)}
-${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uo', 'Typical error (95 %)'], grid)}
+${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uniformity Uo (minimum / mean)', 'Typical error (95 %)'], grid)}
 ${section('Changes', ['Epoch', 'Time', 'By', 'What'], changes)}
 </body></html>
 `;

@@ -15,7 +15,8 @@ std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
     const std::lock_guard lock(mutex_);
     if (present_ >= max_viewers_) {
         return Denial{{v1::Error::RESOURCE_EXHAUSTED,
-                       "the server is full, it takes " + std::to_string(max_viewers_) + " viewers",
+                       "the server is full, it takes " + std::to_string(max_viewers_) +
+                           (max_viewers_ == 1 ? " viewer" : " viewers"),
                        std::nullopt},
                       CloseCode::try_again_later};
     }

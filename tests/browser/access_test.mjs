@@ -173,6 +173,25 @@ describe('by keyboard', () => {
     });
 });
 
+describe('the mark in the middle of the picture', () => {
+    it('is there for who has come by the keyboard, and says what Enter does', async () => {
+        const {page} = await openPage();
+        await page.focus('#panel-toggle');
+        await page.keyboard.press('Tab');
+        assert.equal(await focused(page), 'picture');
+        assert.equal(await page.innerText('#aim'), 'Enter selects this');
+        await page.keyboard.press('Digit2');
+        assert.equal(await page.innerText('#aim'), 'Enter measures here');
+        await keepScreenshot(page, 'aim');
+        await page.locator('#picture').click({position: {x: 100, y: 300}});
+        await page.keyboard.down('KeyW');
+        assert.ok(await page.isHidden('#aim'), 'it lies in the way of who walks');
+        await page.keyboard.up('KeyW');
+        await page.keyboard.press('Enter');
+        assert.ok(await page.isVisible('#aim'));
+    });
+});
+
 describe('by ear', () => {
     it('every control has a name in the accessibility tree, and the countdown is not said each second', async () => {
         const {page} = await openPage(obeys({pins: [PIN]}));

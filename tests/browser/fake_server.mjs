@@ -82,7 +82,7 @@ export const WELCOME = {
         effects: [
             {name: 'sky', active: false, reason: 'no sky is set'},
             {
-                name: 'gloss',
+                name: 'glossy',
                 active: true,
                 reason: 'one material is glossy',
                 pathClass: 'L(D|G)*E',

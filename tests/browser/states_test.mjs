@@ -108,14 +108,16 @@ describe('the page without its server', () => {
         await page.click('#tab-accuracy');
         assert.match(await page.textContent('#renderer'), /without a graphics card.*llvmpipe/);
         const rows = (list) => page.$$eval(`${list} li`, (all) => all.map((row) => row.textContent));
-        const cost = 'paths L(D|G)*E · 56 bytes a patch · at most 50 % of the light';
-        assert.deepEqual(await rows('#effects'), [`glossonone material is glossy${cost}`]);
+        const way = 'lamp or sky → matt or glossy, 0 or more → eye';
+        const cost = 'at most 50 % of the light · 56 bytes a patch';
+        assert.deepEqual(await rows('#effects'), [`Blurred reflectionsonglossy: one material is glossy${way}${cost}`]);
+        assert.match(await page.getAttribute('#effects .way', 'title'), /L\(D\|G\)\*E/);
         assert.ok(await page.isHidden('#effects-off li'));
         await page.focus('#effects-off-count');
         await page.keyboard.press('Enter');
         await page.waitForSelector('#effects-off li', {state: 'visible'});
         assert.equal(await page.textContent('#effects-off-count'), 'Not needed here: 1');
-        assert.deepEqual(await rows('#effects-off'), ['skyoffno sky is set']);
+        assert.deepEqual(await rows('#effects-off'), ['Light of the skyoffsky: no sky is set']);
     });
 });
 

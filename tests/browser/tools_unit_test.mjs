@@ -7,6 +7,7 @@ import {describe, it} from 'node:test';
 import {goTo, look, project, walk} from '../../client_web/camera.js';
 import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
+import {effectCost, pathInWords} from '../../client_web/effects.js';
 import {
     csvCell, gridCsv, gridOn, mainFace, pointsOf, spreadOver, standardStep, summaryOf, typicalError,
 } from '../../client_web/grid.js';
@@ -23,7 +24,7 @@ import {PlacedObject} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
 import {adviceOf, bannerOf, sentence} from '../../client_web/status.js';
-import {duration, effectCost, targetAt} from '../../client_web/target_panel.js';
+import {duration, targetAt} from '../../client_web/target_panel.js';
 import * as units from '../../client_web/units.js';
 import {centre, length, sub, vec3} from '../../client_web/vector.js';
 import {cssMatrix, homography} from '../../client_web/view_warp.js';
@@ -370,11 +371,21 @@ describe('changes', () => {
 
 describe('the effects plan', () => {
     it('says what an effect costs and how much light comes by it, where it is on', () => {
-        const glossy = {name: 'glossy', active: true, reason: '', pathClass: 'L(D|G)*E', shareBound: 1};
-        assert.equal(effectCost({...glossy, bytesPerPatch: 56}), 'paths L(D|G)*E · 56 bytes a patch');
+        const glossy = {name: 'glossy', active: true, reason: '', shareBound: 1};
+        assert.equal(effectCost({...glossy, bytesPerPatch: 56}), '56 bytes a patch');
         assert.match(effectCost({...glossy, shareBound: 0.25, bytesPerPatch: 0}), /at most 25 % of the light$/);
         assert.equal(effectCost({...glossy, active: false}), '');
         assert.equal(effectCost({name: 'sky', active: true, reason: ''}), '');
+    });
+
+    it('tells the ways of light in words', () => {
+        assert.equal(pathInWords('LD+E'), 'lamp or sky → matt, 1 or more → eye');
+        assert.equal(
+            pathInWords('L(D|G)*S+E'),
+            'lamp or sky → matt or glossy, 0 or more → mirror or glass, 1 or more → eye',
+        );
+        assert.equal(pathInWords('L(D|G)*(G|S)E'),
+            'lamp or sky → matt or glossy, 0 or more → glossy or mirror or glass → eye');
     });
 });
 

@@ -169,7 +169,7 @@ TEST_F(ServerWebSocketTest, TheServerIsFull) {
     RawClient second(port());
     second.upgrade();
     second.send_text(kHello);
-    EXPECT_TRUE(has(second.read_message()->payload, "the server is full, it takes 1 viewers"));
+    EXPECT_TRUE(has(second.read_message()->payload, "the server is full, it takes 1 viewer\""));
     EXPECT_EQ(second.read_message()->close_code(), 1013);
 }
 
