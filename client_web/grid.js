@@ -7,6 +7,7 @@ import {add, clamp, cross, dot, normalise, scale, sub, vec3} from './vector.js';
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {import('./protocol.js').Bounds} Bounds
+ * @typedef {import('./protocol.js').ProbeGridResult} ProbeGridResult
  * @typedef {object} Grid
  * @property {Vec3} origin  first point, world space, metres
  * @property {Vec3} stepX
@@ -90,6 +91,43 @@ export function pointsOf({origin, stepX, stepY, columns, rows}) {
 }
 
 /**
+ * A grid that lies on something that has moved.
+ *
+ * @param {Grid} grid
+ * @param {(point: Vec3) => Vec3} carry  affine
+ * @returns {Grid}
+ */
+export function carriedGrid(grid, carry) {
+    const origin = carry(grid.origin);
+    const step = (/** @type {Vec3} */ way) => sub(carry(add(grid.origin, way)), origin);
+    return {...grid, origin, stepX: step(grid.stepX), stepY: step(grid.stepY)};
+}
+
+/**
+ * A grid measured again: what only the measurement before has seen, is kept while nothing has changed.
+ *
+ * @param {ProbeGridResult} before
+ * @param {ProbeGridResult} now
+ * @returns {ProbeGridResult | null}  null: it is out of sight
+ */
+export function measuredAgain(before, now) {
+    if (now.illuminance.every((value) => value < 0)) {
+        return null;
+    }
+    if (now.epoch !== before.epoch) {
+        return now;
+    }
+    const seen = now.illuminance.map((value) => value >= 0);
+    const kept = (/** @type {number[]} */ values, /** @type {number[]} */ others) =>
+        values.map((value, i) => (seen[i] ? value : others[i]));
+    return {
+        illuminance: kept(now.illuminance, before.illuminance),
+        relativeError: kept(now.relativeError, before.relativeError),
+        epoch: now.epoch,
+    };
+}
+
+/**
  * @param {number[]} illuminance  lx; negative: not measured
  * @returns {GridSummary | null}  null: nothing was measured
  */
@@ -107,7 +145,7 @@ export function summaryOf(illuminance) {
 
 /**
  * @param {Grid} grid
- * @param {import('./protocol.js').ProbeGridResult} result
+ * @param {ProbeGridResult} result
  * @returns {string} table with a head, points that were not measured left empty
  */
 export function gridCsv(grid, {illuminance, relativeError, epoch}) {

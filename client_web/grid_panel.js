@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A grid of measured points: on which surface, what they say together, and their dots in the picture.
+// A grid of measured points: on which surface, what they say together, and their dots in the picture. It
+// goes with the object that it lies on, and is measured again while light settles.
 
 import {onScale, turbo} from './colour.js';
 import {byId, fileName, saveFile, showValue} from './elements.js';
-import {faceName, gridCsv, gridOn, mainFace, pointsOf, spreadOver, summaryOf, typicalError} from './grid.js';
+import {
+    carriedGrid, faceName, gridCsv, gridOn, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf, typicalError,
+} from './grid.js';
 import {SETTLED} from './readouts.js';
+import {Anchor} from './scene_model.js';
 import {NOT_YET, estimated, inUnit, plusMinus} from './units.js';
-import {corners, length} from './vector.js';
+import {corners, length, sub} from './vector.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -15,16 +19,24 @@ import {corners, length} from './vector.js';
  * @typedef {import('./protocol.js').ProbeResult} ProbeResult
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  * @typedef {object} ShownGrid
- * @property {import('./grid.js').Grid} grid
+ * @property {import('./grid.js').Grid} grid  where it is now
+ * @property {import('./grid.js').Grid} laid  where it was laid
+ * @property {Anchor} anchor
  * @property {import('./protocol.js').ProbeGridResult} result
  * @property {string} surface  that it lies on, for people
  * @property {boolean} settled  whether the light was
+ * @property {boolean} outdated  whether something has changed since
+ * @property {number | null} iterations  of the light, when it was measured
+ * @property {string} scene
  */
 
 /** Choice of the selected object; those of points are their numbers. */
 const SELECTED = 'selected';
 /** A selected object is looked for at so many places squared, fewer than the server lets wait. */
 const PLACES_PER_SIDE = 6;
+const RENEW_MS = 2000;
+/** What moves by less has not moved, metres. */
+const STILL = 1e-6;
 const SVG = 'http://www.w3.org/2000/svg';
 const NOTHING =
     'There is no surface yet: select an object, or choose Measure below the picture and click the surface.';
@@ -35,6 +47,7 @@ export class GridPanel {
     #surface = byId('grid-surface', HTMLSelectElement);
     #button = byId('measure-grid', HTMLButtonElement);
     #state = byId('grid-state', HTMLElement);
+    #renewing = false;
 
     /**
      * @param {RaybundleApp} app
@@ -49,6 +62,10 @@ export class GridPanel {
         app.on('selection', (object) => this.#list(object ? SELECTED : ''));
         measuring.addEventListener('points', () => this.#list(String(measuring.points.at(-1)?.number ?? '')));
         measuring.addEventListener('unit', () => this.#show());
+        app.on('moved', () => this.#follow());
+        app.on('sceneChanged', () => this.#follow());
+        app.on('welcome', () => this.#follow());
+        setInterval(() => this.#renew(), RENEW_MS);
         this.#list('');
     }
 
@@ -60,6 +77,7 @@ export class GridPanel {
             return;
         }
         this.#button.disabled = true;
+        this.#state.setAttribute('aria-live', 'polite');
         this.#state.textContent = 'Measuring …';
         const problem = await this.#measureOn(this.#surface.value, scene);
         this.#button.disabled = false;
@@ -86,15 +104,66 @@ export class GridPanel {
         const object = scene.object(hit.object);
         const step = Number(byId('grid-step', HTMLSelectElement).value);
         const grid = gridOn(hit.position, hit.normal, object?.bounds ?? scene.bounds, step);
-        const {origin, stepX, stepY, columns, rows} = grid;
-        const answer = await this.app.ask({probeGrid: {origin, stepX, stepY, columns, rows}});
-        const result = answer?.probeGridResult;
+        const anchor = new Anchor(object);
+        const result = (await this.app.ask({probeGrid: grid}))?.probeGridResult;
         if (!result) {
             return 'The grid could not be measured.';
         }
         const surface = `${object?.name ?? 'Surface'}, ${faceName(hit.normal)}`;
-        this.shown = {grid, result, surface, settled: this.app.stats.settled >= SETTLED};
+        this.shown = {grid, laid: grid, anchor, result, surface, scene: scene.name, ...this.#light()};
+        this.#follow();
         return '';
+    }
+
+    /** What is known of the light that a grid is measured in now. */
+    #light() {
+        const {settled, iterations} = this.app.stats;
+        return {settled: settled >= SETTLED, iterations, outdated: false};
+    }
+
+    /** Takes the grid to where the object now is that it lies on. */
+    #follow() {
+        const {shown} = this;
+        const {scene} = this.app;
+        if (!shown || !scene) {
+            return;
+        }
+        if (shown.scene !== scene.name) {
+            this.shown = null;
+            this.#show();
+            return;
+        }
+        const grid = carriedGrid(shown.laid, shown.anchor.carry(scene));
+        const parts = /** @type {const} */ (['origin', 'stepX', 'stepY']);
+        const moved = parts.some((part) => length(sub(grid[part], shown.grid[part])) > STILL);
+        if (moved || (!shown.outdated && shown.result.epoch !== scene.epoch)) {
+            this.shown = {...shown, grid, outdated: true};
+            this.#state.setAttribute('aria-live', 'off');
+            this.#show();
+        }
+    }
+
+    /** Measures again what is in view, where there is news of its light. */
+    async #renew() {
+        const {shown, app} = this;
+        const idle = app.client.state !== 'connected' || document.hidden || this.#renewing;
+        if (!shown || idle || app.mover.held !== null || app.camera.moving) {
+            return;
+        }
+        if (!shown.outdated && shown.iterations === app.stats.iterations) {
+            return;
+        }
+        this.#renewing = true;
+        const light = this.#light();
+        // That it cannot be measured now is nothing to tell: its state says that it is not up to date.
+        const answer = await app.client.request({probeGrid: shown.grid}).answer.catch(() => null);
+        this.#renewing = false;
+        const result = answer?.probeGridResult && measuredAgain(shown.result, answer.probeGridResult);
+        if (result && this.shown === shown) {
+            this.shown = {...shown, result, ...light, outdated: result.epoch !== app.scene?.epoch};
+            this.#state.setAttribute('aria-live', 'off');
+            this.#show();
+        }
     }
 
     /**
@@ -188,7 +257,8 @@ export class GridPanel {
                 group.replaceChildren();
                 return;
             }
-            const {grid, result} = this.shown;
+            const {grid, result, outdated} = this.shown;
+            group.classList.toggle('outdated', outdated);
             const scale = display.mode === 'FALSE_ILLUMINANCE' ? this.app.frame?.scaleMaximum : undefined;
             const top = scale ?? Math.max(...result.illuminance, 1e-3);
             const points = pointsOf(grid);
@@ -219,17 +289,20 @@ export class GridPanel {
  * @param {ShownGrid} shown
  * @returns {string}
  */
-export function stateOf({grid, result, surface, settled}) {
+export function stateOf({grid, result, surface, settled, outdated}) {
     const seen = summaryOf(result.illuminance)?.measured ?? 0;
     const total = grid.columns * grid.rows;
     const size = `${surface}: ${grid.columns} × ${grid.rows} points, ${length(grid.stepX).toFixed(2)} m apart.`;
     if (seen === 0) {
-        return `${size} None of them is in view: turn until the picture shows this surface, then measure again.`;
+        return `${size} None of them is in view: turn until the picture shows this surface.`;
+    }
+    if (outdated) {
+        return `${size} The light has changed since: new values come as soon as the picture shows this surface.`;
     }
     const error = plusMinus(typicalError(result.relativeError));
     const unknown = error === NOT_YET;
     const known = unknown ? `Most values are ${NOT_YET}.` : `Typical error ${error}.`;
     const settling = settled ? '' : ' The light is still settling.';
-    const later = unknown || !settled ? ' Measure again later.' : '';
+    const later = unknown || !settled ? ' Better values come by themselves.' : '';
     return `${size} ${seen} of ${total} are in view. ${known}${settling}${later}`;
 }

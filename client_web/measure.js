@@ -3,6 +3,7 @@
 
 import {announce, byId, fileName, saveFile, smallButton} from './elements.js';
 import {csvCell} from './grid.js';
+import {Anchor} from './scene_model.js';
 import {estimated, inUnit, measured, noteOf, plusMinus} from './units.js';
 import {length, sub} from './vector.js';
 
@@ -14,7 +15,7 @@ import {length, sub} from './vector.js';
  * @typedef {import('./protocol.js').ProbeResult} ProbeResult
  * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {import('./units.js').IlluminanceUnit} IlluminanceUnit
- * @typedef {{number: number, probe: ProbeResult, position: Vec3, mark: HTMLElement, row: HTMLTableRowElement}} MeasuredPoint
+ * @typedef {{number: number, probe: ProbeResult, laid: Vec3, position: Vec3, anchor: Anchor, text: string, mark: HTMLElement, row: HTMLTableRowElement}} MeasuredPoint
  */
 
 const MAX_POINTS = 40;
@@ -24,7 +25,10 @@ const MAX_REFRESHED = 8;
 /** A probe further from the point than this has met something else, metres. */
 const SAME_PLACE = 0.05;
 
-/** Events: `unit`, when illuminance is shown in another one; `points`, when there are more or fewer. */
+/**
+ * Events: `unit`, when illuminance is shown in another one; `points`, when there are more or fewer; `values`,
+ * when one says something else.
+ */
 export class Measuring extends EventTarget {
     /** @type {MeasuredPoint[]} */
     points = [];
@@ -32,6 +36,7 @@ export class Measuring extends EventTarget {
     unit = 'lx';
     #next = 1;
     #refreshing = false;
+    #scene = '';
     #table = byId('points', HTMLTableElement);
 
     /**
@@ -48,7 +53,26 @@ export class Measuring extends EventTarget {
             byId('points-choose', HTMLElement).hidden = tool === 'measure';
             byId('points-click', HTMLElement).hidden = tool !== 'measure';
         });
+        app.on('moved', () => this.#follow());
+        app.on('welcome', () => this.#welcomed());
         setInterval(() => this.#refresh(), REFRESH_MS);
+    }
+
+    /** Points go with the objects that they have been measured on. */
+    #follow() {
+        for (const point of this.points) {
+            point.position = point.anchor.carry(this.app.scene)(point.laid);
+        }
+    }
+
+    /** Points of another scene mean nothing in this one. */
+    #welcomed() {
+        const {name = ''} = this.app.scene ?? {};
+        if (name !== this.#scene) {
+            [...this.points].forEach((point) => this.#remove(point));
+        }
+        this.#scene = name;
+        this.#follow();
     }
 
     /**
@@ -72,7 +96,9 @@ export class Measuring extends EventTarget {
         badge.textContent = String(number);
         mark.append(badge, document.createElement('span'));
         const row = document.createElement('tr');
-        const point = {number, probe, position: probe.position, mark, row};
+        const anchor = new Anchor(this.app.scene?.object(probe.object));
+        const {position} = probe;
+        const point = {number, probe, laid: position, position, anchor, text: '', mark, row};
         const cells = Array.from({length: 5}, () => row.insertCell());
         cells[0].textContent = String(number);
         cells[4].append(smallButton('×', `Remove point ${number}`, () => this.#remove(point)));
@@ -81,7 +107,7 @@ export class Measuring extends EventTarget {
         this.#table.tBodies[0].append(row);
         this.#write(point);
         this.#showLists();
-        announce(`Point ${number}: ${mark.lastElementChild?.textContent}`);
+        announce(`Point ${number}: ${point.text}`);
     }
 
     /** @param {DisplayPanel} display */
@@ -100,11 +126,13 @@ export class Measuring extends EventTarget {
     }
 
     /** @param {MeasuredPoint} point */
-    #write({probe, mark, row}) {
+    #write(point) {
+        const {probe, mark, row} = point;
         const {illuminance = 0, luminance = 0, relativeError} = probe;
+        point.text = measured(illuminance, this.unit, relativeError);
         const text = mark.lastElementChild;
         if (text) {
-            text.textContent = measured(illuminance, this.unit, relativeError);
+            text.textContent = point.text;
         }
         const cells = [
             estimated(inUnit(illuminance, this.unit), this.unit, relativeError),
@@ -114,6 +142,7 @@ export class Measuring extends EventTarget {
         cells.forEach((content, i) => {
             row.cells[i + 1].textContent = content;
         });
+        this.dispatchEvent(new Event('values'));
     }
 
     /** @param {MeasuredPoint} point */
@@ -136,6 +165,7 @@ export class Measuring extends EventTarget {
         byId('clear-points', HTMLButtonElement).disabled = none;
         byId('points-csv', HTMLButtonElement).disabled = none;
         this.dispatchEvent(new Event('points'));
+        this.dispatchEvent(new Event('values'));
     }
 
     /** Measures again what is in view, since light settles and objects move. */

@@ -108,16 +108,33 @@ export class PlacedObject {
      * @returns {[Vec3, Vec3][]}
      */
     boxEdges(eye) {
+        const now = this.carriedSince(this.#originalTransform);
+        const eyeThen = this.#carried(this.transform, this.#originalTransform)(eye);
+        const edges = visibleEdges(this.#originalBounds, eyeThen);
+        return edges.map(([start, end]) => [now(start), now(end)]);
+    }
+
+    /**
+     * Where the object has carried its points since it stood elsewhere, world space.
+     *
+     * @param {Transform} since  local transform at that time
+     * @returns {(point: Vec3) => Vec3}
+     */
+    carriedSince(since) {
+        return this.#carried(since, this.transform);
+    }
+
+    /**
+     * @param {Transform} from
+     * @param {Transform} to
+     * @returns {(point: Vec3) => Vec3}
+     */
+    #carried(from, to) {
         const parent = this.worldFromParent;
-        /** @type {(from: Transform, to: Transform) => (point: Vec3) => Vec3} */
-        const carried = (from, to) => (point) => {
+        return (point) => {
             const inNode = inverseTransformPoint(from, inverseMatrixPoint(parent, point));
             return matrixPoint(parent, transformPoint(to, inNode));
         };
-        const now = carried(this.#originalTransform, this.transform);
-        const eyeThen = carried(this.transform, this.#originalTransform)(eye);
-        const edges = visibleEdges(this.#originalBounds, eyeThen);
-        return edges.map(([start, end]) => [now(start), now(end)]);
     }
 
     /** Local transform as this page was told first. */
@@ -129,6 +146,26 @@ export class PlacedObject {
     get shift() {
         const original = completeTransform(this.#originalTransform).translation;
         return matrixVector(this.worldFromParent, sub(this.transform.translation, original));
+    }
+}
+
+/** Holds what has been laid on an object, which carries it along. */
+export class Anchor {
+    /** @param {PlacedObject | null | undefined} object  null: what stays where it is */
+    constructor(object) {
+        this.object = object?.id ?? 0;
+        this.since = object?.transform ?? null;
+    }
+
+    /**
+     * How points that were laid then have moved.
+     *
+     * @param {SceneModel | null} scene  now
+     * @returns {(point: Vec3) => Vec3}
+     */
+    carry(scene) {
+        const object = scene?.object(this.object);
+        return object && this.since ? object.carriedSince(this.since) : (point) => point;
     }
 }
 

@@ -126,7 +126,34 @@ describe('a review', () => {
         });
         heights.forEach((y) => assert.ok(Math.abs(y - top) < 0.01, `${y}, not ${top}`));
         assert.ok(measured >= 10, `${measured} points`);
+        const dots = await page.$$eval('.grid-points .measured', (all) => all.filter((dot) => dot.checkVisibility()).length);
+        assert.equal(dots, measured);
         await keepScreenshot(page, 'grid_on_box');
+    });
+
+    it('takes the grid along with what it lies on, and measures it anew', async () => {
+        const {page} = ann;
+        const x = () => page.evaluate(() => window.raybundleParts.gridPanel.shown.grid.origin.x);
+        const before = await x();
+        const values = await page.textContent('[data-value="gridMean"]');
+        const shift = (by) =>
+            page.evaluate((metres) => {
+                const {client, selected} = window.raybundle;
+                const {translation: t} = selected.transform;
+                const transform = {...selected.transform, translation: {...t, x: t.x + metres}};
+                const moveObject = {object: selected.id, transform, final: true};
+                return client.request({moveObject}).answer.then(() => {});
+            }, by);
+        await shift(-0.4);
+        assert.ok(Math.abs((await x()) - before + 0.4) < 1e-6, 'its dots stay where the box was');
+        await page.waitForFunction(() => {
+            const {shown} = window.raybundleParts.gridPanel;
+            return !shown.outdated && shown.result.epoch === window.raybundle.scene.epoch;
+        });
+        assert.notEqual(await page.textContent('[data-value="gridMean"]'), values);
+        await keepScreenshot(page, 'grid_on_moved_box');
+        await shift(0.4);
+        await page.click('#clear-grid');
         await page.evaluate(() => window.raybundle.select(null));
     });
 

@@ -9,7 +9,8 @@ import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
 import {effectCost, pathInWords} from '../../client_web/effects.js';
 import {
-    csvCell, gridCsv, gridOn, mainFace, pointsOf, spreadOver, standardStep, summaryOf, typicalError,
+    carriedGrid, csvCell, gridCsv, gridOn, mainFace, measuredAgain, pointsOf, spreadOver, standardStep, summaryOf,
+    typicalError,
 } from '../../client_web/grid.js';
 import {stateOf} from '../../client_web/grid_panel.js';
 import {History} from '../../client_web/history.js';
@@ -20,7 +21,7 @@ import {changeOf} from '../../client_web/pins.js';
 import * as placement from '../../client_web/placement.js';
 import {escaped, reportHtml} from '../../client_web/report.js';
 import {openingText, progressText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
-import {PlacedObject} from '../../client_web/scene_model.js';
+import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene_model.js';
 import {placeOf, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
 import {adviceOf, bannerOf, sentence} from '../../client_web/status.js';
@@ -204,15 +205,45 @@ describe('the surface that a grid is laid on', () => {
 
     it('is named, with what the grid is worth', () => {
         const grid = {origin: vec3(0, 0, 0), stepX: vec3(0.2, 0, 0), stepY: vec3(0, 0, 0.2), columns: 2, rows: 1};
-        const state = (illuminance, error, settled = true) => {
+        const state = (illuminance, error, settled = true, outdated = false) => {
             const result = {illuminance, relativeError: [error, error], epoch: 0};
-            return stateOf({grid, result, surface: 'desk, upper side', settled});
+            return stateOf({grid, result, surface: 'desk, upper side', settled, outdated});
         };
         const size = 'desk, upper side: 2 × 1 points, 0.20 m apart.';
         assert.equal(state([100, -1], 0.02), `${size} 1 of 2 are in view. Typical error ± 3.9 %.`);
-        assert.match(state([100, 90], 0.6), /Most values are not yet known\. Measure again later\.$/);
-        assert.match(state([100, 90], 0.02, false), /still settling\. Measure again later\.$/);
+        assert.match(state([100, 90], 0.6), /Most values are not yet known\. Better values come by themselves\.$/);
+        assert.match(state([100, 90], 0.02, false), /still settling\. Better values come by themselves\.$/);
         assert.match(state([-1, -1], -1), /None of them is in view: turn/);
+        assert.match(state([100, 90], 0.02, true, true), /changed since: new values come/);
+    });
+});
+
+describe('a grid on something that moves', () => {
+    const bounds = {min: vec3(0, 0, 0), max: vec3(2, 1, 1)};
+    const grid = {origin: vec3(1, 1, 0), stepX: vec3(0.5, 0, 0), stepY: vec3(0, 0, 0.5), columns: 2, rows: 2};
+
+    it('goes with it, turned and resized as it is', () => {
+        const scene = new SceneModel({name: 'a', bounds, objects: [
+            {id: 3, name: 'desk', movable: true, bounds, transform: {}},
+        ]}, 0);
+        const anchor = new Anchor(scene.object(3));
+        const half = Math.SQRT1_2;  // a quarter turn about y
+        scene.object(3).place({
+            translation: vec3(0, 0, 4), rotation: {x: 0, y: half, z: 0, w: half}, scale: vec3(2, 2, 2),
+        });
+        const moved = carriedGrid(grid, anchor.carry(scene));
+        close(length(sub(moved.origin, vec3(0, 2, 2))), 0, 1e-9);
+        close(length(sub(moved.stepX, vec3(0, 0, -1))), 0, 1e-9);
+        close(length(sub(moved.stepY, vec3(1, 0, 0))), 0, 1e-9);
+        assert.deepEqual(carriedGrid(grid, new Anchor(null).carry(scene)), grid);
+    });
+
+    it('keeps what was in view before, as long as nothing has changed', () => {
+        const before = {illuminance: [100, 80], relativeError: [0.1, 0.1], epoch: 4};
+        const again = (illuminance, epoch) => measuredAgain(before, {illuminance, relativeError: [0.02, -1], epoch});
+        assert.deepEqual(again([101, -1], 4), {illuminance: [101, 80], relativeError: [0.02, 0.1], epoch: 4});
+        assert.deepEqual(again([50, -1], 5).illuminance, [50, -1]);
+        assert.equal(again([-1, -1], 5), null);
     });
 });
 
