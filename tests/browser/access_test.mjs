@@ -259,6 +259,30 @@ describe('on a phone', () => {
         assert.ok(editor.top >= picture.top && editor.bottom <= picture.bottom, JSON.stringify({editor, picture}));
     });
 
+    it('what is measured is listed in the picture, with the way to all of it', async () => {
+        const {page} = await openPage(obeys(), PHONE);
+        await page.tap('[data-tool="measure"]');
+        assert.equal(await page.innerText('#measured-hint'), 'Tap a surface to measure its light.');
+        for (let i = 0; i < 5; ++i) {
+            await page.locator('#picture').tap({position: {x: 60 + 20 * i, y: 200}});
+            await page.waitForFunction((count) => window.raybundleParts.measuring.points.length === count, i + 1);
+        }
+        const rows = await page.$$eval('#measured-list li', (all) => all.map(({textContent}) => textContent));
+        assert.deepEqual(rows, [3, 4, 5].map((number) => `${number}200 lx ± 3.9 %`));
+        await keepScreenshot(page, 'phone_measured');
+        const [strip, picture] = await page.evaluate(() =>
+            ['measured', 'picture'].map((id) => document.getElementById(id).getBoundingClientRect().toJSON()),
+        );
+        const inside = strip.left > 136 && strip.right <= 360 && strip.bottom <= picture.bottom;
+        assert.ok(inside, JSON.stringify({strip, picture}));
+        await page.tap('#measured-all');
+        await page.waitForSelector('#points', {state: 'visible'});
+        assert.ok(await page.isHidden('#measured'));
+        await page.tap('[data-tool="select"]');
+        await page.tap('#panel-toggle');
+        assert.ok(await page.isHidden('#measured'));
+    });
+
     it('another page of the panel begins at its beginning', async () => {
         const {page} = await openPage(obeys({pins: Array.from({length: 9}, (_, i) => ({...PIN, pin: i + 1}))}), PHONE);
         await page.tap('#panel-toggle');
