@@ -13,7 +13,8 @@ uniform float variance_of_mean;  // as in view_statistics.comp
 /// Standard error of the nearest probe pixel's mean irradiance, relative; negative where unknown.
 float relative_error(uint pixel_index) {
     uvec2 at = uvec2(pixel_index % view.size.x, pixel_index / view.size.x) / 4u;
-    if (view.weights.y <= 0.0) {
+    // A single sample says nothing of its error.
+    if (view.weights.y * view.weights.y <= 1.5 * view.weights.z) {
         return -1.0;
     }
     vec2 estimate = mean_and_variance(at.y * view.size.z + at.x, view.weights.y, view.weights.z);

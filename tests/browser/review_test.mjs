@@ -68,9 +68,10 @@ describe('a review', () => {
         assert.match(lux, /^(about )?\d[\d\u202f.]* lx$/);
         assert.match(error, /^(not yet known|± [\d.]+ %)$/);  // early it is hardly known
         // Floor: Lambert, so luminance is illuminance * albedo / pi.
-        const {illuminance, luminance} = await page.evaluate(
+        const {illuminance, luminance, relativeError} = await page.evaluate(
             () => window.raybundleParts.measuring.points[0].probe,
         );
+        assert.notEqual(relativeError, 0, 'the error of a single sample');
         const share = (luminance / illuminance) * Math.PI;
         assert.ok(share > 0.6 && share < 0.85, `albedo ${share}`);
         const at = await onPage(page, FLOOR);
