@@ -289,6 +289,7 @@ export class RaybundleApp extends EventTarget {
         });
         this.picture.addEventListener('resize', () => this.#resized());
         this.picture.addEventListener('viewport', () => this.#viewportChanged());
+        this.picture.addEventListener('flat', () => askForDepths(this.client, this.picture));
         this.mover.addEventListener('moved', () => this.#objectsMoved());
         this.mover.addEventListener('rejected', (event) =>
             this.#problem(/** @type {CustomEvent} */ (event).detail),

@@ -15,15 +15,15 @@ import {FrameThrottle} from './frame_throttle.js';
 const MAX_PENDING = 256;
 
 /**
- * Asks for frames with depths, if they are of use. A server that knows of none goes on without.
+ * Asks for frames with depths, or without where they are of no use: they cost the server and this page time.
+ * A server that knows of none goes on without.
  *
  * @param {RaybundleClient} client
  * @param {import('./picture.js').Picture} picture
  */
 export function askForDepths(client, picture) {
-    if (picture.takesDepths) {
-        client.request({setDepths: {columns: DEPTH_COLUMNS}}).answer.catch(() => {});
-    }
+    const columns = picture.takesDepths ? DEPTH_COLUMNS : 0;
+    client.request({setDepths: {columns}}).answer.catch(() => {});
 }
 
 export class CameraLink {

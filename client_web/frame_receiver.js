@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary messages to pictures: header parsing, decoding off the main thread, acknowledgement after
-// decoding. While one frame is being decoded only the newest of those that arrive is kept.
+// Binary messages to pictures: header parsing, decoding off the main thread, acknowledgement as soon as it is
+// decoded. While one frame is being decoded only the newest of those that arrive is kept.
 
 import {decodeDepths} from './depths.js';
 
@@ -111,26 +111,49 @@ export class FrameReceiver {
     async #decode(message, generation) {
         const start = performance.now();
         let parsed;
+        let decoded = null;
         try {
             parsed = parseFrame(message);
-            const blob = new Blob([parsed.image], {type: MIME_TYPES[parsed.header.codec]});
-            const coming = parsed.depths.length > 0 ? decodeDepths(parsed.header, parsed.depths) : null;
-            // Without its depths the picture is as good as ever.
-            const [image, depths] = await Promise.all([
-                createImageBitmap(blob),
-                coming?.catch(() => null) ?? null,
-            ]);
-            const decodeMs = performance.now() - start;
-            if (generation === this.#generation) {
-                this.sink.show({header: parsed.header, image, depths, decodeMs});
-            }
-            image.close();
+            decoded = await decode(parsed);
         } catch (error) {
-            this.sink.fail(error instanceof Error ? error : new Error(String(error)));
+            this.#fail(error);
         }
-        // Also what could not be decoded is acknowledged: the stream must go on.
-        if (parsed && generation === this.#generation) {
-            this.sink.acknowledge(parsed.header.frame, performance.now() - start);
+        const decodeMs = performance.now() - start;
+        const known = generation === this.#generation;
+        // Before it is shown, so that the next one sets out meanwhile. Also what could not be decoded is
+        // acknowledged: the stream must go on.
+        if (parsed && known) {
+            this.sink.acknowledge(parsed.header.frame, decodeMs);
+        }
+        if (parsed && decoded && known) {
+            this.#show({header: parsed.header, ...decoded, decodeMs});
+        }
+        decoded?.image.close();
+    }
+
+    /** @param {Frame} frame */
+    #show(frame) {
+        try {
+            this.sink.show(frame);
+        } catch (error) {
+            this.#fail(error);
         }
     }
+
+    /** @param {unknown} error */
+    #fail(error) {
+        this.sink.fail(error instanceof Error ? error : new Error(String(error)));
+    }
+}
+
+/**
+ * @param {ReturnType<typeof parseFrame>} frame
+ * @returns {Promise<{image: ImageBitmap, depths: Depths | null}>}
+ */
+async function decode({header, image: bytes, depths: depthBytes}) {
+    const blob = new Blob([bytes], {type: MIME_TYPES[header.codec]});
+    const coming = depthBytes.length > 0 ? decodeDepths(header, depthBytes) : null;
+    // Without its depths the picture is as good as ever.
+    const [image, depths] = await Promise.all([createImageBitmap(blob), coming?.catch(() => null) ?? null]);
+    return {image, depths};
 }

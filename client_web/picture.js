@@ -11,8 +11,11 @@ import {cssMatrix, homography} from './view_warp.js';
 /** @typedef {import('./protocol.js').Viewport} Viewport */
 /** @typedef {import('./protocol.js').View} View */
 
-/** Side of the small copy that fills what a warped picture leaves open, pixels. */
-const BACKDROP_SIDE = 24;
+/**
+ * Side of the small copy that fills what a warped picture leaves open, pixels. So few are soft when they are
+ * stretched; a blur of the whole picture took a browser without a GPU half of each frame's time.
+ */
+const BACKDROP_SIDE = 12;
 
 /** Pixels asked for at most, by choice of the user. */
 export const PICTURE_SIZES = Object.freeze({
@@ -55,7 +58,10 @@ export function fitViewport(cssWidth, cssHeight, pixelRatio, maxPixels, limits) 
     return {width: side(width, limits.maxWidth), height: side(height, limits.maxHeight)};
 }
 
-/** Event: `viewport`, when other frames should be asked for; `resize`, at once. */
+/**
+ * Events: `viewport`, when other frames should be asked for; `resize`, at once; `flat`, when depths have turned
+ * out to be of no use.
+ */
 export class Picture extends EventTarget {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     #timer;
@@ -133,7 +139,7 @@ export class Picture extends EventTarget {
 
     /** Whether depths are of use to it. */
     get takesDepths() {
-        return this.#warp !== null;
+        return this.#warp !== null && !this.#slow;
     }
 
     /** What it draws from other places, while that is on screen. */
@@ -212,6 +218,9 @@ export class Picture extends EventTarget {
         if (early || this.#redraws % MEASURED === 0) {
             warp.finish();
             this.redrawMs.add(performance.now() - start);
+            if (this.#slow) {
+                this.dispatchEvent(new Event('flat'));
+            }
         }
     }
 

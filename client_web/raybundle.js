@@ -112,6 +112,7 @@ export class RaybundleView extends HTMLElement {
         });
         picture.addEventListener('resize', warp);
         picture.addEventListener('viewport', () => client.send({setViewport: picture.viewport}));
+        picture.addEventListener('flat', () => askForDepths(client, picture));
         client.addEventListener('state', (event) => {
             const {state, reason} = /** @type {CustomEvent} */ (event).detail;
             note.textContent = state === 'connected' ? '' : [state, reason].filter(Boolean).join(': ');

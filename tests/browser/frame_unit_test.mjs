@@ -77,12 +77,12 @@ describe('the receiver of frames', () => {
         });
     });
 
-    it('acknowledges after decoding, and closes the image', async () => {
+    it('acknowledges as soon as it is decoded, before it is shown, and closes the image', async () => {
         receiver.push(frame(1));
         await settle();
         assert.deepEqual(log, []);
         await decodeNext();
-        assert.deepEqual(log, ['show 1', 'close', 'ack 1']);
+        assert.deepEqual(log, ['ack 1', 'show 1', 'close']);
     });
 
     it('decodes only the newest of those that arrive meanwhile', async () => {
@@ -103,7 +103,7 @@ describe('the receiver of frames', () => {
         await decodeNext();
         assert.deepEqual(log, ['close']);
         await decodeNext();
-        assert.deepEqual(log, ['close', 'show 1', 'close', 'ack 1']);
+        assert.deepEqual(log, ['close', 'ack 1', 'show 1', 'close']);
     });
 
     it('acknowledges what it cannot decode, so that the stream goes on', async () => {
@@ -121,6 +121,6 @@ describe('the receiver of frames', () => {
         assert.equal(decoding.length, 0);
         receiver.paused = false;
         await decodeNext();
-        assert.deepEqual(log, ['show 2', 'close', 'ack 2']);
+        assert.deepEqual(log, ['ack 2', 'show 2', 'close']);
     });
 });

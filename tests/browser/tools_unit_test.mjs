@@ -112,6 +112,18 @@ describe('the last picture under another camera', () => {
         assert.equal(numbers.length, 16);
         [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1].forEach((v, i) => close(numbers[i], v, 1e-9));
     });
+
+    it('only shifts and grows where somebody walks, without a trace of perspective', () => {
+        let view = {...VIEW, eye: vec3(0.6, 1.6, 4.1), target: vec3(2.6, 1.1, 0.3)};
+        for (let i = 0; i < 10; ++i) {
+            const next = walk(view, 0.013 * (i % 3), 0.021, 0);
+            const css = cssMatrix(homography(view, 1.402, next, 1.402), 868, 619);
+            const numbers = css.slice('matrix3d('.length, -1).split(',').map(Number);
+            assert.deepEqual([1, 3, 4, 7].map((at) => numbers[at]), [0, 0, 0, 0], css);
+            assert.ok(Math.abs(numbers[12]) > 1, css);
+            view = next;
+        }
+    });
 });
 
 describe('a double click', () => {
