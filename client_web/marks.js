@@ -10,6 +10,8 @@ import {byId} from './elements.js';
 
 /** Marks of points nearer to the eye's plane are hidden, metres. */
 const NEAR = 0.02;
+/** Room that a measured value takes beside its point, CSS pixels. */
+const LABEL = 190;
 /** Between what stays whole and the picture's edge, CSS pixels. */
 const MARGIN = 8;
 
@@ -28,6 +30,7 @@ export class Marks {
                 element.hidden = !seen && !whole;
                 if (seen || whole) {
                     const at = whole ? within(element, {x, y}, {width, height}) : {x, y};
+                    element.classList.toggle('leftwards', x > Math.max(width - LABEL, width / 2));
                     element.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
                 }
             }

@@ -270,6 +270,18 @@ describe('on a phone', () => {
         const rows = await page.$$eval('#measured-list li', (all) => all.map(({textContent}) => textContent));
         assert.deepEqual(rows, [3, 4, 5].map((number) => `${number}200 lx ± 3.9 %`));
         await keepScreenshot(page, 'phone_measured');
+        // Wherever a point is, its value is whole.
+        await page.evaluate(() => {
+            const app = window.raybundle;
+            const [point] = window.raybundleParts.measuring.points;
+            const {origin, direction} = app.rayAt({x: 345, y: 300});
+            const along = (/** @type {'x' | 'y' | 'z'} */ axis) => origin[axis] + 3 * direction[axis];
+            point.position = {x: along('x'), y: along('y'), z: along('z')};
+            app.drawOverlay();
+        });
+        await page.waitForSelector('.probe.leftwards');
+        const label = await page.locator('.probe.leftwards').boundingBox();
+        assert.ok(label.x > 0 && label.x + label.width < 345, JSON.stringify(label));
         const [strip, picture] = await page.evaluate(() =>
             ['measured', 'picture'].map((id) => document.getElementById(id).getBoundingClientRect().toJSON()),
         );
