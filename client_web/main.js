@@ -12,6 +12,7 @@ import {GridPanel} from './grid_panel.js';
 import {ChangeList, History, addHistory} from './history.js';
 import {addKeys} from './keys.js';
 import {LightPanel} from './light_panel.js';
+import {Lost} from './lost.js';
 import {Marks} from './marks.js';
 import {Measuring} from './measure.js';
 import {MeasuredStrip} from './measured_strip.js';
@@ -73,6 +74,7 @@ new LightPanel(app, history);
 new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);
+new Lost(app, display);
 addHistory(app, history);
 addEffects(app);
 

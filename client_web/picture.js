@@ -147,6 +147,14 @@ export class Picture extends EventTarget {
         return this.#warp && !this.#warp.canvas.hidden ? this.#warp.canvas : null;
     }
 
+    /** Mean of the pixels of the frame on screen, 0..255 as encoded. */
+    get brightness() {
+        const small = this.#backdrop.getContext('2d', {alpha: false});
+        const pixels = small?.getImageData(0, 0, BACKDROP_SIDE, BACKDROP_SIDE).data ?? [];
+        const colours = [...pixels].filter((_, i) => i % 4 !== 3);
+        return colours.reduce((sum, value) => sum + value, 0) / Math.max(colours.length, 1);
+    }
+
     /**
      * Shows a frame. Setting a canvas's size clears it, but nothing is painted before the drawing
      * that follows, so the old picture stays until the new one is there.

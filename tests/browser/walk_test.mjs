@@ -33,6 +33,18 @@ describe('between two pictures of the server', () => {
         await daemon?.stop();
     });
 
+    it('who has walked through a wall is told so, and the way back', async () => {
+        const {page, context} = await openClient(browser, daemon.url, OPTIONS);
+        await page.waitForFunction(() => window.raybundle?.frame?.iterations >= 4);
+        await page.evaluate(() => {
+            const {view} = window.raybundle;
+            window.raybundle.view = {...view, eye: {...view.eye, z: 8}, target: {...view.target, z: 20}};
+        });
+        await page.click('.notice:has-text("through a wall") button:has-text("Back")');
+        await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.z + 7.5) < 1e-6);
+        await context.close();
+    });
+
     it('the last one is drawn by its depths, and agrees with the next', async (t) => {
         const {page, faults, context} = await openDrawing(browser, daemon.url);
         await frameWith(page, {settled: 0.9});
