@@ -54,7 +54,7 @@
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
 #define BINDING_CAUSTICS 45           // vec4[]: radiance that caustics make of patches, see patch_source.glsl
 #define BINDING_CAUSTIC_IRRADIANCE 46 // vec4[]: of patches, by caustics, radiance units
-#define BINDING_CAUSTIC_FLUX 47       // vec4[]: on patches, by all rays of caustics together, lm
+#define BINDING_CAUSTIC_FLUX 47       // vec4[2 * patches]: on patches, by all rays of lamps together, lm; then by those of other surfaces, see solution_caustics.comp
 #define BINDING_CAUSTIC_DEPOSITS 48   // vec4[]: new sums of that flux; w: patch (bits)
 #define BINDING_SCATTER 49            // vec2[scouts]: see scatter.glsl
 #define BINDING_INCREMENTS 50         // vec4[]: increments of a special phase, w = their variance (luminance)

@@ -14,12 +14,15 @@ layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeo
 layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
 #endif
 uniform uint patch_count;
-uniform float flux_share;  // of one ray: 1 / number of rays, in radiance units for 1 cd/m^2
+uniform float flux_share;  // of one ray of lamps: 1 / number of rays, in radiance units for 1 cd/m^2
 uniform vec3 scale;  // that the radiance was multiplied by since the last estimate
 
 const float inverse_pi = 0.31830988618;
 
-vec3 irradiance_of(uint i) { return flux[i].rgb * (flux_share * patches[i].inverse_area); }
+/// By lamps and by other surfaces, whose flux is in radiance units times m^2.
+vec3 irradiance_of(uint i) {
+    return (flux_share * flux[i].rgb + flux[patch_count + i].rgb) * patches[i].inverse_area;
+}
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -40,7 +40,8 @@ float cone_height(float radius, float square) {
 }  // namespace
 
 CausticLights::CausticLights(const GpuScene& scene, const PatchMesh& mesh,
-                             std::span<const glm::vec3> emission, std::span<const Bounds> targets)
+                             std::span<const glm::vec3> radiance, Punctual punctual,
+                             std::span<const Bounds> targets)
     : diameter_(scene.diameter()), offset_(start_share * scene.diameter()) {
     std::vector<Bounds> boxes(targets.begin(), targets.end());
     for (std::size_t i = most_targets; i < boxes.size(); ++i) {
@@ -51,7 +52,16 @@ CausticLights::CausticLights(const GpuScene& scene, const PatchMesh& mesh,
     for (const Bounds& box : boxes) {
         targets_.push_back({box.centre(), 0.5F * margin * glm::length(box.extent())});
     }
-    add_emitters(scene, mesh, emission);
+    add_emitters(scene, mesh, radiance);
+    if (punctual == Punctual::with) {
+        add_punctual(scene);
+    }
+    for (double& chance : chances_) {
+        chance /= std::max(chances_.back(), 1e-300);
+    }
+}
+
+void CausticLights::add_punctual(const GpuScene& scene) {
     for (std::size_t i = 0; i < scene.punctual_lights().size(); ++i) {
         const PlacedLight light = scene.placed_light(i);
         punctual_.push_back(light);
@@ -67,9 +77,6 @@ CausticLights::CausticLights(const GpuScene& scene, const PatchMesh& mesh,
         }
         add_chance(flux);
     }
-    for (double& chance : chances_) {
-        chance /= std::max(chances_.back(), 1e-300);
-    }
 }
 
 void CausticLights::add_chance(double flux) {
@@ -77,9 +84,9 @@ void CausticLights::add_chance(double flux) {
 }
 
 void CausticLights::add_emitters(const GpuScene& scene, const PatchMesh& mesh,
-                                 std::span<const glm::vec3> emission) {
+                                 std::span<const glm::vec3> radiance) {
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        if (luminance(emission[i]) <= 0.0F) {
+        if (luminance(radiance[i]) <= 0.0F) {
             continue;
         }
         const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
@@ -99,7 +106,7 @@ void CausticLights::add_emitters(const GpuScene& scene, const PatchMesh& mesh,
         const bool back = i >= mesh.triangle_count();
         const bool mirrored = glm::determinant(glm::mat3(world)) < 0.0F;
         emitter.normal = across * ((back != mirrored ? -1.0F : 1.0F) / size);
-        emitter.flux_density = emission[i] * (0.5F * size);
+        emitter.flux_density = radiance[i] * (0.5F * size);
         emitters_.push_back(emitter);
         add_chance(
             static_cast<double>(luminance(emitter.flux_density) *

@@ -13,7 +13,7 @@
 
 namespace raybundle {
 
-/// A ray of light that leaves a lamp.
+/// A ray of light that leaves a lamp or another surface.
 struct LightRay {
     glm::vec3 origin{0.0F};  ///< shifted world, m
     glm::vec3 direction{0.0F};
@@ -25,18 +25,19 @@ struct LightRay {
 /// Basis, Revisited").
 glm::mat3 frame_about(const glm::vec3& z);
 
-/// The lamps of a scene as they shine at its mirrors and glass: emitting patches and punctual
-/// lights (suns among them; no sky). Rays are aimed at the spheres round the specular objects, with
-/// the density of the whole mixture, so that each is worth about the same. A snapshot of the
-/// present places and emissions.
+/// What of a scene shines at its mirrors and glass: its lamps, which are emitting patches and
+/// punctual lights (suns among them; no sky), or patches that reflect. Rays are aimed at the
+/// spheres round the specular objects, with the density of the whole mixture, so that each is worth
+/// about the same. A snapshot of the present places and radiances.
 class CausticLights {
   public:
     static constexpr std::size_t numbers_per_ray = 6;
     using Numbers = std::array<float, numbers_per_ray>;  ///< each uniform in [0, 1)
 
-    /// emission: per patch, cd/m². targets: boxes to aim at, shifted world.
-    CausticLights(const GpuScene& scene, const PatchMesh& mesh, std::span<const glm::vec3> emission,
-                  std::span<const Bounds> targets);
+    enum class Punctual { with, without };
+    /// radiance: that patches send, cd/m². targets: boxes to aim at, shifted world.
+    CausticLights(const GpuScene& scene, const PatchMesh& mesh, std::span<const glm::vec3> radiance,
+                  Punctual punctual, std::span<const Bounds> targets);
     /// Whether no light can reach a target.
     [[nodiscard]] bool empty() const { return chances_.empty() || chances_.back() <= 0.0; }
     /// Nothing where the ray drawn carries nothing. Usable by any number of threads.
@@ -59,7 +60,8 @@ class CausticLights {
     };
 
     void add_emitters(const GpuScene& scene, const PatchMesh& mesh,
-                      std::span<const glm::vec3> emission);
+                      std::span<const glm::vec3> radiance);
+    void add_punctual(const GpuScene& scene);
     void add_chance(double flux);
     [[nodiscard]] float solid_angle(const Sphere& sphere, const glm::vec3& origin) const;
     [[nodiscard]] float reachable_share(const glm::vec3& origin) const;

@@ -3,18 +3,24 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
 
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
 namespace {
 
-/// Geometry and emission; the rest is not looked at.
+constexpr double division_factor =
+    1.2;  // cells are divided from the root of all rays on, times this
+
+/// Geometry, materials and emission; the rest is not looked at.
 PatchMesh without_colours(const PatchMesh& mesh) {
     PatchMesh result;
     result.positions = mesh.positions;
     result.vertex_object = mesh.vertex_object;
     result.triangles = mesh.triangles;
+    result.triangle_material = mesh.triangle_material;
     result.patch_triangle = mesh.patch_triangle;
     result.emission = mesh.emission;
     return result;
@@ -27,12 +33,15 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
     : scene_(gpu_scene),
       mesh_(without_colours(mesh)),
       caustic_rays_(scene, mesh, *gpu_scene.specular_rays()),
+      cells_(mesh),
       sums_(mesh.patch_count(), glm::dvec3(0.0)),
+      surface_sums_(sums_),
+      surface_counts_(sums_.size(), 0),
       seed_(seed),
-      flux_("caustic flux", mesh.patch_count() * sizeof(glm::vec4)),
-      deposit_buffer_("caustic deposits", flux_.bytes()),
-      irradiance_("caustic irradiance", flux_.bytes()),
-      radiance_("caustic radiance", flux_.bytes()),
+      flux_("caustic flux", 2 * mesh.patch_count() * sizeof(glm::vec4)),
+      deposit_buffer_("caustic deposits", mesh.patch_count() * sizeof(glm::vec4)),
+      irradiance_("caustic irradiance", deposit_buffer_.bytes()),
+      radiance_("caustic radiance", deposit_buffer_.bytes()),
       vertices_("vertex caustics", 2 * mesh.positions.size() * sizeof(glm::uvec2)),
       vertex_texture_(create_buffer_texture("vertex caustics", GL_RGBA16F, vertices_)),
       deposit_({"solution_caustic_deposits.comp"}),
@@ -44,11 +53,14 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
     vertices_.clear();
 }
 
-void Caustics::refine() {
+void Caustics::refine(const Buffer& sent) {
     if (lights_ && !lights_->empty()) {
         trace(batch_rays);
-        reflect();
     }
+    if (batches_++ % surface_interval == 0) {
+        trace_surfaces(sent);
+    }
+    reflect();
 }
 
 void Caustics::scale(const glm::vec3& factor) {
@@ -56,9 +68,13 @@ void Caustics::scale(const glm::vec3& factor) {
 }
 
 void Caustics::restart() {
-    lights_.emplace(scene_, mesh_, mesh_.emission,
+    lights_.emplace(scene_, mesh_, mesh_.emission, CausticLights::Punctual::with,
                     scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     sums_.assign(sums_.size(), glm::dvec3(0.0));
+    surface_sums_.assign(sums_.size(), glm::dvec3(0.0));
+    surface_counts_.assign(sums_.size(), 0);
+    surface_batches_ = 0;
+    batches_ = 0;
     flux_.clear();
     rays_ = 0;
     ++changes_;
@@ -101,6 +117,51 @@ void Caustics::trace(std::uint32_t rays) {
     deposit_.dispatch(deposits_.size());
 }
 
+/// What patches reflect, cd/m²: all that they send but their emission. Mirrors and glass do not
+/// count, whose light is on its way.
+std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) const {
+    std::vector<glm::vec4> radiance(sums_.size());
+    sent.read<glm::vec4>(radiance);
+    std::vector<glm::vec3> result(sums_.size(), glm::vec3(0.0F));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const std::uint32_t material = mesh_.triangle_material[mesh_.patch_triangle[i]];
+        const SpecularKind kind = scene_.specular_rays()->surface_of(material).kind;
+        if (kind == SpecularKind::none || kind == SpecularKind::coat) {
+            result[i] =
+                glm::max(glm::vec3(radiance[i]) * scene_.radiance_unit() - mesh_.emission[i], 0.0F);
+        }
+    }
+    return result;
+}
+
+/// Uploads the light of other surfaces of all patches.
+void Caustics::trace_surfaces(const Buffer& sent) {
+    const CausticLights surfaces(scene_, mesh_, reflected(sent), CausticLights::Punctual::without,
+                                 scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
+    if (surfaces.empty()) {
+        return;
+    }
+    const auto weight = static_cast<double>(surface_batches_ + 1);
+    for (const CausticDeposit& deposit : caustic_rays_.trace(
+             surfaces, ~(seed_ + changes_), surface_batches_ * surface_rays, surface_rays)) {
+        surface_sums_[deposit.patch] += weight * glm::dvec3(deposit.flux);
+        ++surface_counts_[deposit.patch];
+    }
+    ++surface_batches_;
+    const double all = std::accumulate(surface_counts_.begin(), surface_counts_.end(), 0.0);
+    const std::vector<glm::vec3> spread =
+        cells_.spread(surface_sums_, surface_counts_,
+                      static_cast<std::uint64_t>(division_factor * std::sqrt(all)) + 1);
+    const double weights = 0.5 * weight * (weight + 1.0);
+    const auto share = static_cast<float>(
+        1.0 / (weights * surface_rays * static_cast<double>(scene_.radiance_unit())));
+    deposits_.clear();
+    for (const glm::vec3& flux : spread) {
+        deposits_.emplace_back(share * flux, 0.0F);
+    }
+    flux_.write<glm::vec4>(deposits_, deposit_buffer_.bytes());
+}
+
 /// The patches' irradiance and what they send of it.
 void Caustics::reflect() {
     const GlScope scope("caustics");
@@ -132,7 +193,7 @@ void Caustics::bind() const {
 }
 
 std::size_t Caustics::bytes() const {
-    return 4 * flux_.bytes() + vertices_.bytes();
+    return flux_.bytes() + 3 * deposit_buffer_.bytes() + vertices_.bytes();
 }
 
 }  // namespace raybundle

@@ -11,29 +11,35 @@
 #include "gpu/shader_program.h"
 #include "solution/caustic_rays.h"
 #include "solution/gpu_scene.h"
+#include "solution/patch_cells.h"
 
 namespace raybundle {
 
-/// Light that lamps throw through mirrors and glass on other surfaces: a correction of what bundles
-/// bring (solution/caustic_rays.h), as irradiance per patch, either sign. A progressive mean: every
-/// batch of rays counts alike until something changes. It is kept apart from the mean of the random
-/// iteration, whose source is its first reflection; pixels interpolate it over the vertices.
-/// Deterministic. Exists only where GpuScene::caustics() says so.
+/// Light that lamps and all other surfaces throw through mirrors and glass on other surfaces: a
+/// correction of what bundles bring (solution/caustic_rays.h), as irradiance per patch, either
+/// sign. A progressive mean: every batch of rays of lamps counts alike until something changes;
+/// those of other surfaces, which send what the random iteration says by then, count the more the
+/// later. Their light is smoother, and is spread over cells of patches that shrink as rays add up.
+/// The correction is kept apart from the mean of the random iteration, whose source is its first
+/// reflection; pixels interpolate it over the vertices. Deterministic. Exists only where
+/// GpuScene::caustics() says so.
 class Caustics {
   public:
     static constexpr std::uint32_t batch_rays = 4096;
     static constexpr std::uint32_t first_rays = 4 * batch_rays;  ///< after a change
+    static constexpr std::uint32_t surface_interval = 4;  ///< batches for one of other surfaces
+    static constexpr std::uint32_t surface_rays = 2 * batch_rays;  ///< of that
 
     /// Nothing is estimated yet. The mesh is copied where it is needed.
     Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gpu_scene,
              std::uint64_t seed);
 
-    /// Another batch. The patches' radiance takes on the difference. The solution's buffers are
-    /// bound, and must be bound again.
-    void refine();
+    /// Another batch. The patches' radiance takes on the difference. sent: that radiance, in
+    /// radiance units. The solution's buffers are bound, and must be bound again.
+    void refine(const Buffer& sent);
     /// All light has been multiplied by this, the patches' radiance, too.
     void scale(const glm::vec3& factor);
-    /// Objects are elsewhere: forgets all rays and traces first_rays. As refine().
+    /// Objects are elsewhere: forgets all rays and traces first_rays of lamps. As refine().
     void restart();
     /// Materials have changed, and with them the patches' emission, cd/m². restart() has to follow.
     void update(const Scene& scene, std::span<const std::uint32_t> materials,
@@ -47,17 +53,24 @@ class Caustics {
 
   private:
     void trace(std::uint32_t rays);
+    void trace_surfaces(const Buffer& sent);
+    [[nodiscard]] std::vector<glm::vec3> reflected(const Buffer& sent) const;
     void reflect();
 
     const GpuScene& scene_;
     PatchMesh mesh_;  // without what tells colours
     CausticRays caustic_rays_;
-    std::optional<CausticLights> lights_;  // of the present places
-    std::vector<glm::dvec3> sums_;         // flux per patch, lm, of all rays
-    std::vector<std::uint32_t> met_;       // patches, by the last batch
-    std::vector<glm::vec4> deposits_;      // their sums, to be uploaded
+    PatchCells cells_;
+    std::optional<CausticLights> lights_;        // of the present places
+    std::vector<glm::dvec3> sums_;               // flux per patch, lm, of all rays of lamps
+    std::vector<std::uint32_t> met_;             // patches, by the last batch
+    std::vector<glm::vec4> deposits_;            // their sums, to be uploaded
+    std::vector<glm::dvec3> surface_sums_;       // flux of other surfaces, times the batch's weight
+    std::vector<std::uint32_t> surface_counts_;  // rays that have met each patch
+    std::uint64_t surface_batches_ = 0;
     std::uint64_t seed_;
     std::uint64_t rays_ = 0;
+    std::uint64_t batches_ = 0;
     std::uint64_t changes_ = 0;
     glm::vec3 scale_{1.0F};  // of the radiance since the last estimate
     Buffer flux_, deposit_buffer_, irradiance_, radiance_, vertices_;

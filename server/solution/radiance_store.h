@@ -100,6 +100,8 @@ class RadianceStore {
     layout::Counters take_counters() const;
     void clear_counters() const;
     [[nodiscard]] const Buffer& counters() const { return counters_; }
+    /// Radiance per patch as it is transferred, radiance units, w = p_j/A_j.
+    [[nodiscard]] const Buffer& sent() const { return radiance_; }
 
     /// Mean irradiance per patch, lx, w = weight; for tests, results and files. Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;

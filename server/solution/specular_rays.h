@@ -86,6 +86,9 @@ class SpecularRays {
     [[nodiscard]] const SpecularSurface& surface(const Hit& hit) const {
         return surfaces_[materials_[hit.facet]];
     }
+    [[nodiscard]] const SpecularSurface& surface_of(std::size_t material) const {
+        return surfaces_[material];
+    }
     /// Whether that side of a facet takes light and sends none.
     [[nodiscard]] bool absorbs(std::uint32_t facet, bool front) const {
         return !front && !two_sided_[materials_[facet]];

@@ -135,7 +135,7 @@ void Solver::plan_group() {
     }
     store_.bind();
     if (caustics_) {
-        caustics_->refine();
+        caustics_->refine(store_.sent());
         store_.bind();
     }
     store_.refresh_power();
