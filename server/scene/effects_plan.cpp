@@ -22,7 +22,8 @@ constexpr double skipped_share = 0.1;      // of the accuracy: smaller classes a
 constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
 constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
 constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
-constexpr std::size_t caustic_bytes = 40;     // irradiance, the radiance that it makes, at vertices
+constexpr std::size_t caustic_bytes = 88;     // flux, irradiance, the radiance of it, at vertices
+constexpr const char* caustic_paths = "L(D|G)*S+D(D|G)*E";
 constexpr std::size_t transmission_bytes = 16;  // transmittance and the other side
 
 /// Numbers that several effects ask for.
@@ -34,6 +35,7 @@ struct Survey {
     double environment_flux = 0.0;
     double sun_flux = 0.0;
     double caustic_flux = 0.0;  // of lamps, at most, that meets mirrors and glass first
+    double specular_area = 0.0, other_area = 0.0;  // of sides of surfaces
     std::size_t punctual = 0, suns = 0;
     std::size_t mirrors = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
@@ -47,7 +49,21 @@ struct Survey {
         const double all = area_flux + punctual_flux + sky_flux + environment_flux + sun_flux;
         return all > 0.0 ? flux / all : 0.0;
     }
+    /// Of reflected light, if it is the same everywhere: so many of the lines between surfaces meet
+    /// mirrors or glass (Cauchy, Crofton).
+    [[nodiscard]] double crossed_share() const {
+        return other_area > 0.0 ? std::min(specular_area / other_area, 1.0) : 0.0;
+    }
 };
+
+/// A side of a triangle that reflects, or passes, or both.
+void survey_area(const Scene& scene, const Triangle& triangle, double area, Survey& survey) {
+    const Material& material = scene.materials[triangle.material];
+    const SpecularKind kind = specular_kind(material);
+    const double sides = material.double_sided || kind == SpecularKind::pane ? 2.0 : 1.0;
+    const bool other = kind == SpecularKind::none || kind == SpecularKind::coat;
+    (other ? survey.other_area : survey.specular_area) += sides * area;
+}
 
 void survey_lights(const Scene& scene, Survey& survey) {
     constexpr double pi = glm::pi<double>();
@@ -58,10 +74,11 @@ void survey_lights(const Scene& scene, Survey& survey) {
     }
     for (const Triangle& triangle : scene.triangles) {
         survey.used[triangle.material] = true;
+        const double area = 0.5 * glm::length(double_area(world_corners(scene, triangle)));
+        survey_area(scene, triangle, area, survey);
         if (radiance[triangle.material] > 0.0) {
             const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
-            survey.area_flux += sides * pi * radiance[triangle.material] * 0.5 *
-                                glm::length(double_area(world_corners(scene, triangle)));
+            survey.area_flux += sides * pi * radiance[triangle.material] * area;
         }
     }
     const auto diameter = static_cast<double>(glm::length(scene.bounds.extent()));
@@ -231,23 +248,26 @@ class Planner {
         const std::size_t surfaces = survey_.mirrors + survey_.panes + survey_.bodies;
         const double lamps =
             survey_.share(survey_.area_flux + survey_.punctual_flux + survey_.sun_flux);
-        const double bound = std::min(survey_.share(survey_.caustic_flux), lamps) *
-                             std::max(survey_.mirrored_share, survey_.transmitted_share);
+        const double skies = survey_.share(survey_.sky_flux + survey_.environment_flux);
+        const double light = std::min(survey_.share(survey_.caustic_flux), lamps) + skies;
+        const bool active = surfaces > 0 && light > 0.0;
+        const double bound = active
+                                 ? std::min(light + survey_.crossed_share(), 1.0) *
+                                       std::max(survey_.mirrored_share, survey_.transmitted_share)
+                                 : 0.0;
         if (skips(bound)) {
-            add_skipped("caustics", bound, "LS+D(D|G)*E");
+            add_skipped("caustics", bound, caustic_paths);
             return;
         }
-        const bool active = surfaces > 0 && bound > 0.0;
-        std::string reason = surfaces > 0 ? "no lamp shines at the mirrors and the glass"
+        std::string reason = surfaces > 0 ? "no light shines at the mirrors and the glass"
                                           : "nothing reflects or refracts like a mirror";
         if (active) {
-            reason = "light of lamps is followed by single rays to where " +
-                     count_of(surfaces, "mirror or glass", "mirrors and kinds of glass") +
-                     " throw it; light of other surfaces and of skies goes straight through glass, "
-                     "which absorbs without colour, "
-                     "and from mirrors as from a surface of roughness 0.4";
+            reason =
+                "light of lamps, skies and other surfaces is followed by single rays to where " +
+                count_of(surfaces, "mirror or glass", "mirrors and kinds of glass") +
+                " throw it, with what bundles make of it taken away";
         }
-        add("caustics", active, std::move(reason), "LS+D(D|G)*E", bound, caustic_bytes);
+        add("caustics", active, std::move(reason), caustic_paths, bound, caustic_bytes);
     }
 
     void plan_lights() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 
 #include "scene/patch_colour.h"
 
@@ -23,6 +24,19 @@ constexpr std::size_t most_targets = 16;
 constexpr float least_share = 1e-3F;       // of a lamp's flux: none is starved
 constexpr float margin = 1.001F;           // of a sphere's radius
 constexpr float start_share = 0x1.0p-18F;  // of the diameter
+constexpr std::size_t sky_rows = 32;       // cells of equal solid angle
+constexpr std::size_t sky_columns = 64;
+constexpr std::size_t sky_cells = sky_rows * sky_columns;
+
+/// Direction to a place of a cell of the sky, whose coordinates are in [0, 1).
+glm::vec3 direction_in_sky(std::size_t cell, float along, float across) {
+    const float height =
+        1.0F - 2.0F * (static_cast<float>(cell / sky_columns) + along) / float{sky_rows};
+    const float sine = std::sqrt(std::max(1.0F - height * height, 0.0F));
+    const float turn = glm::two_pi<float>() * (static_cast<float>(cell % sky_columns) + across) /
+                       float{sky_columns};
+    return {sine * std::cos(turn), height, sine * std::sin(turn)};
+}
 
 glm::vec3 on_cone(const glm::vec3& axis, float cosine, float turn) {
     const float sine = std::sqrt(std::max(1.0F - cosine * cosine, 0.0F));
@@ -40,9 +54,9 @@ float cone_height(float radius, float square) {
 }  // namespace
 
 CausticLights::CausticLights(const GpuScene& scene, const PatchMesh& mesh,
-                             std::span<const glm::vec3> radiance, Punctual punctual,
+                             std::span<const glm::vec3> radiance, Kind kind,
                              std::span<const Bounds> targets)
-    : diameter_(scene.diameter()), offset_(start_share * scene.diameter()) {
+    : scene_(scene), diameter_(scene.diameter()), offset_(start_share * scene.diameter()) {
     std::vector<Bounds> boxes(targets.begin(), targets.end());
     for (std::size_t i = most_targets; i < boxes.size(); ++i) {
         boxes[most_targets - 1].add(boxes[i].min);
@@ -53,24 +67,47 @@ CausticLights::CausticLights(const GpuScene& scene, const PatchMesh& mesh,
         targets_.push_back({box.centre(), 0.5F * margin * glm::length(box.extent())});
     }
     add_emitters(scene, mesh, radiance);
-    if (punctual == Punctual::with) {
-        add_punctual(scene);
+    if (kind == Kind::lamps) {
+        add_punctual();
+    } else if (scene.has_sky()) {
+        add_sky();
     }
     for (double& chance : chances_) {
         chance /= std::max(chances_.back(), 1e-300);
     }
 }
 
-void CausticLights::add_punctual(const GpuScene& scene) {
-    for (std::size_t i = 0; i < scene.punctual_lights().size(); ++i) {
-        const PlacedLight light = scene.placed_light(i);
+/// Of all targets as anything far away sees them, m².
+double CausticLights::target_discs() const {
+    double area = 0.0;
+    for (const Sphere& sphere : targets_) {
+        const auto r = static_cast<double>(sphere.radius);
+        area += glm::pi<double>() * r * r;
+    }
+    return area;
+}
+
+void CausticLights::add_sky() {
+    const double unit = static_cast<double>(scene_.radiance_unit());
+    const double share = 4.0 * glm::pi<double>() / double{sky_cells} * target_discs();
+    std::vector<double> fluxes;
+    for (std::size_t cell = 0; cell < sky_cells; ++cell) {
+        const glm::vec3 radiance = scene_.sky_towards(direction_in_sky(cell, 0.5F, 0.5F));
+        fluxes.push_back(static_cast<double>(luminance(radiance)) * unit * share);
+    }
+    const double all = std::accumulate(fluxes.begin(), fluxes.end(), 0.0);
+    for (const double flux : fluxes) {  // a tenth evenly: a cell's centre does not tell all of it
+        add_chance(0.9 * flux + 0.1 * all / double{sky_cells});
+    }
+}
+
+void CausticLights::add_punctual() {
+    for (std::size_t i = 0; i < scene_.punctual_lights().size(); ++i) {
+        const PlacedLight light = scene_.placed_light(i);
         punctual_.push_back(light);
         double flux = 0.0;
         if (light.kind == PunctualKind::directional) {
-            for (const Sphere& sphere : targets_) {
-                const double r = static_cast<double>(sphere.radius);
-                flux += glm::pi<double>() * r * r * luminance(glm::vec3(light.intensity));
-            }
+            flux = target_discs() * static_cast<double>(luminance(glm::vec3(light.intensity)));
         } else {
             flux = static_cast<double>(luminance(glm::vec3(light.flux())) *
                                        reachable_share(glm::vec3(light.position)));
@@ -210,8 +247,10 @@ std::optional<LightRay> CausticLights::from_point(const PlacedLight& light, doub
     return ray.flux == glm::vec3(0.0F) ? std::nullopt : std::optional(ray);
 }
 
-std::optional<LightRay> CausticLights::from_far(const PlacedLight& light, double chance,
-                                                const Numbers& numbers) const {
+/// On a point of one of the targets' discs. radiance: over the density of the direction, or the
+/// illuminance of what shines from that direction alone.
+LightRay CausticLights::from_outside(const glm::vec3& direction, const glm::vec3& radiance,
+                                     const Numbers& numbers) const {
     float all = 0.0F;
     for (const Sphere& sphere : targets_) {
         all += sphere.radius * sphere.radius;
@@ -223,8 +262,7 @@ std::optional<LightRay> CausticLights::from_far(const PlacedLight& light, double
         left -= sphere.radius * sphere.radius;
     }
     LightRay ray;
-    ray.punctual = true;
-    ray.direction = glm::normalize(glm::vec3(light.direction()));
+    ray.direction = direction;
     const glm::mat3 frame = frame_about(ray.direction);
     const float angle = glm::two_pi<float>() * numbers[5];
     const glm::vec3 at =
@@ -237,9 +275,27 @@ std::optional<LightRay> CausticLights::from_far(const PlacedLight& light, double
         discs += glm::dot(across, across) <= sphere.radius * sphere.radius ? 1.0F : 0.0F;
     }
     ray.origin = at - 2.0F * diameter_ * ray.direction;
-    ray.flux = glm::vec3(light.intensity) *
-               (glm::pi<float>() * all / (std::max(discs, 1.0F) * static_cast<float>(chance)));
+    ray.flux = radiance * (glm::pi<float>() * all / std::max(discs, 1.0F));
     return ray;
+}
+
+std::optional<LightRay> CausticLights::from_far(const PlacedLight& light, double chance,
+                                                const Numbers& numbers) const {
+    LightRay ray = from_outside(glm::normalize(glm::vec3(light.direction())),
+                                glm::vec3(light.intensity) / static_cast<float>(chance), numbers);
+    ray.punctual = true;
+    return ray;
+}
+
+std::optional<LightRay> CausticLights::from_sky(std::size_t cell, double chance,
+                                                const Numbers& numbers) const {
+    const glm::vec3 towards = direction_in_sky(cell, numbers[1], numbers[2]);
+    const glm::vec3 radiance = scene_.sky_towards(towards) * scene_.radiance_unit();
+    if (radiance == glm::vec3(0.0F)) {
+        return std::nullopt;
+    }
+    const float solid_angle = 4.0F * glm::pi<float>() / float{sky_cells};
+    return from_outside(-towards, radiance * (solid_angle / static_cast<float>(chance)), numbers);
 }
 
 std::optional<LightRay> CausticLights::ray(const Numbers& numbers) const {
@@ -255,6 +311,9 @@ std::optional<LightRay> CausticLights::ray(const Numbers& numbers) const {
     }
     if (index < emitters_.size()) {
         return from_emitter(emitters_[index], chance, numbers);
+    }
+    if (punctual_.empty()) {
+        return from_sky(index - emitters_.size(), chance, numbers);
     }
     const PlacedLight& light = punctual_[index - emitters_.size()];
     return light.kind == PunctualKind::directional ? from_far(light, chance, numbers)

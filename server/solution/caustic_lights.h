@@ -13,7 +13,7 @@
 
 namespace raybundle {
 
-/// A ray of light that leaves a lamp or another surface.
+/// A ray of light that leaves a lamp, another surface or the sky.
 struct LightRay {
     glm::vec3 origin{0.0F};  ///< shifted world, m
     glm::vec3 direction{0.0F};
@@ -26,18 +26,18 @@ struct LightRay {
 glm::mat3 frame_about(const glm::vec3& z);
 
 /// What of a scene shines at its mirrors and glass: its lamps, which are emitting patches and
-/// punctual lights (suns among them; no sky), or patches that reflect. Rays are aimed at the
-/// spheres round the specular objects, with the density of the whole mixture, so that each is worth
-/// about the same. A snapshot of the present places and radiances.
+/// punctual lights (suns among them), or the others, which are patches that reflect and the sky.
+/// Rays are aimed at the spheres round the specular objects, with the density of the whole mixture,
+/// so that each is worth about the same. A snapshot of the present places and radiances.
 class CausticLights {
   public:
     static constexpr std::size_t numbers_per_ray = 6;
     using Numbers = std::array<float, numbers_per_ray>;  ///< each uniform in [0, 1)
 
-    enum class Punctual { with, without };
+    enum class Kind { lamps, others };
     /// radiance: that patches send, cd/m². targets: boxes to aim at, shifted world.
     CausticLights(const GpuScene& scene, const PatchMesh& mesh, std::span<const glm::vec3> radiance,
-                  Punctual punctual, std::span<const Bounds> targets);
+                  Kind kind, std::span<const Bounds> targets);
     /// Whether no light can reach a target.
     [[nodiscard]] bool empty() const { return chances_.empty() || chances_.back() <= 0.0; }
     /// Nothing where the ray drawn carries nothing. Usable by any number of threads.
@@ -61,7 +61,9 @@ class CausticLights {
 
     void add_emitters(const GpuScene& scene, const PatchMesh& mesh,
                       std::span<const glm::vec3> radiance);
-    void add_punctual(const GpuScene& scene);
+    void add_punctual();
+    void add_sky();
+    [[nodiscard]] double target_discs() const;
     void add_chance(double flux);
     [[nodiscard]] float solid_angle(const Sphere& sphere, const glm::vec3& origin) const;
     [[nodiscard]] float reachable_share(const glm::vec3& origin) const;
@@ -73,11 +75,16 @@ class CausticLights {
                                                      const Numbers& numbers) const;
     [[nodiscard]] std::optional<LightRay> from_far(const PlacedLight& light, double chance,
                                                    const Numbers& numbers) const;
+    [[nodiscard]] std::optional<LightRay> from_sky(std::size_t cell, double chance,
+                                                   const Numbers& numbers) const;
+    [[nodiscard]] LightRay from_outside(const glm::vec3& direction, const glm::vec3& radiance,
+                                        const Numbers& numbers) const;
 
     std::vector<Sphere> targets_;
     std::vector<Emitter> emitters_;
     std::vector<PlacedLight> punctual_;
-    std::vector<double> chances_;  // cumulative, of emitters and then of punctual lights
+    const GpuScene& scene_;
+    std::vector<double> chances_;  // cumulative, of emitters, then of punctual lights or sky cells
     float diameter_;
     float offset_;  // m: so far in front of a surface rays start
 };

@@ -19,12 +19,12 @@ struct CausticDeposit {
     glm::vec3 flux{0.0F};
 };
 
-/// Single rays of light from lamps through mirrors and glass to the first other surface (ch. 4.2;
-/// class LS+D). Bundles carry that class, too, but not as it is: they go straight through glass,
-/// which absorbs without colour, and mirrors scatter them into a wide lobe
-/// (solution/reflectance_tables.h). So every ray goes two ways: as light does, and, with its flux
-/// taken away where it ends, as bundles do. The sum is the correction that belongs to what bundles
-/// bring, without bias but for branches of less than SpecularRays::least_throughput.
+/// Single rays of light from lamps, other surfaces or the sky through mirrors and glass to the
+/// first other surface (ch. 4.2; class (L|D)S+D). Bundles carry that class, too, but not as it is:
+/// they go straight through glass, which absorbs without colour, and mirrors scatter them into a
+/// wide lobe (solution/reflectance_tables.h). So every ray goes two ways: as light does, and, with
+/// its flux taken away where it ends, as bundles do. The sum is the correction that belongs to what
+/// bundles bring, without bias but for branches of less than SpecularRays::least_throughput.
 class CausticRays {
   public:
     CausticRays(const Scene& scene, const PatchMesh& mesh, const SpecularRays& rays);

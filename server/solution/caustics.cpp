@@ -38,6 +38,7 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
       surface_sums_(sums_),
       surface_counts_(sums_.size(), 0),
       seed_(seed),
+      readback_("caustic sources", mesh.patch_count() * sizeof(glm::vec4)),
       flux_("caustic flux", 2 * mesh.patch_count() * sizeof(glm::vec4)),
       deposit_buffer_("caustic deposits", mesh.patch_count() * sizeof(glm::vec4)),
       irradiance_("caustic irradiance", deposit_buffer_.bytes()),
@@ -68,14 +69,18 @@ void Caustics::scale(const glm::vec3& factor) {
 }
 
 void Caustics::restart() {
-    lights_.emplace(scene_, mesh_, mesh_.emission, CausticLights::Punctual::with,
+    lights_.emplace(scene_, mesh_, mesh_.emission, CausticLights::Kind::lamps,
                     scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     sums_.assign(sums_.size(), glm::dvec3(0.0));
     surface_sums_.assign(sums_.size(), glm::dvec3(0.0));
     surface_counts_.assign(sums_.size(), 0);
     surface_batches_ = 0;
     batches_ = 0;
-    flux_.clear();
+    flux_.clear(deposit_buffer_.bytes());
+    for (glm::vec4& flux : surface_flux_) {
+        flux *= glm::vec4(scale_, 1.0F);
+    }
+    upload_surfaces();
     rays_ = 0;
     ++changes_;
     if (!lights_->empty()) {
@@ -119,9 +124,9 @@ void Caustics::trace(std::uint32_t rays) {
 
 /// What patches reflect, cd/m²: all that they send but their emission. Mirrors and glass do not
 /// count, whose light is on its way.
-std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) const {
-    std::vector<glm::vec4> radiance(sums_.size());
-    sent.read<glm::vec4>(radiance);
+std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) {
+    readback_.request(sent, sums_.size() * sizeof(glm::vec4));
+    const std::span<const glm::vec4> radiance = readback_.take_as<glm::vec4>();
     std::vector<glm::vec3> result(sums_.size(), glm::vec3(0.0F));
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::uint32_t material = mesh_.triangle_material[mesh_.patch_triangle[i]];
@@ -134,11 +139,12 @@ std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) const {
     return result;
 }
 
-/// Uploads the light of other surfaces of all patches.
 void Caustics::trace_surfaces(const Buffer& sent) {
-    const CausticLights surfaces(scene_, mesh_, reflected(sent), CausticLights::Punctual::without,
+    const CausticLights surfaces(scene_, mesh_, reflected(sent), CausticLights::Kind::others,
                                  scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     if (surfaces.empty()) {
+        surface_flux_.assign(surface_flux_.size(), glm::vec4(0.0F));
+        upload_surfaces();
         return;
     }
     const auto weight = static_cast<double>(surface_batches_ + 1);
@@ -155,11 +161,17 @@ void Caustics::trace_surfaces(const Buffer& sent) {
     const double weights = 0.5 * weight * (weight + 1.0);
     const auto share = static_cast<float>(
         1.0 / (weights * surface_rays * static_cast<double>(scene_.radiance_unit())));
-    deposits_.clear();
+    surface_flux_.clear();
     for (const glm::vec3& flux : spread) {
-        deposits_.emplace_back(share * flux, 0.0F);
+        surface_flux_.emplace_back(share * flux, 0.0F);
     }
-    flux_.write<glm::vec4>(deposits_, deposit_buffer_.bytes());
+    upload_surfaces();
+}
+
+void Caustics::upload_surfaces() {
+    if (!surface_flux_.empty()) {
+        flux_.write<glm::vec4>(surface_flux_, deposit_buffer_.bytes());
+    }
 }
 
 /// The patches' irradiance and what they send of it.

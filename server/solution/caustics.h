@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/gl_objects.h"
+#include "gpu/readback.h"
 #include "gpu/shader_program.h"
 #include "solution/caustic_rays.h"
 #include "solution/gpu_scene.h"
@@ -39,7 +40,8 @@ class Caustics {
     void refine(const Buffer& sent);
     /// All light has been multiplied by this, the patches' radiance, too.
     void scale(const glm::vec3& factor);
-    /// Objects are elsewhere: forgets all rays and traces first_rays of lamps. As refine().
+    /// Objects are elsewhere: forgets all rays and traces first_rays of lamps; the light of other
+    /// surfaces stays what it was until refine(). As refine().
     void restart();
     /// Materials have changed, and with them the patches' emission, cd/m². restart() has to follow.
     void update(const Scene& scene, std::span<const std::uint32_t> materials,
@@ -54,7 +56,8 @@ class Caustics {
   private:
     void trace(std::uint32_t rays);
     void trace_surfaces(const Buffer& sent);
-    [[nodiscard]] std::vector<glm::vec3> reflected(const Buffer& sent) const;
+    [[nodiscard]] std::vector<glm::vec3> reflected(const Buffer& sent);
+    void upload_surfaces();
     void reflect();
 
     const GpuScene& scene_;
@@ -67,12 +70,14 @@ class Caustics {
     std::vector<glm::vec4> deposits_;            // their sums, to be uploaded
     std::vector<glm::dvec3> surface_sums_;       // flux of other surfaces, times the batch's weight
     std::vector<std::uint32_t> surface_counts_;  // rays that have met each patch
+    std::vector<glm::vec4> surface_flux_;        // spread, radiance units times m²; empty: none
     std::uint64_t surface_batches_ = 0;
     std::uint64_t seed_;
     std::uint64_t rays_ = 0;
     std::uint64_t batches_ = 0;
     std::uint64_t changes_ = 0;
     glm::vec3 scale_{1.0F};  // of the radiance since the last estimate
+    Readback readback_;
     Buffer flux_, deposit_buffer_, irradiance_, radiance_, vertices_;
     Texture2D vertex_texture_;
     ShaderProgram deposit_, reflect_, interpolate_;

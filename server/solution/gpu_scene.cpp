@@ -292,7 +292,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
     mirror_or_glass_ = has_mirror_or_glass(scene);
     caustics_ = trace_caustics_ && mirror_or_glass_ &&
-                (!scene.punctual_lights.empty() ||
+                (has_sky_ || !scene.punctual_lights.empty() ||
                  !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
     define_if(caustics_, "CAUSTICS");
     const std::vector<std::string>& lobes = reflectance_.defines();

@@ -34,7 +34,7 @@ class GpuScene {
     /// constant_radiance: bundles shall carry what radiance is beyond a constant (ch. 5.5). Only
     /// where nothing is glossy, since what a glossy surface reflects of a constant depends on the
     /// direction.
-    /// caustics: those of lamps are traced, where the scene may have any.
+    /// caustics: single rays follow light by mirrors and glass, where the scene may have any.
     GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false,
              bool caustics = true);
     [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
@@ -75,7 +75,7 @@ class GpuScene {
     /// depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with profiles),
     /// TRANSMISSION (some patches send light that arrives on their other side), ENVIRONMENT (a sky
     /// that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays go on from some
-    /// surfaces), GLASS (bundles pass some), CAUSTICS (lamps shine on such surfaces). What is
+    /// surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such surfaces). What is
     /// absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
@@ -104,7 +104,7 @@ class GpuScene {
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// What deflects view rays, at the present places; null where nothing does.
     [[nodiscard]] const SpecularRays* specular_rays() const { return specular_rays_.get(); }
-    /// Whether lamps may shine on mirrors or glass, so that there are caustics.
+    /// Whether any light may shine on mirrors or glass, so that there are caustics.
     [[nodiscard]] bool caustics() const { return caustics_; }
     /// Whether a material as it is in the scene now needs no macro that is not among defines().
     [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;

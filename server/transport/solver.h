@@ -39,7 +39,8 @@ struct SolverSettings {
     /// Bundles carry what radiance is beyond the mean radiance (ch. 5.5), where GpuScene allows it.
     /// With perspective bundles alone only closed scenes have what nothing is missing from.
     bool constant_radiance = false;
-    /// Caustics of lamps are traced (effects plan: `caustics`); false: to measure what they cost.
+    /// Single rays follow light by mirrors and glass (effects plan: `caustics`); false: to measure
+    /// what they cost.
     bool caustics = true;
     /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
     bool random_faces = false;
