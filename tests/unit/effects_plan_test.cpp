@@ -125,6 +125,24 @@ TEST(EffectsPlan, BoundsCausticsByWhatLampsAimAtMirrors) {
                 2e-3);
 }
 
+/// What other surfaces reflect counts by the areas, and all of the sky's light.
+TEST(EffectsPlan, BoundsCausticsByReflectedLightAndSkies) {
+    Scene scene = lamp_and_mirror(10.0F);
+    const double lamp = effect_of(plan_effects(scene, 1), "caustics").share_bound;
+    scene.materials.emplace_back();
+    Triangle other = scene.triangles.front();
+    other.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    scene.triangles.insert(scene.triangles.end(), 4, other);
+    EXPECT_NEAR(effect_of(plan_effects(scene, 1), "caustics").share_bound, lamp + 0.25, 1e-3);
+
+    Scene outdoors = lamp_and_mirror(10.0F);
+    outdoors.punctual_lights.clear();
+    EXPECT_FALSE(effect_of(plan_effects(outdoors, 1), "caustics").active);
+    outdoors.sky_radiance = glm::vec3(1.0F);
+    EXPECT_TRUE(effect_of(plan_effects(outdoors, 1), "caustics").active);
+    EXPECT_NEAR(effect_of(plan_effects(outdoors, 1), "caustics").share_bound, 1.0, 2e-3);
+}
+
 TEST(EffectsPlan, SkipsCausticsBelowATenthOfTheAccuracy) {
     const Scene scene = lamp_and_mirror(10.0F);
     const double bound = effect_of(plan_effects(scene, 1), "caustics").share_bound;
