@@ -22,6 +22,8 @@ class Readback {
     /// Queues a copy of the first `bytes` of the source. A request not yet looked at is replaced.
     void request(const Buffer& source, std::size_t bytes);
     [[nodiscard]] bool pending() const { return fence_ != nullptr; }
+    /// Forgets a request not yet looked at.
+    void cancel() { drop_fence(); }
     /// True once the requested data can be had without waiting.
     [[nodiscard]] bool ready() const;
     /// The requested bytes; waits where they are not there yet. Valid until the next request.

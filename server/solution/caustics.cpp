@@ -59,9 +59,15 @@ void Caustics::refine(const Buffer& sent) {
         trace(batch_rays);
     }
     if (batches_++ % surface_interval == 0) {
-        trace_surfaces(sent);
+        if (!readback_.pending()) {
+            request(sent);
+        }
+        trace_surfaces();
     }
     reflect();
+    if (batches_ % surface_interval == 0) {
+        request(sent);  // for the next time
+    }
 }
 
 void Caustics::scale(const glm::vec3& factor) {
@@ -76,6 +82,7 @@ void Caustics::restart() {
     surface_counts_.assign(sums_.size(), 0);
     surface_batches_ = 0;
     batches_ = 0;
+    readback_.cancel();
     flux_.clear(deposit_buffer_.bytes());
     for (glm::vec4& flux : surface_flux_) {
         flux *= glm::vec4(scale_, 1.0F);
@@ -124,8 +131,7 @@ void Caustics::trace(std::uint32_t rays) {
 
 /// What patches reflect, cd/m²: all that they send but their emission. Mirrors and glass do not
 /// count, whose light is on its way.
-std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) {
-    readback_.request(sent, sums_.size() * sizeof(glm::vec4));
+std::vector<glm::vec3> Caustics::reflected() {
     const std::span<const glm::vec4> radiance = readback_.take_as<glm::vec4>();
     std::vector<glm::vec3> result(sums_.size(), glm::vec3(0.0F));
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -139,8 +145,12 @@ std::vector<glm::vec3> Caustics::reflected(const Buffer& sent) {
     return result;
 }
 
-void Caustics::trace_surfaces(const Buffer& sent) {
-    const CausticLights surfaces(scene_, mesh_, reflected(sent), CausticLights::Kind::others,
+void Caustics::request(const Buffer& sent) {
+    readback_.request(sent, sums_.size() * sizeof(glm::vec4));
+}
+
+void Caustics::trace_surfaces() {
+    const CausticLights surfaces(scene_, mesh_, reflected(), CausticLights::Kind::others,
                                  scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     if (surfaces.empty()) {
         surface_flux_.assign(surface_flux_.size(), glm::vec4(0.0F));

@@ -36,7 +36,8 @@ class Caustics {
              std::uint64_t seed);
 
     /// Another batch. The patches' radiance takes on the difference. sent: that radiance, in
-    /// radiance units. The solution's buffers are bound, and must be bound again.
+    /// radiance units; what is read of it is a batch old, so that nothing waits. The solution's
+    /// buffers are bound, and must be bound again.
     void refine(const Buffer& sent);
     /// All light has been multiplied by this, the patches' radiance, too.
     void scale(const glm::vec3& factor);
@@ -55,8 +56,9 @@ class Caustics {
 
   private:
     void trace(std::uint32_t rays);
-    void trace_surfaces(const Buffer& sent);
-    [[nodiscard]] std::vector<glm::vec3> reflected(const Buffer& sent);
+    void request(const Buffer& sent);
+    void trace_surfaces();
+    [[nodiscard]] std::vector<glm::vec3> reflected();
     void upload_surfaces();
     void reflect();
 
