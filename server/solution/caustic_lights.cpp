@@ -30,8 +30,8 @@ constexpr std::size_t sky_cells = sky_rows * sky_columns;
 
 /// Direction to a place of a cell of the sky, whose coordinates are in [0, 1).
 glm::vec3 direction_in_sky(std::size_t cell, float along, float across) {
-    const float height =
-        1.0F - 2.0F * (static_cast<float>(cell / sky_columns) + along) / float{sky_rows};
+    const std::size_t row = cell / sky_columns;
+    const float height = 1.0F - 2.0F * (static_cast<float>(row) + along) / float{sky_rows};
     const float sine = std::sqrt(std::max(1.0F - height * height, 0.0F));
     const float turn = glm::two_pi<float>() * (static_cast<float>(cell % sky_columns) + across) /
                        float{sky_columns};

@@ -19,7 +19,7 @@ constexpr unsigned coarsest_shift = 5;  // the largest cells are so many times t
 std::uint64_t facing_of(const glm::vec3& normal) {
     const glm::vec3 size = glm::abs(normal);
     const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-    return static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0.0F ? 1 : 0));
+    return 2U * static_cast<unsigned>(axis) + (normal[axis] < 0.0F ? 1U : 0U);
 }
 
 /// A place among the smallest cells.
