@@ -21,6 +21,8 @@ class PhaseBudget {
     /// A bundle of it, of either stage, has been transferred. last: the phase is at its end; what
     /// it took, waiting included, is what the next one is expected to take.
     void note_bundle(double now_ms, bool last);
+    /// Since the running phase, or the last one, began.
+    [[nodiscard]] double elapsed_ms(double now_ms) const { return now_ms - since_ms_; }
 
     /// target: smallest relative error that a viewer asks for, 0 where none does. hurried: the next
     /// change waits already, as in a drag, so that what this one leaves is soon corrected anyway.

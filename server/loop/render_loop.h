@@ -168,7 +168,8 @@ class RenderLoop {
     MovingScale moving_scale_;           // of a walk's pictures
     MovingScale drag_scale_;             // of all pictures while an object is dragged
     double dragged_phase_ms_ = 0.0;      // mean, if all pictures were full; 0: not known
-    Clock::time_point last_drag_, phase_begin_;
+    bool phase_of_drag_ = false;         // the running one is
+    Clock::time_point last_drag_;
     CostModel cost_;
     PhaseBudget phase_budget_;
     LoopMetrics metrics_;

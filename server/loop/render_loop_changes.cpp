@@ -8,7 +8,6 @@
 #include "bundle/low_discrepancy.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 
@@ -111,12 +110,13 @@ void RenderLoop::begin_phase(Solver& solver) {
     }
     solver.set_special(phase_budget_.settings(target, !changes_.empty()));
     phase_budget_.begin(Server::now_ms());
-    phase_begin_ = Clock::now();
+    phase_of_drag_ = false;
     metrics_.count_phase();
 }
 
 /// An object is being dragged: its phases gather light in fewer pixels where they take too long.
 void RenderLoop::draw_for_drag() {
+    phase_of_drag_ = true;
     last_drag_ = Clock::now();
     for (const auto& [id, session] : sessions_) {
         if (session->has_image()) {
@@ -128,7 +128,7 @@ void RenderLoop::draw_for_drag() {
 /// After each bundle of a special phase. What a whole phase of a drag takes decides about the
 /// pictures of the next.
 void RenderLoop::note_phase_end() {
-    if (solver_->correcting() || !dragging(phase_begin_)) {
+    if (solver_->correcting() || !phase_of_drag_) {
         return;
     }
     double full = 0.0;
@@ -137,7 +137,7 @@ void RenderLoop::note_phase_end() {
         full += session->has_image() ? session->pixels() : 0.0;
         drawn += session->has_image() ? session->drawn_pixels() : 0.0;
     }
-    const double full_ms = milliseconds_since(phase_begin_) * full / std::max(drawn, 1.0);
+    const double full_ms = phase_budget_.elapsed_ms(Server::now_ms()) * full / std::max(drawn, 1.0);
     constexpr double newest = 0.3;
     dragged_phase_ms_ += (dragged_phase_ms_ > 0.0 ? newest : 1.0) * (full_ms - dragged_phase_ms_);
     drag_scale_.note(dragged_phase_ms_, PhaseBudget::deadline_ms);
