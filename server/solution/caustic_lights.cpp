@@ -251,15 +251,12 @@ std::optional<LightRay> CausticLights::from_point(const PlacedLight& light, doub
 /// illuminance of what shines from that direction alone.
 LightRay CausticLights::from_outside(const glm::vec3& direction, const glm::vec3& radiance,
                                      const Numbers& numbers) const {
-    float all = 0.0F;
-    for (const Sphere& sphere : targets_) {
-        all += sphere.radius * sphere.radius;
-    }
+    const auto all = static_cast<float>(target_discs());
     const Sphere* chosen = &targets_.front();
     float left = numbers[3] * all;
     for (const Sphere& sphere : targets_) {
         chosen = left >= 0.0F ? &sphere : chosen;
-        left -= sphere.radius * sphere.radius;
+        left -= glm::pi<float>() * sphere.radius * sphere.radius;
     }
     LightRay ray;
     ray.direction = direction;
@@ -275,7 +272,7 @@ LightRay CausticLights::from_outside(const glm::vec3& direction, const glm::vec3
         discs += glm::dot(across, across) <= sphere.radius * sphere.radius ? 1.0F : 0.0F;
     }
     ray.origin = at - 2.0F * diameter_ * ray.direction;
-    ray.flux = radiance * (glm::pi<float>() * all / std::max(discs, 1.0F));
+    ray.flux = radiance * (all / std::max(discs, 1.0F));
     return ray;
 }
 
