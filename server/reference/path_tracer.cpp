@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "reference/glass_walk.h"
 #include "reference/roulette.h"
+#include "reference/specular_walk.h"
 #include "scene/environment.h"
 
 namespace raybundle {
@@ -33,8 +33,8 @@ double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& 
 }
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
-    const GlassWalk seen =
-        walk_through_glass(scene_, scene_.trace(origin, direction), direction, sampler);
+    const SpecularWalk seen =
+        walk_specular(scene_, scene_.trace(origin, direction), direction, sampler);
     if (!seen.hit) {
         return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
@@ -93,12 +93,12 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
             }
             throughput /= chance;
         }
-        const GlassWalk met = walk_through_glass(scene_, scene_.trace_from(point, next->direction),
-                                                 next->direction, sampler);
+        const SpecularWalk met = walk_specular(scene_, scene_.trace_from(point, next->direction),
+                                               next->direction, sampler);
         throughput *= met.weight;
         const glm::dvec3 emission = emitted(met.hit, met.direction);
         if (emission != glm::dvec3(0.0)) {
-            // No light is sampled through glass.
+            // No light is sampled by way of glass or ideal mirrors.
             const bool sampled = settings_.next_event && !met.passed;
             const double other =
                 sampled ? lights_.density(point, scattering.frame(), next->direction, met.hit)

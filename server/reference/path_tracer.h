@@ -22,9 +22,10 @@ struct PathSettings {
 };
 
 /// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation, which glass blocks: light that
-/// comes through glass is met by the paths themselves, that of punctual lights not at all. Light
-/// that a path meets by itself and light that is sampled are weighted by the balance heuristic
-/// (Veach, Guibas 1995, "Optimally Combining Sampling Techniques").
+/// comes through glass or from ideal mirrors is met by the paths themselves, that of punctual
+/// lights behind glass not at all. Light that a path meets by itself and light that is sampled are
+/// weighted by the balance heuristic (Veach, Guibas 1995, "Optimally Combining Sampling
+/// Techniques").
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,

@@ -244,8 +244,10 @@ double difference_from_paths(const SceneBuilder& room, int iterations, std::uint
     return block_difference(picture, truth, picture_size, 6);
 }
 
+/// Most of the light that is seen is the lamp's image, which the path tracer would blur were its
+/// mirror not as ideal.
 TEST(HeavySpecularView, ARoomWithAMirrorAgreesWithPathTracing) {
-    EXPECT_LT(difference_from_paths(lit_room_with(mirror_material()), 1024, 512), 0.03);
+    EXPECT_LT(difference_from_paths(lit_room_with(mirror_material()), 1024, 2048), 0.015);
 }
 
 TEST(HeavySpecularView, ARoomWithAPaneAgreesWithPathTracing) {

@@ -127,6 +127,53 @@ TEST(PathTracer, RectangularLampLightsTheFloorAsItsClosedForm) {
     }
 }
 
+/// A lamp that lies on the floor, and a mirror over both: its light is that of its image, at twice
+/// the mirror's height. A ray to it arrives where it is, not near it as by a narrow lobe.
+TEST(PathTracer, IdealMirrorShowsTheLampWhereItsImageIs) {
+    constexpr double h = 0.4;
+    SceneBuilder b;
+    b.set_transform(odd_rotation());
+    add_floor(b, b.add_material(glm::vec3(0.0F)));
+    b.add_quad({1.1F, 0, 0.2F}, {0, 0, 0.4F}, {1, 0, 0}, 1, 1,
+               b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F)));
+    Material mirror;
+    mirror.base_colour = glm::vec3(0.9F);
+    mirror.metallic = 1.0F;
+    mirror.roughness = 0.0F;
+    b.add_quad({-20, static_cast<float>(h), -20}, {40, 0, 0}, {0, 0, 40}, 1, 1,
+               add_material(b, mirror));
+    const Tracing t(b);
+    const SurfacePoint point = t.scene.point_on_patch(0, {0.2, 0.5});
+    const glm::dvec2 at(0.5, 0.7);  // x, z
+    const auto term = [&](double lamp_x, double lamp_z) {
+        return corner_term(lamp_x - at.x, lamp_z - at.y, 2.0 * h);
+    };
+    const double image =
+        1000.0 * (term(2.1, 0.6) - term(1.1, 0.6) - term(2.1, 0.2) + term(1.1, 0.2));
+    // Schlick's reflectance is between those of the angles to the lamp's nearest and farthest
+    // point.
+    const auto reflected = [&](double distance) {
+        const double cosine = 2.0 * h / std::hypot(distance, 2.0 * h);
+        return 0.9 + 0.1 * std::pow(1.0 - cosine, 5.0);
+    };
+    const Estimate found = irradiance_at(t.tracer, point, 2'000'000);
+    EXPECT_LT(found.standard_error, 0.004 * image);
+    EXPECT_GT(found.mean, reflected(0.6) * image - sigmas * found.standard_error);
+    EXPECT_LT(found.mean, reflected(1.8) * image + sigmas * found.standard_error);
+
+    constexpr double above = 0.1;
+    const glm::dvec3 from =
+        point.position + above / std::sqrt(t.scene.square_metres()) * point.normal;
+    const auto towards_image = [&](double x) {
+        const glm::dvec3 here(at.x, above, at.y);
+        const glm::dvec3 there(x, 2.0 * h, 0.4);
+        return glm::normalize(glm::dmat3(odd_rotation()) * (there - here));
+    };
+    PixelSampler sampler(1, 0, 0, 0);
+    EXPECT_GT(t.tracer.radiance(from, towards_image(1.101), sampler).g, 900.0);
+    EXPECT_EQ(t.tracer.radiance(from, towards_image(1.099), sampler).g, 0.0);
+}
+
 /// E = pi L a^2/(a^2 + h^2) below a disc, here a polygon of 256 sides and the disc's area.
 TEST(PathTracer, DiscLampLightsThePointBelow) {
     for (const double radius : {1.0, 0.1, 1e-3}) {
