@@ -72,4 +72,18 @@ inline PixelRectangle dilated(const glm::vec2& low, const glm::vec2& high,
             clamped(std::ceil(high.y) + 1.0F, limit.y0, limit.y1)};
 }
 
+/// The view that a rectangle of a picture of `size` pixels shows: what lies outside of it need not
+/// be drawn.
+inline glm::mat4 narrowed(const glm::mat4& clip_from_world, const PixelRectangle& rectangle,
+                          const glm::ivec2& size) {
+    const glm::vec2 low = 2.0F * glm::vec2(rectangle.x0, rectangle.y0) / glm::vec2(size) - 1.0F;
+    const glm::vec2 high = 2.0F * glm::vec2(rectangle.x1, rectangle.y1) / glm::vec2(size) - 1.0F;
+    const glm::vec2 scale = 2.0F / (high - low);
+    const glm::vec2 shift = -0.5F * (high + low) * scale;
+    glm::mat4 rows = glm::transpose(clip_from_world);
+    rows[0] = scale.x * rows[0] + shift.x * rows[3];
+    rows[1] = scale.y * rows[1] + shift.y * rows[3];
+    return glm::transpose(rows);
+}
+
 }  // namespace raybundle

@@ -130,7 +130,7 @@ void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_
         glClearBufferfv(GL_DEPTH, 0, &far_depth);
         const glm::mat4 clip = clip_from_world(frame, face, n_, near_distance);
         raster_.set("clip_from_world", clip);
-        scene.draw(place, clip, true, raster_);
+        scene.draw(place, narrowed(clip, r, {n_, face_rows(face)}), true, raster_);
     }
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);

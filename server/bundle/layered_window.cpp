@@ -45,7 +45,7 @@ void LayeredWindow::draw(const GpuScene& scene, const ParallelWindow& window, Pl
     raster_.use();
     raster_.set("facet_base", scene.facet_base(place));
     raster_.set("clip_from_world", clip_from_world);
-    scene.draw(place, clip_from_world, false, raster_);
+    scene.draw(place, narrowed(clip_from_world, rectangle, {n_, n_}), false, raster_);
     glDisable(GL_SCISSOR_TEST);
     storage_barrier();
 }

@@ -169,7 +169,8 @@ void ViewerImage::raster(const glm::mat4& clip_from_world, const PixelRectangle&
     glDepthFunc(GL_GREATER);
     programs_.raster.use();
     programs_.raster.set("clip_from_world", clip_from_world);
-    scene_.draw(Place::now, clip_from_world, true, programs_.raster);
+    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true,
+                programs_.raster);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_SCISSOR_TEST);
 }
