@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels of a viewer as receivers of a bundle (design: the image estimate M L of ch. 2.6 evaluated per
 // pixel): each looks its surface point up in the bundle, as in a shadow map.
+// The including shader says what a point receives, gather(), and its main() calls receive_pixels().
 #include "luminance.glsl"
 #include "octahedral.glsl"
 #include "rarely.glsl"
@@ -25,6 +26,16 @@ layout(std430, binding = BINDING_PIXEL_SCATTER) buffer PixelScatterBuffer { floa
 uniform bool listed_tiles;  // else all of them
 uniform uint tile_list;
 #endif
+// In a phase after a change time is short, and what its few bundles say of neighbouring pixels is hardly ever different:
+// of 2 x 2 pixels, a quad, one looks up what all that show the same surface get, another one for each bundle. Pixels
+// behind a mirror have no neighbours.
+#if defined(SPECIAL) && !defined(GLOSSY_PIXELS) && !defined(CONTINUED)
+#define QUADS
+layout(local_size_x = VIEW_TILE * VIEW_TILE / 4) in;
+uniform uint first_of_quad;  // which of the four is asked first, the same before and after a move
+#else
+layout(local_size_x = VIEW_TILE * VIEW_TILE) in;
+#endif
 #ifdef CONTINUED
 #include "continued.glsl"
 #endif
@@ -48,6 +59,21 @@ struct Receiver {
     uint object;     // SPECIAL only
     uint albedo;     // of PixelSurface; GLOSSY_PIXELS only
 };
+
+/// Whether a pixel is one for this program. facet: with its flags.
+bool receives(uint patch_id, uint facet) {
+    bool received = patch_id != NO_PATCH;
+#ifdef MIRRORS
+    received = received && (facet & PIXEL_CONTINUED) == 0u;
+#endif
+#ifdef GLOSSY_PIXELS
+    return received && (facet & PIXEL_GLOSSY) != 0u;
+#elif defined(GLOSSY)
+    return received && (facet & PIXEL_GLOSSY) == 0u;
+#else
+    return received;
+#endif
+}
 
 /// The pixel's surface point at the place that was drawn. False where it is not for this program.
 bool load_receiver(uint index, out Receiver x) {
@@ -76,34 +102,7 @@ bool load_receiver(uint index, out Receiver x) {
         x.normal = x.geometric;
     }
 #endif
-    bool receives = p.w != NO_PATCH;
-#ifdef MIRRORS
-    receives = receives && (q.w & PIXEL_CONTINUED) == 0u;
-#endif
-#ifdef GLOSSY_PIXELS
-    return receives && (q.w & PIXEL_GLOSSY) != 0u;
-#elif defined(GLOSSY)
-    return receives && (q.w & PIXEL_GLOSSY) == 0u;
-#else
-    return receives;
-#endif
-}
-
-/// Pixel of this invocation, or one beyond the picture.
-uint receiving_pixel() {
-#ifdef SPECIAL
-#ifdef GLOSSY_PIXELS
-    if (!listed_tiles) {
-        return specular_pixel();
-    }
-#endif
-    uvec2 at = tile_pixel(tile_of_group(listed_tiles, tile_list), gl_LocalInvocationID.x);
-    return all(lessThan(at, view.size.xy)) ? at.y * view.size.x + at.x : 0xffffffffu;
-#elif defined(GLOSSY_PIXELS)
-    return specular_pixel();
-#else
-    return gl_GlobalInvocationID.x;
-#endif
+    return receives(p.w, q.w);
 }
 
 /// A bundle pixel shows the surface at its centre, up to a pixel's footprint beside the receiver's own
@@ -150,6 +149,70 @@ vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
 }
 #endif
 
+/// What x receives through the bundle, irradiance in radiance units, and where it comes from (unit).
+vec3 gather(Receiver x, out vec3 w_in);
+
+#ifdef QUADS
+uint pixel_of_quad(uvec2 corner, uint k) { return (corner.y + (k >> 1)) * view.size.x + corner.x + (k & 1u); }
+
+/// Shading normal, and facet with its flags, which tell surfaces apart; NO_PATCH as facet where nothing is received.
+uvec2 surface_of_pixel(uint index) {
+    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
+    uvec2 surface = texelFetch(pixel_texels, int(2u * index + 1u)).xw;
+    return receives(patch_id, surface.y) ? surface : uvec2(NO_PATCH);
+}
+
+bool alike(uvec2 a, uvec2 b) {
+    vec2 turned = abs(unpackSnorm2x16(a.x) - unpackSnorm2x16(b.x));
+    return a.y == b.y && max(turned.x, turned.y) < 0.03;
+}
+
+void receive_pixels() {
+    uvec2 corner = tile_pixel(tile_of_group(listed_tiles, tile_list), 0u) +
+                   2u * uvec2(gl_LocalInvocationID.x % (VIEW_TILE / 2u), gl_LocalInvocationID.x / (VIEW_TILE / 2u));
+    uvec2 surfaces[4];
+    uint left = 0u;  // pixels, a bit each
+    for (uint k = 0u; k < 4u; ++k) {
+        bool inside = all(lessThan(corner + uvec2(k & 1u, k >> 1), view.size.xy));
+        surfaces[k] = surface_of_pixel(inside ? pixel_of_quad(corner, k) : 0u);
+        left |= inside && surfaces[k].y != NO_PATCH ? 1u << k : 0u;
+    }
+    while (left != 0u) {
+        uint k = (uint(findLSB((left | left << 4) >> first_of_quad)) + first_of_quad) & 3u;
+        uint index = pixel_of_quad(corner, k);
+        uvec2 surface = surface_of_pixel(index);
+        Receiver x;
+        load_receiver(index, x);
+        vec3 w_in;
+        vec3 value = gather(x, w_in) * bundle.weights.x;
+        bool something = value.r + value.g + value.b < 1e30 && value != vec3(0.0);
+        for (uint j = 0u; j < 4u; ++j) {
+            uint bit = alike(surfaces[j], surface) ? left & 1u << j : 0u;
+            WHERE(something && bit != 0u) {
+                pixel_delta[pixel_of_quad(corner, j)].rgb += value;
+            }
+            left ^= bit;
+        }
+    }
+}
+#else
+/// Pixel of this invocation, or one beyond the picture.
+uint receiving_pixel() {
+#ifdef SPECIAL
+#ifdef GLOSSY_PIXELS
+    if (!listed_tiles) {
+        return specular_pixel();
+    }
+#endif
+    uvec2 at = tile_pixel(tile_of_group(listed_tiles, tile_list), gl_LocalInvocationID.x);
+    return all(lessThan(at, view.size.xy)) ? at.y * view.size.x + at.x : 0xffffffffu;
+#elif defined(GLOSSY_PIXELS)
+    return specular_pixel();
+#else
+    return gl_GlobalInvocationID.x;
+#endif
+}
+
 /// Adds one sample (irradiance, radiance units; from w_in) of the running bundle.
 void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
     bool something = value.r + value.g + value.b < 1e30 && value != vec3(0.0);
@@ -175,3 +238,15 @@ void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
 #endif
     }
 }
+
+void receive_pixels() {
+    uint index = receiving_pixel();
+    Receiver x;
+    if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
+        return;
+    }
+    vec3 w_in;
+    vec3 value = gather(x, w_in);
+    receive(index, x, w_in, value);
+}
+#endif

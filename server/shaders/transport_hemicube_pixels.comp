@@ -2,7 +2,6 @@
 // Perspective bundle to the pixels of a viewer:
 //   E(x) += L(y) cos_x cos_y/d(y)-form, where the hemicube of y sees x.
 #include "layouts.glsl"
-layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
 #ifdef SHOOTER_GLOSSY
@@ -40,12 +39,7 @@ bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d)
     return seen;
 }
 
-void main() {
-    uint index = receiving_pixel();
-    Receiver x;
-    if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
-        return;
-    }
+vec3 gather(Receiver x, out vec3 w_in) {
     vec3 value = vec3(0.0);
     vec3 offset = x.position - bundle.origin.xyz;
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
@@ -74,5 +68,8 @@ void main() {
             value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
         }
     }
-    receive(index, x, -offset / r, value);
+    w_in = -offset / r;
+    return value;
 }
+
+void main() { receive_pixels(); }

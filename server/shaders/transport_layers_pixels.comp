@@ -3,7 +3,6 @@
 // direction sends its radiance;  E(x) += L(y) cos_x / d(omega).
 #include "layouts.glsl"
 #include "rarely.glsl"
-layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
 #include "facets.glsl"
@@ -55,14 +54,9 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
     return seen;
 }
 
-void main() {
-    uint index = receiving_pixel();
-    Receiver x;
-    if (index >= view.size.x * view.size.y || counters.layers > layer_capacity() || !load_receiver(index, x)) {
-        return;
-    }
+vec3 gather(Receiver x, out vec3 w_in) {
     vec3 value = vec3(0.0);
-    vec3 w_in = vec3(0.0);
+    w_in = vec3(0.0);
     vec3 offset = x.position - bundle.origin.xyz;
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     ivec2 texel = ivec2(d.xy / bundle.weights.z);
@@ -114,5 +108,11 @@ void main() {
             value = (l.rgb - bundle.constant.rgb) * (cos_x * cosine_over_density(abs(depth - d.z), cos_y, l.w));
         }
     }
-    receive(index, x, w_in, value);
+    return value;
+}
+
+void main() {
+    if (counters.layers <= layer_capacity()) {
+        receive_pixels();
+    }
 }

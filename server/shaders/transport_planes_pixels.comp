@@ -2,7 +2,6 @@
 // Plane parallel bundle to the pixels of a viewer: where the plane lies in front of x, before anything else,
 // the surface beyond the plane sends its radiance;  E(x) += L(y) cos_x / d(omega).
 #include "layouts.glsl"
-layout(local_size_x = 64) in;
 #include "density.glsl"
 #include "scene_geometry.glsl"
 #include "facets.glsl"
@@ -61,12 +60,7 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
 }
 
-void main() {
-    uint index = receiving_pixel();
-    Receiver x;
-    if (index >= view.size.x * view.size.y || !load_receiver(index, x)) {
-        return;
-    }
+vec3 gather(Receiver x, out vec3 w_in) {
     vec3 offset = x.position - bundle.origin.xyz;
     vec3 d = vec3(dot(bundle.axis_x.xyz, offset), dot(bundle.axis_y.xyz, offset), dot(bundle.axis_z.xyz, offset));
     ivec2 texel = clamp(ivec2(d.xy / bundle.weights.z), ivec2(0), ivec2(bundle.resolution.xy) - 1);
@@ -81,14 +75,14 @@ void main() {
     float depth = plane_depth(facet_plane(facet_base + (x.surface >> 1)), line.point);
     line.depth = clamp(depth, d.z - line.footprint, d.z + line.footprint);
     float plane_ahead = line.far ? bundle.axis_x.w - line.depth : line.depth - bundle.axis_x.w;
+    w_in = line.far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
     if (cos_x <= 0.0 || plane_ahead < 0.0) {
-        return;
+        return vec3(0.0);
     }
     ivec2 ahead_of_plane = texel + ivec2(0, bundle.resolution.y);
     uint own_side = texelFetch(surface_ids, line.far ? texel : ahead_of_plane, 0).r;
     uint other_side = texelFetch(surface_ids, line.far ? ahead_of_plane : texel, 0).r;
-    if (plane_visible(x, line, own_side)) {
-        vec3 w_in = line.far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
-        receive(index, x, w_in, cos_x * incoming(x, line, other_side));
-    }
+    return plane_visible(x, line, own_side) ? cos_x * incoming(x, line, other_side) : vec3(0.0);
 }
+
+void main() { receive_pixels(); }

@@ -28,6 +28,7 @@ class BundleReceiver {
         bool special = false;                 ///< signed increments of a special phase
         /// Which of plan_differences() the bundle is one of; NO_PATCH: none, anything may change.
         std::uint32_t difference = NO_PATCH;
+        std::uint32_t number = 0;     ///< of the bundle in its phase, the same at both places
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
     };
 

@@ -136,6 +136,7 @@ TransferSettings SpecialPhase::transfer_settings(Place place) const {
     settings.context.place = place;
     settings.context.sample_weight = 0.0F;
     settings.context.special = true;
+    settings.context.number = next_;
     return settings;
 }
 

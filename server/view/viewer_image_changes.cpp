@@ -109,6 +109,7 @@ void ViewerImage::plan_differences(std::span<const BundleRays> bundles,
 
 void ViewerImage::receive_special(const ViewPrograms::Receive& programs, const Context& context) {
     const bool glossy = gloss_.bytes() > 0;
+    programs.all.set("first_of_quad", context.number % 4);
     if (context.difference == NO_PATCH) {
         affected_->dispatch_all(programs.all);
         if (glossy) {
