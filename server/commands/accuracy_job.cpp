@@ -45,7 +45,7 @@ std::vector<std::string> chosen_methods(const Options& options) {
 }
 
 PlannedCurve planned(const std::string& method, const Options& options) {
-    PlannedCurve curve{method, method, "", parse_method(method), {}, 1.0};
+    PlannedCurve curve{method, method, "", parse_method(method), {}, 1.0, ""};
     curve.solver.seed = options.seed;
     if (const auto* probabilities = std::get_if<StrategyProbabilities>(&curve.how)) {
         curve.solver.probabilities = *probabilities;
@@ -104,6 +104,11 @@ void add_variants(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
     faces.name = "some faces of glossy shooters";
     faces.solver.random_faces = true;
     curves.push_back(faces);
+    PlannedCurve matt = base;
+    matt.knob = "glossy part";
+    matt.name = "without gloss";
+    matt.without = "glossy";
+    curves.push_back(matt);
     PlannedCurve constant = base;
     constant.knob = "constant radiance";
     constant.name = "with a constant radiance term";

@@ -20,6 +20,7 @@ struct PlannedCurve {
     RenderMethod how;
     SolverSettings solver;     ///< ray bundles
     double patch_scale = 1.0;  ///< of the edges, ray bundles
+    std::string without;       ///< effect that is taken out of the scene; empty: none
 
     [[nodiscard]] bool uses_bundles() const {
         return std::holds_alternative<StrategyProbabilities>(how);

@@ -13,6 +13,7 @@
 #include "accuracy/scene_fingerprint.h"
 #include "commands/accuracy_reference.h"
 #include "journal/session_journal.h"
+#include "scene/effects_plan.h"
 #include "view/tone_curve.h"
 
 namespace raybundle {
@@ -81,9 +82,13 @@ AccuracyMeasurement::AccuracyMeasurement(const Options& options, const AccuracyJ
     }
 }
 
-/// Of the methods that nobody has named, those go that cannot follow all of the scene's light.
-/// Throws std::runtime_error for others.
+/// Of the methods that nobody has named, those go that cannot follow all of the scene's light, and
+/// knobs for what the scene has not. Throws std::runtime_error for others.
 void AccuracyMeasurement::leave_out_unable() {
+    const EffectsPlan plan = plan_effects(loaded_.scene, loaded_.mesh.patch_count(), 0.0);
+    std::erase_if(job_.curves, [&plan](const PlannedCurve& curve) {
+        return !curve.without.empty() && !is_active(plan, curve.without);
+    });
     std::erase_if(job_.curves, [this](const PlannedCurve& curve) {
         const auto* kind = std::get_if<ReferenceKind>(&curve.how);
         const std::string reason = kind ? reason_against(*kind, ray_scene_) : "";
@@ -118,13 +123,15 @@ void AccuracyMeasurement::run_methods() {
 
 MethodRun AccuracyMeasurement::run_once(const PlannedCurve& plan, std::uint64_t seed,
                                         double seconds_after) {
-    const bool other_patches = plan.patch_scale != 1.0;
-    const PatchMesh scaled =
-        other_patches ? mesh_with_edges(loaded_.scene, options_, plan.patch_scale) : PatchMesh{};
-    const RunSurroundings around{loaded_.scene, other_patches ? scaled : loaded_.mesh,
-                                 camera_,       job_.size,
-                                 job_.seconds,  pictures_,
-                                 progress_,     seconds_after};
+    Scene scene = loaded_.scene;
+    PatchMesh mesh = plan.patch_scale == 1.0
+                         ? loaded_.mesh
+                         : mesh_with_edges(loaded_.scene, options_, plan.patch_scale);
+    if (!plan.without.empty()) {
+        remove_effect(plan.without, scene, mesh);
+    }
+    const RunSurroundings around{scene,        mesh,      camera_,   job_.size,
+                                 job_.seconds, pictures_, progress_, seconds_after};
     return plan.uses_bundles()
                ? run_bundles(around, plan, seed)
                : run_on_cpu(around, ray_scene_, std::get<ReferenceKind>(plan.how), seed);

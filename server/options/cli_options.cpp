@@ -190,7 +190,8 @@ void add_accuracy(CLI::App& app, Options& o) {
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
     app.add_flag("--knobs", o.knobs,
-                 "Also vary patch size, bundle resolution and strategy probabilities");
+                 "Also vary patch size, bundle resolution, strategy probabilities, bias for noise, "
+                 "gloss and variants of the iteration, one at a time");
     app.add_option("--reference", o.reference,
                    "Reference to compare with, .exr (default: path-traced, kept in the folder)");
     app.add_option("--reference-seconds", o.reference_seconds,
