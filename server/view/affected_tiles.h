@@ -32,7 +32,7 @@ class AffectedTiles {
     /// parameters are bound. boxes: that hold what has moved at either place, shifted world.
     void find(const AffectedTilePrograms& programs, std::span<const BundleRays> bundles,
               std::span<const Bounds> boxes) const;
-    /// Runs a program of local size VIEW_TILE^2 that includes pixel_receiver.glsl on the tiles of a
+    /// Runs a program that includes pixel_receiver.glsl, a work group for each of the tiles of a
     /// pair of bundles; glossy: on those with glossy pixels.
     void dispatch(const ShaderProgram& program, unsigned bundles, bool glossy) const;
     /// The same on all tiles.

@@ -22,7 +22,7 @@ class TileLists {
     void begin() const;  ///< empties and binds the lists
     /// The lists are complete. finish: view_tile_commands.comp.
     void end(const ShaderProgram& finish) const;
-    /// Runs a program of local size VIEW_TILE^2 on the tiles of a list.
+    /// Runs a program with one work group for each tile of a list.
     void dispatch(const ShaderProgram& program, unsigned list) const;
     /// The same on all tiles.
     void dispatch_all(const ShaderProgram& program) const;
