@@ -98,20 +98,25 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
             const Vertex& vertex = scene.vertices[triangle.vertex[k]];
             const std::uint32_t local = numbers[triangle.object].id_of(vertex.position);
             if (local == global[triangle.object].size()) {
-                global[triangle.object].push_back(static_cast<std::uint32_t>(points_.size()));
-                points_.push_back(vertex.position + 0.0F);
-                point_object_.push_back(triangle.object);
-                world_points_.emplace_back(world_from_object_[triangle.object] *
-                                           glm::dvec4(glm::dvec3(points_.back()), 1.0));
+                global[triangle.object].push_back(
+                    add_point(triangle.object, vertex.position + 0.0F));
             }
             // -0 becomes 0, so that equal corners have equal bits.
             refined.corners[k] = {global[triangle.object][local], vertex.normal + 0.0F,
                                   vertex.uv + 0.0F, vertex.colour + 0.0F};
         }
-        refined.node = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.emplace_back();
-        patch_count_ += sides(refined);
         triangles_.push_back(refined);
+    }
+    begin_refinement();
+}
+
+/// What the triangles are now is what is unrefined.
+void EdgeRefinement::begin_refinement() {
+    nodes_.assign(triangles_.size(), Node{});
+    patch_count_ = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        triangles_[t].node = static_cast<std::uint32_t>(t);
+        patch_count_ += sides(triangles_[t]);
     }
     unrefined_ = triangles_;
 }
@@ -223,13 +228,16 @@ void EdgeRefinement::add_midpoints(const std::vector<bool>& marked, Edges& edges
             continue;
         }
         const auto [a, b] = edges.points[e];
-        edges.midpoint[e] = static_cast<std::uint32_t>(points_.size());
-        const std::uint32_t object = point_object_[a];
-        points_.push_back(0.5F * (points_[a] + points_[b]));
-        point_object_.push_back(object);
-        world_points_.emplace_back(world_from_object_[object] *
-                                   glm::dvec4(glm::dvec3(points_.back()), 1.0));
+        edges.midpoint[e] = add_point(point_object_[a], 0.5F * (points_[a] + points_[b]));
     }
+}
+
+std::uint32_t EdgeRefinement::add_point(std::uint32_t object, const glm::vec3& position) {
+    const auto number = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(position);
+    point_object_.push_back(object);
+    world_points_.emplace_back(world_from_object_[object] * glm::dvec4(glm::dvec3(position), 1.0));
+    return number;
 }
 
 std::array<EdgeRefinement::RefinedTriangle, 2> EdgeRefinement::split(

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
+#include "scene/contact_lines.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -28,8 +30,8 @@ class EdgeRefinement {
         std::uint32_t object = 0;
         std::uint32_t node = 0;  ///< its leaf in nodes()
     };
-    /// A triangle on the way from the file's to the refined ones. Corners p, q, r with an edge pq
-    /// that is split at m leave the children (p, m, r) and (m, q, r).
+    /// A triangle on the way from the unrefined to the refined ones. Corners p, q, r with an edge
+    /// pq that is split at m leave the children (p, m, r) and (m, q, r).
     struct Node {
         static constexpr std::uint32_t no_children = 0xffffffffU;
         std::uint8_t split_edge = 0;              ///< k: from corner k to corner k + 1
@@ -38,15 +40,20 @@ class EdgeRefinement {
 
     explicit EdgeRefinement(const Scene& scene);
 
+    /// Cuts triangles along lines, sorted by triangle, and with them their neighbours where the
+    /// edges in common are split. Corners within `resolution` (m) of a line count as on it. What
+    /// comes out is what is unrefined. Before refine(), once.
+    void cut(std::span<const ContactLine> lines, double resolution);
+
     /// Splits until no edge is longer than `target_edge` (m, world space). False, with the work
     /// half done, as soon as there would be more than `max_patches`.
     bool refine(double target_edge, std::size_t max_patches);
 
     [[nodiscard]] const std::vector<RefinedTriangle>& triangles() const { return triangles_; }
     [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
-    /// The scene's triangles as they were before; triangle i has node i.
+    /// The scene's triangles, cut, as they were before refine(); triangle i has node i.
     [[nodiscard]] const std::vector<RefinedTriangle>& unrefined() const { return unrefined_; }
-    /// All triangles there ever were; the scene's own come first, in their order.
+    /// All triangles there ever were since; the unrefined come first, in their order.
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     /// Front sides and the back sides of doubleSided materials.
     [[nodiscard]] std::size_t patch_count() const { return patch_count_; }
@@ -60,6 +67,15 @@ class EdgeRefinement {
         std::vector<std::uint32_t> midpoint;                    // no_point where not split
     };
 
+    void begin_refinement();
+    /// Splits of edges at contact lines: parts of the way from an edge's first point, by number.
+    using Parts = std::vector<float>;
+    bool mark_crossings(std::size_t triangle, const ContactLine& line, double resolution,
+                        Edges& edges, Parts& parts);
+    void add_divided(const RefinedTriangle& triangle, const std::array<std::uint32_t, 3>& numbers,
+                     const Edges& edges, const Parts& parts,
+                     std::vector<RefinedTriangle>& result) const;
+    std::uint32_t add_point(std::uint32_t object, const glm::vec3& position);
     [[nodiscard]] Edges find_edges() const;
     [[nodiscard]] int longest_edge(const Edges& edges, std::size_t triangle) const;
     [[nodiscard]] std::vector<bool> mark_edges(const Edges& edges, double target_edge) const;

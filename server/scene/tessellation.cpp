@@ -77,6 +77,16 @@ EdgeRefinement refine_to_count(const Scene& scene, const EdgeRefinement& unrefin
     return best;
 }
 
+/// Cuts the scene's triangles where others stand on them.
+void cut_at_contacts(const Scene& scene, const TessellationSettings& settings,
+                     EdgeRefinement& refinement) {
+    const auto goal = static_cast<double>(goal_of(settings, refinement.patch_count()));
+    const double edge = settings.patch_size > 0.0F
+                            ? double{settings.patch_size}
+                            : std::sqrt(total_area(scene) / (mean_area * goal));
+    refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
+}
+
 EdgeRefinement refine(const Scene& scene, const TessellationSettings& settings) {
     EdgeRefinement refinement(scene);
     if (refinement.patch_count() > settings.max_patches) {
@@ -84,6 +94,7 @@ EdgeRefinement refine(const Scene& scene, const TessellationSettings& settings) 
                          fmt::format("{} patches without any tessellation; the limit is {}",
                                      refinement.patch_count(), settings.max_patches));
     }
+    cut_at_contacts(scene, settings, refinement);
     if (!(settings.patch_size > 0.0F)) {
         return refine_to_count(scene, refinement, goal_of(settings, refinement.patch_count()));
     }

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "gltf_builder.h"
+#include "scene/contact_lines.h"
 #include "scene/patch_mesh.h"
 
 namespace raybundle::test {
@@ -225,6 +226,89 @@ TEST(SceneTessellation, FarFromTheOriginItStillEnds) {
     builder.json["nodes"][0]["translation"] = {1e6, 0, 0};
     Scene scene = builder.load();
     EXPECT_GT(with_count(scene, 1000).patch_count(), 500U);
+}
+
+/// A slab of 6 x 0.2 x 4 m, its top at height 0, and a box as another object.
+Scene slab_with_box(const glm::vec3& low, const glm::vec3& high) {
+    GltfBuilder builder;
+    builder.add_node({{"mesh", builder.add_box_mesh({0, -0.2F, 0}, {6, 0, 4})}});
+    builder.add_node({{"mesh", builder.add_box_mesh(low, high)}});
+    return builder.load();
+}
+
+/// Triangles of the slab's top whose corners lie on both sides of the plane x = at.
+int top_triangles_across(const PatchMesh& mesh, float at) {
+    constexpr float rounding = 1e-4F;  // m
+    int count = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        float low = 1e30F;
+        float high = -1e30F;
+        bool on_top = mesh.vertex_object[t.x] == 0;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3& p = mesh.positions[t[k]];
+            low = std::min(low, p.x);
+            high = std::max(high, p.x);
+            on_top = on_top && p.y == 0.0F;
+        }
+        count += on_top && low < at - rounding && high > at + rounding ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(ContactLines, AWallCutsTheFloorItStandsOn) {
+    for (const float foot : {0.0F, 0.001F, -0.3F}) {  // on the floor, just above it, through it
+        Scene scene = slab_with_box({2.37F, foot, 0}, {2.71F, 3, 4});
+        const PatchMesh mesh = with_size(scene, 0.5F);
+        EXPECT_EQ(top_triangles_across(mesh, 2.37F), 0) << foot;
+        EXPECT_EQ(top_triangles_across(mesh, 2.71F), 0) << foot;
+        EXPECT_GT(top_triangles_across(mesh, 1.03F), 0) << "nothing to cut it there";
+        EXPECT_LE(longest_edge(scene, mesh), 0.5F * 1.0001F);
+        for (const auto& [edge, uses] : edge_uses(mesh)) {
+            ASSERT_EQ(uses, 2);
+        }
+        const double height = 3.0 - double{foot};
+        const double area = 2 * (24 + 1.2 + 0.8) + 2 * (0.34 * 4 + (0.34 + 4) * height);
+        EXPECT_NEAR(total_area(mesh), area, 1e-4 * area);
+    }
+}
+
+TEST(ContactLines, ATallGapOrASmallFootCutsNothing) {
+    Scene gap = slab_with_box({2.37F, 0.1F, 0}, {2.71F, 3, 4});
+    EXPECT_GT(top_triangles_across(with_size(gap, 0.5F), 2.37F), 0);
+    Scene pillar = slab_with_box({2.37F, 0, 1}, {2.71F, 3, 1.4F});
+    EXPECT_GT(top_triangles_across(with_size(pillar, 0.5F), 2.37F), 0);
+}
+
+TEST(ContactLines, NoSliversBesideACorner) {
+    // Its foot ends 1 cm from the floor's edge, its other side stands on it.
+    Scene scene = slab_with_box({5.5F, 0, 0}, {5.99F, 3, 4});
+    const std::vector<ContactLine> lines = find_contact_lines(scene, 0.5);
+    EXPECT_FALSE(lines.empty());
+    const PatchMesh mesh = with_size(scene, 0.5F);
+    EXPECT_EQ(top_triangles_across(mesh, 5.5F), 0);
+    EXPECT_GT(top_triangles_across(mesh, 5.99F), 0);
+}
+
+TEST(ContactLines, CutPiecesInterpolateTheirCorners) {
+    // What varies over a face is the same function of the place after it was cut.
+    GltfBuilder builder;
+    const std::vector<glm::vec3> corners = {{0, 0, 0}, {0, 0, 4}, {6, 0, 4}, {6, 0, 0}};
+    const std::vector<glm::vec2> uvs = {{0, 0}, {0, 4}, {6, 4}, {6, 0}};  // (x, z)
+    builder.add_node(
+        {{"mesh", builder.add_mesh({{"attributes",
+                                     {{"POSITION", builder.add_positions(corners)},
+                                      {"TEXCOORD_0", builder.add_uvs(uvs)}}},
+                                    {"indices", builder.add_indices({0, 1, 2, 0, 2, 3})}})}});
+    builder.add_node({{"mesh", builder.add_box_mesh({2.37F, 0, 0}, {2.71F, 3, 4})}});
+    Scene scene = builder.load();
+    const PatchMesh mesh = with_size(scene, 0.5F);
+    EXPECT_EQ(top_triangles_across(mesh, 2.37F), 0);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (mesh.vertex_object[v] == 0) {
+            EXPECT_NEAR(mesh.uvs[v].x, mesh.positions[v].x, 1e-5);
+            EXPECT_NEAR(mesh.uvs[v].y, mesh.positions[v].z, 1e-5);
+        }
+    }
 }
 
 }  // namespace
