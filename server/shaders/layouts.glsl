@@ -24,7 +24,7 @@
 #define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: see layers.glsl
 #define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
 #define BINDING_MATERIALS 16       // MaterialData[]
-#define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures
+#define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures, see solution/texture_levels.h
 #define BINDING_VERTEX_DATA 18     // VertexData[]
 #define BINDING_VERTEX_PATCHES 19  // uint[]: patches round each vertex
 #define BINDING_PIXELS 20          // PixelSurface[]

@@ -62,16 +62,52 @@ vec3 texel(uvec4 info, ivec2 at) {
     return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), step(0.04045, encoded));
 }
 
-vec3 texture_colour(int material, uvec4 info, vec2 mesh_uv) {
-    vec3 mesh = vec3(mesh_uv, 1.0);
-    vec2 uv = vec2(dot(texelFetch(material_texels, material + 2).xyz, mesh),
-                   dot(texelFetch(material_texels, material + 3).xyz, mesh));
+/// The level of a texture whose texels are 2^level as wide: offset, width, height, flags.
+uvec4 texture_level(uvec4 info, int level) {
+    for (int l = 0; l < level && max(info.y, info.z) > 1u; ++l) {
+        info.x += info.y * info.z;
+        info.yz = max(info.yz >> 1u, uvec2(1u));
+    }
+    return info;
+}
+
+vec3 bilinear(uvec4 info, vec2 uv) {
     vec2 at = uv * vec2(info.yz) - 0.5;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
     vec3 top = mix(texel(info, corner), texel(info, corner + ivec2(1, 0)), f.x);
     vec3 bottom = mix(texel(info, corner + ivec2(0, 1)), texel(info, corner + ivec2(1, 1)), f.x);
     return mix(top, bottom, f.y);
+}
+
+/// Mean colour over what a pixel covers: along the longer side of its parallelogram in the texture some places of a
+/// level whose texels are as wide as the shorter one (after J. McCormack et al. 1999, "Feline"). across, upwards:
+/// sides of the pixel, mesh uv.
+vec3 texture_colour(int material, uvec4 info, vec2 mesh_uv, vec2 across, vec2 upwards) {
+    const float most_places = 8.0;
+    const float most_texels = 65536.0;  // under one pixel; more is beside the horizon
+    vec3 row0 = texelFetch(material_texels, material + 2).xyz;
+    vec3 row1 = texelFetch(material_texels, material + 3).xyz;
+    vec2 uv = vec2(dot(row0, vec3(mesh_uv, 1.0)), dot(row1, vec3(mesh_uv, 1.0)));
+    vec2 u = vec2(dot(row0.xy, across), dot(row1.xy, across));
+    vec2 v = vec2(dot(row0.xy, upwards), dot(row1.xy, upwards));
+    vec2 size = vec2(info.yz);
+    bool wide = dot(u * size, u * size) > dot(v * size, v * size);
+    vec2 longer = wide ? u : v;
+    float length_in_texels = length(longer * size);
+    if (!(length_in_texels < most_texels)) {
+        longer = vec2(0.0);
+        length_in_texels = most_texels;
+    }
+    float width_in_texels = abs(u.x * v.y - u.y * v.x) * size.x * size.y / max(length_in_texels, 1e-9);
+    float texel_width = clamp(max(width_in_texels, length_in_texels / most_places), 1.0, most_texels);
+    uvec4 level = texture_level(info, int(log2(texel_width) + 0.5));
+    float places = clamp(floor(length_in_texels / texel_width + 0.5), 1.0, most_places);
+    vec3 sum = vec3(0.0);
+    for (float k = 0.5; k < places; k += 1.0) {
+        sum += bilinear(level, uv + (k / places - 0.5) * longer);
+    }
+    return sum / places;
 }
 
 vec2 vertex_uv(uint vertex) { return uintBitsToFloat(texelFetch(vertex_data_texels, int(2u * vertex)).zw); }
@@ -136,6 +172,15 @@ uint patch_seen(uint surface, vec3 eye, vec3 direction) {
     return patch_of_surface(2u * triangle_at(facet, eye + t * direction) + (surface & 1u));
 }
 
+/// Barycentric weights of a triangle's corners 1 and 2 where a ray meets its plane (Moeller, Trumbore 1997).
+/// from_corner: from corner 0 to the eye.
+vec2 plane_weights(vec3 direction, vec3 from_corner, vec3 e1, vec3 e2) {
+    vec3 q = cross(direction, e2);
+    float determinant = dot(e1, q);
+    float inverse = abs(determinant) > 0.0 ? 1.0 / determinant : 0.0;
+    return vec2(dot(from_corner, q), dot(direction, cross(from_corner, e1))) * inverse;
+}
+
 void main() {
     uvec2 at = refreshed.xy + gl_GlobalInvocationID.xy;
     if (at.x >= refreshed.z || at.y >= refreshed.w) {
@@ -173,13 +218,10 @@ void main() {
     vec3 a = world_position(triangle.x);
     vec3 e1 = world_position(triangle.y) - a;
     vec3 e2 = world_position(triangle.z) - a;
-    // Moeller, Trumbore 1997: barycentrics of the ray through the pixel's centre, clamped to the triangle.
-    vec3 q = cross(direction, e2);
-    float determinant = dot(e1, q);
     vec3 s = eye - a;
-    float inverse = abs(determinant) > 0.0 ? 1.0 / determinant : 0.0;
-    float v1 = clamp(dot(s, q) * inverse, 0.0, 1.0);
-    float v2 = clamp(dot(direction, cross(s, e1)) * inverse, 0.0, 1.0 - v1);
+    vec2 met = plane_weights(direction, s, e1, e2);
+    float v1 = clamp(met.x, 0.0, 1.0);
+    float v2 = clamp(met.y, 0.0, 1.0 - v1);
     vec3 weights = vec3(1.0 - v1 - v2, v1, v2);
     vec3 position = a + v1 * e1 + v2 * e2;
 
@@ -189,7 +231,16 @@ void main() {
     uvec4 info = floatBitsToUint(texelFetch(material_texels, material + 4));
     vec2 mesh_uv = weights.x * vertex_uv(triangle.x) + weights.y * vertex_uv(triangle.y) + weights.z * vertex_uv(triangle.z);
     if (info.y != 0u) {
-        albedo *= texture_colour(material, info, mesh_uv);
+        vec2 across = vec2(0.0);
+        vec2 upwards = vec2(0.0);
+#ifndef CONTINUED  // whose pixels' ends have no size
+        mat2 uv_from_weights = mat2(vertex_uv(triangle.y) - vertex_uv(triangle.x), vertex_uv(triangle.z) - vertex_uv(triangle.x));
+        vec3 right = view.right.xyz * (2.0 / float(view.size.x));
+        vec3 up = view.up.xyz * (2.0 / float(view.size.y));
+        across = uv_from_weights * (plane_weights(direction + right, s, e1, e2) - met);
+        upwards = uv_from_weights * (plane_weights(direction + up, s, e1, e2) - met);
+#endif
+        albedo *= texture_colour(material, info, mesh_uv, across, upwards);
     }
 #endif
 #ifdef VERTEX_COLOURS

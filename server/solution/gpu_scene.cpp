@@ -3,6 +3,7 @@
 
 #include "scene/patch_colour.h"
 #include "solution/creases.h"
+#include "solution/texture_levels.h"
 #include "solution/thin_walls.h"
 
 #include <algorithm>
@@ -173,15 +174,21 @@ void GpuScene::upload_surfaces(const PatchMesh& mesh) {
 
 void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     upload_surfaces(mesh);
+    std::vector<bool> colours(scene.textures.size(), false);
+    for (const Material& material : scene.materials) {
+        if (material.base_colour_texture.texture >= 0) {
+            colours[static_cast<std::size_t>(material.base_colour_texture.texture)] = true;
+        }
+    }
     std::vector<std::uint32_t> texels;
-    for (const Texture& texture : scene.textures) {
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& texture = scene.textures[i];
         texture_info_.emplace_back(texels.size(), texture.width, texture.height,
                                    (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U));
-        for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4) {
-            texels.push_back(static_cast<std::uint32_t>(texture.rgba[i]) |
-                             static_cast<std::uint32_t>(texture.rgba[i + 1]) << 8U |
-                             static_cast<std::uint32_t>(texture.rgba[i + 2]) << 16U |
-                             static_cast<std::uint32_t>(texture.rgba[i + 3]) << 24U);
+        if (colours[i]) {
+            append_colour_levels(texture, texels);
+        } else {
+            append_texels(texture, texels);
         }
     }
     std::vector<layout::MaterialData> materials;
