@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shares of a viewer's edge pixels: how many of EDGE_SAMPLES sub-samples lie on the surface that each of the
-// eight neighbours shows, four bits each; the rest is the pixel's own. 0: no edge.
+// Shares of a viewer's edge pixels, two words each. First: how many of EDGE_SAMPLES sub-samples lie on the surface
+// that each of the eight neighbours shows, four bits each. Second: how many lie on strangers, which neither the pixel
+// nor a neighbour shows (a bar thinner than a pixel), and the patch that the first of them met. The rest is the
+// pixel's own. Both 0: no edge.
 
 uint edge_count(uint counts, uint k) { return counts >> (4u * k) & 15u; }
 
@@ -8,4 +10,15 @@ uint edge_count(uint counts, uint k) { return counts >> (4u * k) & 15u; }
 ivec2 edge_neighbour(uint k) {
     int cell = int(k) + (k >= 4u ? 1 : 0);
     return ivec2(cell % 3, cell / 3) - 1;
+}
+
+const uint stranger_patch_bits = 27u;
+
+uint stranger_count(uint strangers) { return strangers >> stranger_patch_bits; }
+
+uint stranger_patch(uint strangers) { return strangers & ((1u << stranger_patch_bits) - 1u); }
+
+/// With one stranger more, on this patch.
+uint with_stranger(uint strangers, uint patch_id) {
+    return (strangers == 0u ? patch_id : strangers) + (1u << stranger_patch_bits);
 }

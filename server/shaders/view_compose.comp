@@ -11,15 +11,9 @@ layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { vec4 fram
 layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { uint frame[]; };
 #endif
 #include "false_colour.glsl"
+#include "tone_curve.glsl"
 uniform uint frame_width;
 uniform uint frame_height;
-
-/// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 4, per channel: nearly
-/// linear in the shadows, soft shoulder, 1 at `white`.
-vec3 shoulder(vec3 x) {
-    const float white = 6.0;
-    return x * (1.0 + x / (white * white)) / (1.0 + x);
-}
 
 /// sRGB encoding by square roots (I. Chilliant 2012), within 0.2 % of the exact curve.
 vec3 srgb_encoded(vec3 c) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Antialiasing of a viewer's picture at rest: whose surface one sub-sample of each pixel lies on. The pixel's
 // own, another flat piece of it, or else the one that the nearest neighbour shows; where none does (something
-// thinner than a pixel) the sub-sample counts as the pixel's own.
+// thinner than a pixel) it is a stranger.
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "scene_geometry.glsl"
 #include "facets.glsl"
+#include "patch_seen.glsl"
 #include "edge_counts.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;  // at the sub-samples
@@ -79,9 +81,15 @@ void main() {
     RARELY(surface != shown_surface(index)) {
         float own_penalty = penalty(surface, index);
         uint k = own_penalty == 0.0 ? 8u : neighbour_showing(surface, ivec2(at), own_penalty);
-        uint counts = edge_counts[index];
+        uint counts = edge_counts[2u * index];
         if (k < 8u && edge_count(counts, k) < 15u) {
-            edge_counts[index] = counts + (1u << (4u * k));
+            edge_counts[2u * index] = counts + (1u << (4u * k));
+        } else if (k == 8u && own_penalty >= different && surface != NO_HIT) {
+            vec2 ndc = (vec2(at) + 0.5 + offset.xy) / vec2(view.size.xy) * 2.0 - 1.0;
+            uint met = patch_seen(surface, view.eye.xyz, view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz);
+            if (met != NO_PATCH) {
+                edge_counts[2u * index + 1u] = with_stranger(edge_counts[2u * index + 1u], met);
+            }
         }
     }
 }

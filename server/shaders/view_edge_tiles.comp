@@ -16,7 +16,8 @@ void main() {
     uint any = 0u;
     for (uint k = 0u; k < VIEW_TILE * VIEW_TILE; ++k) {
         uvec2 at = min(tile_pixel(tile, k), view.size.xy - 1u);
-        any |= edge_counts[at.y * view.size.x + at.x];
+        uint index = at.y * view.size.x + at.x;
+        any |= edge_counts[2u * index] | edge_counts[2u * index + 1u];
     }
     if (any != 0u) {
         tiles[atomicAdd(tile_commands[0].w, 1u)] = tile;

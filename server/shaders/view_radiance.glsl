@@ -118,11 +118,28 @@ vec3 radiance_of_ends(uint index) {
 }
 #endif
 
-#ifdef TRANSMISSION
-layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
-#ifdef FIRST_SHOT
+#if defined(FIRST_SHOT) && (defined(TRANSMISSION) || defined(OBJECT_SPACE_RADIANCE))
 layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };
 #endif
+#ifdef OBJECT_SPACE_RADIANCE
+/// Radiance of the middle of a patch as the solution knows it, without its glossy part, radiance units.
+vec3 object_space_radiance(uint id) {
+    PixelSurface p;
+    p.patch_id = id;
+    p.barycentric = packUnorm2x16(vec2(1.0 / 3.0));
+    vec3 light = object_space_irradiance(p, false);
+#ifdef FIRST_SHOT
+    light += first_shot[2u * id].rgb;
+#endif
+#ifdef CAUSTICS
+    light = max(light + from_vertices(vertex_caustics_texels, p, false), 0.0);
+#endif
+    return surfaces[id].emission.rgb + surfaces[id].albedo.rgb * light * inverse_pi;
+}
+#endif
+
+#ifdef TRANSMISSION
+layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
 
 /// What comes through from the other side; that light is known per patch.
 vec3 transmitted_radiance(PixelSurface p) {

@@ -14,6 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #endif
 #include "scene_geometry.glsl"
 #include "facets.glsl"
+#include "patch_seen.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
 #include "pixel_sum.glsl"
@@ -161,15 +162,6 @@ vec3 receiving_point(uint creases, vec3 weights, vec3 a, vec3 e1, vec3 e2) {
     weights = max(weights, least * flagged);
     weights /= weights.x + weights.y + weights.z;
     return a + weights.y * e1 + weights.z * e2;
-}
-
-/// Patch under the pixel with a ray from the eye.
-uint patch_seen(uint surface, vec3 eye, vec3 direction) {
-    Facet facet = load_facet(surface >> 1);
-    float height = facet.plane.w - dot(facet.plane.xyz, eye);
-    float along = dot(facet.plane.xyz, direction);
-    float t = along != 0.0 ? height / along : 0.0;
-    return patch_of_surface(2u * triangle_at(facet, eye + t * direction) + (surface & 1u));
 }
 
 /// Barycentric weights of a triangle's corners 1 and 2 where a ray meets its plane (Moeller, Trumbore 1997).

@@ -19,12 +19,16 @@ EdgePrograms::EdgePrograms(const GpuScene& scene)
     : count({"view_edge_count.comp"}, scene.defines()),
       list({"view_edge_tiles.comp"}),
       finish({"view_tile_commands.comp"}),
-      average({"view_edge_average.comp"}),
-      average_linear({"view_edge_average.comp"}, {"LINEAR 1"}) {}
+      average({"view_edge_average.comp"}, scene.defines()),
+      average_linear({"view_edge_average.comp"}, with(scene.defines(), "LINEAR 1")) {
+    for (const ShaderProgram* program : {&average, &average_linear}) {
+        program->set("triangle_count", scene.triangle_count());
+    }
+}
 
 EdgeFilter::EdgeFilter(glm::uvec2 size)
     : size_(size),
-      counts_("edge counts", std::size_t{size.x} * size.y * sizeof(std::uint32_t)),
+      counts_("edge counts", std::size_t{size.x} * size.y * 2 * sizeof(std::uint32_t)),
       smoothed_("smoothed frame", std::size_t{size.x} * size.y * sizeof(std::uint32_t)),
       tiles_("tiles with edges", size, 1) {}
 
@@ -59,13 +63,16 @@ void EdgeFilter::average(const ShaderProgram& program, const Buffer& frame,
     tiles_.dispatch(program, 0);
 }
 
-const Buffer& EdgeFilter::average(const EdgePrograms& programs, const Buffer& frame) const {
+const Buffer& EdgeFilter::average(const EdgePrograms& programs, const Buffer& frame,
+                                  bool with_strangers) const {
+    programs.average.set("with_strangers", with_strangers);
     average(programs.average, frame, smoothed_);
     return smoothed_;
 }
 
 Buffer EdgeFilter::average_linear(const EdgePrograms& programs, const Buffer& frame) const {
     Buffer result("smoothed linear frame", frame.bytes());
+    programs.average_linear.set("with_strangers", true);
     average(programs.average_linear, frame, result);
     return result;
 }

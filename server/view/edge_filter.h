@@ -20,8 +20,9 @@ struct EdgePrograms {
 };
 
 /// Antialiasing of a picture at rest: a box filter over the pixels at the edges of surfaces. Light
-/// is gathered at the pixels' centres alone; what else an edge pixel covers is some neighbour's
-/// surface, and takes its light from there. So only the shares are needed, found by rasterising the
+/// is gathered at the pixels' centres alone; what else an edge pixel covers is most often some
+/// neighbour's surface, and takes its light from there; what is thinner than a pixel takes it from
+/// the solution in object space. So only the shares are needed, found by rasterising the
 /// scene again through `samples` points of each pixel, and iterations cost no more than without.
 /// After A. Reshetov 2009, "Morphological Antialiasing" (blending neighbours), with the coverage of
 /// E. Persson 2011, "Geometric Post-process Anti-Aliasing" (true geometry instead of guessed
@@ -44,11 +45,14 @@ class EdgeFilter {
     /// are bound to UNIT_SURFACE_IDS, the picture's pixels and parameters and the scene as well.
     void count(const EdgePrograms& programs);
 
-    // The picture's parameters are bound when these are called.
+    // When these are called, the picture's parameters, the scene and the irradiance of its vertices
+    // are bound.
 
     /// The frame (RGBA8, sRGB, row 0 at the top) with its edges smoothed: means of displayed light,
-    /// so that bright lamps have smooth edges too. Requires complete(). Valid until the next call.
-    [[nodiscard]] const Buffer& average(const EdgePrograms& programs, const Buffer& frame) const;
+    /// so that bright lamps have smooth edges too. with_strangers: the frame shows light, which
+    /// what no pixel shows can be given, too. Requires complete(). Valid until the next call.
+    [[nodiscard]] const Buffer& average(const EdgePrograms& programs, const Buffer& frame,
+                                        bool with_strangers) const;
     /// The same for radiance (vec4 per pixel).
     [[nodiscard]] Buffer average_linear(const EdgePrograms& programs, const Buffer& frame) const;
 

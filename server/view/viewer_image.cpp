@@ -393,8 +393,9 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     program.dispatch(pixel_count(frame_size));
     frame_bytes_ = pixel_count(frame_size) * sizeof(std::uint32_t);
     const bool smoothed = frame_size == size_ && edges_->complete();
-    frame_readback_->request(smoothed ? edges_->average(programs_.edges, frame_) : frame_,
-                             frame_bytes_);
+    frame_readback_->request(
+        smoothed ? edges_->average(programs_.edges, frame_, mode == DisplayMode::photo) : frame_,
+        frame_bytes_);
 }
 
 void ViewerImage::request_depths(std::uint32_t columns) {

@@ -124,6 +124,72 @@ TEST_P(SlantedEdge, DisplayedLightIsThatOfTheCoveredArea) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, SlantedEdge, testing::Values(0.03F, 0.2F, 0.6F, 1.1F, 1.5F, 2.4F));
 
+/// A glowing bar a third of a pixel wide before a black wall, slanted: in most rows no centre of a
+/// pixel shows it.
+TEST(EdgeFilter, WhatIsThinnerThanAPixelIsSeen) {
+    SceneBuilder b;
+    const float pixel = 2.0F * 5.0F * std::tan(0.3F) / static_cast<float>(size.y);  // m, of the bar
+    const float width = 0.33F * pixel;
+    const auto glow = b.add_material(glm::vec3(0.0F), glm::vec3(lamp_radiance));
+    b.add_quad({0, -20, 0}, {width, 0, 0}, {6, 40, 0}, 1, 8, glow);
+    b.add_quad({-40, -40, -1}, {80, 0, 0}, {0, 80, 0}, 4, 4, b.add_material(glm::vec3(0.0F)));
+    const Solver solver(b.scene, b.mesh, SolverSettings{});
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    Camera camera;
+    camera.eye = {3.0F, 0, 5};
+    camera.target = {3.0F, 0, 0};
+    camera.vertical_fov = 0.6F;
+    image.set_camera(camera);
+    // Light of each row: the bar's width in pixels times its radiance.
+    const auto error_of_rows = [&] {
+        const auto picture = image.read_radiance();
+        double largest = 0.0;
+        for (unsigned y = 0; y < size.y; ++y) {
+            double row = 0.0;
+            for (unsigned x = 0; x < size.x; ++x) {
+                row += static_cast<double>(picture[std::size_t{y} * size.x + x].g) /
+                       static_cast<double>(lamp_radiance);
+            }
+            largest = std::max(largest, std::abs(row - 0.33));
+        }
+        return largest;
+    };
+    EXPECT_GT(error_of_rows(), 0.3);  // all or nothing
+    image.smooth();
+    EXPECT_LT(error_of_rows(), 0.1);  // 16 sub-samples
+}
+
+/// Where all light is alike, thin bars are no darker or brighter than what is behind them: the
+/// solution in object space that they are drawn with has the scale of the pixels' own.
+TEST(EdgeFilter, ThinBarsHaveTheLightOfTheSolution) {
+    SceneBuilder b;
+    const auto m = b.add_material(glm::vec3(0.5F), glm::vec3(100.0F));
+    b.add_box({0, 0, 0}, {4, 3, 5}, true, 6, m);
+    for (int i = 0; i < 20; ++i) {
+        const float x = 1.0F + 0.1F * static_cast<float>(i);
+        b.add_box({x, 0.5F, 2.5F}, {x + 0.004F, 2.5F, 2.504F}, false, 1, m);
+    }
+    SolverSettings settings;
+    settings.coarse = {128, 400};
+    Solver solver(b.scene, b.mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, {96, 72});
+    Camera camera;
+    camera.eye = {2.0F, 1.5F, 0.3F};
+    camera.target = {2.1F, 1.4F, 4.0F};
+    camera.vertical_fov = 1.0F;
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 512; ++i) {
+        solver.step(receivers);
+    }
+    image.smooth();
+    for (const glm::vec4& pixel : image.read_radiance()) {
+        ASSERT_NEAR(pixel.g, 200.0F, 24.0F);  // Le / (1 - albedo)
+    }
+}
+
 TEST(EdgeFilter, EndsWhenTheCameraMoves) {
     EdgeView view;
     view.turn(0.2F);
