@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/gpu_scene.h"
 
-#include "scene/patch_colour.h"
 #include "solution/creases.h"
-#include "solution/texture_levels.h"
 #include "solution/thin_walls.h"
 
 #include <algorithm>
@@ -37,10 +35,6 @@ bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
 /// unorm 4x8, square-root encoded.
 std::uint32_t packed_colour(const glm::vec3& colour) {
     return glm::packUnorm4x8(glm::vec4(glm::sqrt(glm::clamp(colour, 0.0F, 1.0F)), 1.0F));
-}
-
-glm::vec4 with_bits(const glm::vec3& v, std::uint32_t bits) {
-    return {v, std::bit_cast<float>(bits)};
 }
 
 Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
@@ -109,7 +103,7 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
     std::vector<glm::vec4> vertices;
     vertices.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.push_back(with_bits(mesh.positions[i], mesh.vertex_object[i]));
+        vertices.emplace_back(mesh.positions[i], std::bit_cast<float>(mesh.vertex_object[i]));
     }
     std::vector<glm::uvec4> triangles;
     triangles.reserve(mesh.triangles.size());
@@ -154,69 +148,6 @@ float GpuScene::largest_emission(const Scene& scene, const PatchMesh& mesh) {
 /// Power of two near the largest emitted radiance: fixed-point sums then never overflow or starve.
 float GpuScene::unit_for(float largest) {
     return largest > 0.0F ? std::exp2(std::round(std::log2(largest))) : 1.0F;
-}
-
-void GpuScene::upload_surfaces(const PatchMesh& mesh) {
-    std::vector<layout::PatchSurface> surfaces;
-    surfaces.reserve(mesh.patch_count());
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t record = reflectance_record(mesh, i);
-        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(record, mesh.base_colour[i]),
-                                      mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
-                            glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
-    }
-    if (surfaces_.bytes() == 0) {
-        surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
-    } else {
-        surfaces_.write<layout::PatchSurface>(surfaces, 0);
-    }
-}
-
-void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
-    upload_surfaces(mesh);
-    std::vector<bool> colours(scene.textures.size(), false);
-    for (const Material& material : scene.materials) {
-        if (material.base_colour_texture.texture >= 0) {
-            colours[static_cast<std::size_t>(material.base_colour_texture.texture)] = true;
-        }
-    }
-    std::vector<std::uint32_t> texels;
-    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-        const Texture& texture = scene.textures[i];
-        texture_info_.emplace_back(texels.size(), texture.width, texture.height,
-                                   (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U));
-        if (colours[i]) {
-            append_colour_levels(texture, texels);
-        } else {
-            append_texels(texture, texels);
-        }
-    }
-    std::vector<layout::MaterialData> materials;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        materials.push_back(material_data(scene, i));
-    }
-    materials_ = Buffer::from<layout::MaterialData>("materials", materials);
-    texels_ = Buffer::from<std::uint32_t>("texels", texels);
-}
-
-void GpuScene::upload_reflectors(const PatchMesh& mesh) {
-    if (!reflectance_.any_glossy()) {
-        return;
-    }
-    std::vector<glm::vec4> reflectors;
-    reflectors.reserve(mesh.patch_count());
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
-        reflectors.push_back(with_bits(mesh.base_colour[i], reflectance_.glossy(material)
-                                                                ? reflectance_record(mesh, i)
-                                                                : NOT_GLOSSY));
-    }
-    if (reflectors_.bytes() > 0) {
-        reflectors_.write<glm::vec4>(reflectors, 0);
-        return;
-    }
-    reflectors_ = Buffer::from<glm::vec4>("reflectors", reflectors);
-    reflector_texture_ = create_buffer_texture("reflectors", GL_RGBA32F, reflectors_);
 }
 
 void GpuScene::upload_vertex_data(const PatchMesh& mesh) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: base colour and emission, what other textures do, and what is not lit or is
-// transmitted.
+// Materials and what patches have of them: base colour, emission and textures, gloss, and what is
+// not lit or is transmitted.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +9,7 @@
 #include "scene/normal_map.h"
 #include "scene/patch_colour.h"
 #include "solution/gpu_scene.h"
+#include "solution/texture_levels.h"
 
 namespace raybundle {
 namespace {
@@ -71,6 +72,69 @@ layout::MaterialDetails GpuScene::material_details(const Scene& scene, std::size
         details.normal_info = texture_info_[static_cast<std::size_t>(slot.texture)];
     }
     return details;
+}
+
+void GpuScene::upload_surfaces(const PatchMesh& mesh) {
+    std::vector<layout::PatchSurface> surfaces;
+    surfaces.reserve(mesh.patch_count());
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        const std::uint32_t record = reflectance_record(mesh, i);
+        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(record, mesh.base_colour[i]),
+                                      mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
+                            glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+    }
+    if (surfaces_.bytes() == 0) {
+        surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
+    } else {
+        surfaces_.write<layout::PatchSurface>(surfaces, 0);
+    }
+}
+
+void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
+    upload_surfaces(mesh);
+    std::vector<bool> colours(scene.textures.size(), false);
+    for (const Material& material : scene.materials) {
+        if (material.base_colour_texture.texture >= 0) {
+            colours[static_cast<std::size_t>(material.base_colour_texture.texture)] = true;
+        }
+    }
+    std::vector<std::uint32_t> texels;
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& texture = scene.textures[i];
+        texture_info_.emplace_back(texels.size(), texture.width, texture.height,
+                                   (texture.repeat_u ? 1U : 0U) | (texture.repeat_v ? 2U : 0U));
+        if (colours[i]) {
+            append_colour_levels(texture, texels);
+        } else {
+            append_texels(texture, texels);
+        }
+    }
+    std::vector<layout::MaterialData> materials;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        materials.push_back(material_data(scene, i));
+    }
+    materials_ = Buffer::from<layout::MaterialData>("materials", materials);
+    texels_ = Buffer::from<std::uint32_t>("texels", texels);
+}
+
+void GpuScene::upload_reflectors(const PatchMesh& mesh) {
+    if (!reflectance_.any_glossy()) {
+        return;
+    }
+    std::vector<glm::vec4> reflectors;
+    reflectors.reserve(mesh.patch_count());
+    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
+        const std::uint32_t record =
+            reflectance_.glossy(material) ? reflectance_record(mesh, i) : NOT_GLOSSY;
+        reflectors.emplace_back(mesh.base_colour[i], std::bit_cast<float>(record));
+    }
+    if (reflectors_.bytes() > 0) {
+        reflectors_.write<glm::vec4>(reflectors, 0);
+        return;
+    }
+    reflectors_ = Buffer::from<glm::vec4>("reflectors", reflectors);
+    reflector_texture_ = create_buffer_texture("reflectors", GL_RGBA32F, reflectors_);
 }
 
 void GpuScene::upload_details(const Scene& scene) {
