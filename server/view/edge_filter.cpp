@@ -20,11 +20,8 @@ EdgePrograms::EdgePrograms(const GpuScene& scene)
       list({"view_edge_tiles.comp"}),
       finish({"view_tile_commands.comp"}),
       average({"view_edge_average.comp"}, scene.defines()),
-      average_linear({"view_edge_average.comp"}, with(scene.defines(), "LINEAR 1")) {
-    for (const ShaderProgram* program : {&average, &average_linear}) {
-        program->set("triangle_count", scene.triangle_count());
-    }
-}
+      average_linear({"view_edge_average.comp"}, with(scene.defines(), "LINEAR 1")),
+      triangle_count(scene.triangle_count()) {}
 
 EdgeFilter::EdgeFilter(glm::uvec2 size)
     : size_(size),
@@ -65,6 +62,7 @@ void EdgeFilter::average(const ShaderProgram& program, const Buffer& frame,
 
 const Buffer& EdgeFilter::average(const EdgePrograms& programs, const Buffer& frame,
                                   bool with_strangers) const {
+    programs.average.set("triangle_count", programs.triangle_count);
     programs.average.set("with_strangers", with_strangers);
     average(programs.average, frame, smoothed_);
     return smoothed_;
@@ -72,6 +70,7 @@ const Buffer& EdgeFilter::average(const EdgePrograms& programs, const Buffer& fr
 
 Buffer EdgeFilter::average_linear(const EdgePrograms& programs, const Buffer& frame) const {
     Buffer result("smoothed linear frame", frame.bytes());
+    programs.average_linear.set("triangle_count", programs.triangle_count);
     programs.average_linear.set("with_strangers", true);
     average(programs.average_linear, frame, result);
     return result;

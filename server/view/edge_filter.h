@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "gpu/gl_objects.h"
@@ -17,6 +18,7 @@ struct EdgePrograms {
     explicit EdgePrograms(const GpuScene& scene);
 
     ShaderProgram count, list, finish, average, average_linear;
+    std::uint32_t triangle_count;  // of the scene
 };
 
 /// Antialiasing of a picture at rest: a box filter over the pixels at the edges of surfaces. Light
