@@ -56,6 +56,15 @@ uint triangle_at(uvec2 node, inout vec3 weights, inout vec3 slope) {
     return node.y;
 }
 
+/// Whether a ray in world space meets a facet.
+bool meets_facet(Facet facet, vec3 point, vec3 direction) {
+    float distance = (facet.plane.w - dot(facet.plane.xyz, point)) / dot(facet.plane.xyz, direction);
+    vec4 met = vec4(point + distance * direction, 1.0);
+    float w1 = dot(facet.weight1, met);
+    float w2 = dot(facet.weight2, met);
+    return distance > 0.0 && min(min(w1, w2), 1.0 - w1 - w2) >= 0.0;
+}
+
 /// Triangle of a facet at a world point on it.
 uint triangle_at(Facet facet, vec3 point) {
     float w1 = dot(facet.weight1, vec4(point, 1.0));

@@ -24,6 +24,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
     Seen seen = Seen(NO_HIT, beyond_all, false);
     float tiny = bundle.sky.w;
     vec3 looking = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
+    vec3 geometric = x.geometric * mat3(bundle.axis_x.xyz, bundle.axis_y.xyz, bundle.axis_z.xyz);
     uint count = min(layer_counts[pixel], layer_capacity());
     for (uint k = 0u; k < count; ++k) {
         uint surface = layer_surfaces[layer_slot(k, pixel)];
@@ -47,7 +48,13 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         }
         // Of coinciding surfaces the one that faces x is seen.
         ahead -= faces_far(surface) != far ? tiny : 0.0;
-        if (ahead < seen.ahead || (ahead == seen.ahead && surface < seen.surface)) {
+        bool nearer = ahead < seen.ahead || (ahead == seen.ahead && surface < seen.surface);
+        // Behind the receiver's own surface, as the lamp in a shade is for its outside, only what goes through that
+        // surface can be in front.
+        RARELY(nearer && close && dot(geometric, vec3(lateral, along)) < -tiny) {
+            nearer = meets_facet(load_facet(facet_base + facet_of(surface)), x.position, looking);
+        }
+        if (nearer) {
             seen = Seen(surface, ahead, seen.own);
         }
     }
