@@ -91,8 +91,10 @@ void add_scene(CLI::App& app, Options& o, bool required) {
     if (required) {
         scene->required();
     }
-    app.add_option("--patch-size", o.patch_size,
-                   "Target edge of the patches, m (default: about 25 000 patches)")
+    app.add_option(
+           "--patch-size", o.patch_size,
+           "Target edge of the patches, m; smaller where light changes beside other surfaces "
+           "(default: about 25 000 patches)")
         ->check(CLI::PositiveNumber);
     app.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();
 }

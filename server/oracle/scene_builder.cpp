@@ -4,6 +4,8 @@
 #include <random>
 #include <utility>
 
+#include "scene/lights.h"
+
 namespace raybundle {
 
 SceneBuilder::SceneBuilder() {
@@ -98,6 +100,23 @@ glm::vec3 SceneBuilder::cell_centre(std::size_t triangle) const {
     const glm::uvec3& t = mesh.triangles[triangle];
     const glm::vec3 sum = mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z];
     return glm::vec3(glm::inverse(transform_) * glm::vec4(sum / 3.0F, 1.0F));
+}
+
+Scene SceneBuilder::loaded_scene() const {
+    Scene loaded = scene;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Triangle triangle;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh.triangles[t][k];
+            triangle.vertex[k] = static_cast<std::uint32_t>(loaded.vertices.size());
+            triangle.object = mesh.vertex_object[vertex];
+            loaded.vertices.push_back({mesh.positions[vertex], mesh.normals[vertex]});
+        }
+        triangle.material = mesh.triangle_material[t];
+        loaded.triangles.push_back(triangle);
+    }
+    loaded.lights = find_lights(loaded);
+    return loaded;
 }
 
 void SceneBuilder::shuffle(std::uint64_t seed) {

@@ -35,6 +35,9 @@ class SceneBuilder {
     void set_triangle_material(std::size_t triangle, std::uint32_t material);
     /// Centre of a triangle before set_transform()'s matrix.
     [[nodiscard]] glm::vec3 cell_centre(std::size_t triangle) const;
+    /// The scene with its triangles and lamps as loading a file leaves it, for tessellate(). For
+    /// objects of one builder, whose vertices are where add_...() has put them.
+    [[nodiscard]] Scene loaded_scene() const;
     /// Deterministic shuffle of the triangles' order.
     void shuffle(std::uint64_t seed);
 

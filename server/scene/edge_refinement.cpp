@@ -124,10 +124,13 @@ void EdgeRefinement::begin_refinement() {
 bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
     while (patch_count_ <= max_patches) {
         Edges edges = find_edges();
-        const std::vector<bool> marked = mark_edges(edges, target_edge);
+        std::vector<bool> marked(edges.points.size());
+        std::transform(edges.squared_length.begin(), edges.squared_length.end(), marked.begin(),
+                       [&](double squared) { return squared > target_edge * target_edge; });
         if (std::find(marked.begin(), marked.end(), true) == marked.end()) {
             return true;
         }
+        mark_longest(edges, marked);
         patch_count_ = patches_after(edges, marked);
         if (patch_count_ <= max_patches) {
             add_midpoints(marked, edges);
@@ -135,6 +138,30 @@ bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
         }
     }
     return false;
+}
+
+bool EdgeRefinement::split(const std::vector<bool>& chosen, std::size_t max_patches) {
+    Edges edges = find_edges();
+    std::vector<bool> marked(edges.points.size(), false);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        if (chosen[t]) {
+            marked[edges.of_triangle[t][static_cast<std::size_t>(longest_edge(edges, t))]] = true;
+        }
+    }
+    mark_longest(edges, marked);
+    const std::size_t count = patches_after(edges, marked);
+    if (count > max_patches) {
+        return false;
+    }
+    patch_count_ = count;
+    add_midpoints(marked, edges);
+    split_triangles(edges);
+    return true;
+}
+
+std::array<glm::dvec3, 3> EdgeRefinement::world_corners(const RefinedTriangle& triangle) const {
+    return {world_points_[triangle.corners[0].point], world_points_[triangle.corners[1].point],
+            world_points_[triangle.corners[2].point]};
 }
 
 EdgeRefinement::Edges EdgeRefinement::find_edges() const {
@@ -178,18 +205,13 @@ int EdgeRefinement::longest_edge(const Edges& edges, std::size_t triangle) const
     return longest;
 }
 
-/// Edges to split: the too long ones, and with any edge of a triangle also its longest one.
-std::vector<bool> EdgeRefinement::mark_edges(const Edges& edges, double target_edge) const {
-    std::vector<bool> marked(edges.points.size(), false);
+/// Marks with any edge of a triangle also its longest one.
+void EdgeRefinement::mark_longest(const Edges& edges, std::vector<bool>& marked) const {
     std::vector<std::uint32_t> pending;
     for (std::size_t e = 0; e < marked.size(); ++e) {
-        if (edges.squared_length[e] > target_edge * target_edge) {
-            marked[e] = true;
+        if (marked[e]) {
             pending.push_back(static_cast<std::uint32_t>(e));
         }
-    }
-    if (pending.empty()) {
-        return marked;
     }
     const EdgeTriangles at = triangles_at_edges(edges.of_triangle, edges.points.size());
     while (!pending.empty()) {
@@ -206,7 +228,6 @@ std::vector<bool> EdgeRefinement::mark_edges(const Edges& edges, double target_e
             }
         }
     }
-    return marked;
 }
 
 std::size_t EdgeRefinement::patches_after(const Edges& edges,

@@ -49,6 +49,12 @@ class EdgeRefinement {
     /// half done, as soon as there would be more than `max_patches`.
     bool refine(double target_edge, std::size_t max_patches);
 
+    /// Splits the longest edges of some triangles (by index), and of neighbours as it takes. False,
+    /// with nothing done, if there would be more than `max_patches`.
+    bool split(const std::vector<bool>& chosen, std::size_t max_patches);
+
+    /// World space, m, counter-clockwise from the front.
+    [[nodiscard]] std::array<glm::dvec3, 3> world_corners(const RefinedTriangle& triangle) const;
     [[nodiscard]] const std::vector<RefinedTriangle>& triangles() const { return triangles_; }
     [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
     /// The scene's triangles, cut, as they were before refine(); triangle i has node i.
@@ -78,7 +84,7 @@ class EdgeRefinement {
     std::uint32_t add_point(std::uint32_t object, const glm::vec3& position);
     [[nodiscard]] Edges find_edges() const;
     [[nodiscard]] int longest_edge(const Edges& edges, std::size_t triangle) const;
-    [[nodiscard]] std::vector<bool> mark_edges(const Edges& edges, double target_edge) const;
+    void mark_longest(const Edges& edges, std::vector<bool>& marked) const;
     [[nodiscard]] std::size_t patches_after(const Edges& edges,
                                             const std::vector<bool>& marked) const;
     void add_midpoints(const std::vector<bool>& marked, Edges& edges);

@@ -53,12 +53,14 @@ struct PatchMesh {
 
 struct TessellationSettings {
     float patch_size = 0.0F;  ///< target edge, metres; 0: chosen for target_patches
+    /// Before patches are split further near other surfaces (scene/near_field.h).
     std::size_t target_patches = 25'000;
     std::size_t max_patches = 4'000'000;  ///< a larger result is an error, not a hang
 };
 
 /// Splits longest edges until none is longer than the target edge (in world space, at the objects'
-/// initial transforms), without T-junctions inside a mesh; welds; averages textures over patches.
+/// initial transforms), and further where direct light changes beside other surfaces, without
+/// T-junctions inside a mesh; welds; averages textures over patches.
 /// Appends to scene.notices what it did to odd input. Deterministic. Throws SceneError if too
 /// large.
 PatchMesh tessellate(Scene& scene, const TessellationSettings& settings = {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 
 #include "scene/edge_refinement.h"
 #include "scene/gltf_loader.h"
+#include "scene/near_field.h"
 #include "scene/patch_colour.h"
 #include "scene/patch_mesh.h"
 #include "scene/point_index.h"
@@ -25,6 +27,9 @@ constexpr double mean_area = 0.18;
 constexpr int max_search_steps = 7;
 constexpr double close_enough = 0.05;  // relative, of the patch count
 constexpr std::size_t max_named_materials = 8;
+constexpr double misplaced_share = 3e-6;     // of the direct flux, that a patch may misplace
+constexpr std::size_t flux_samples = 1'000;  // patches that it is found from
+constexpr int max_rounds = 12;               // of splitting them
 
 /// Area of all patches, m².
 double total_area(const Scene& scene) {
@@ -87,6 +92,50 @@ void cut_at_contacts(const Scene& scene, const TessellationSettings& settings,
     refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
 }
 
+/// Direct flux on all patches, lm, from some of them.
+double direct_flux(const EdgeRefinement& refinement, const NearField& field) {
+    const auto& triangles = refinement.triangles();
+    const std::size_t stride = std::max<std::size_t>(triangles.size() / flux_samples, 1);
+    double sum = 0.0;
+    for (std::size_t t = 0; t < triangles.size(); t += stride) {
+        sum += field.direct_flux(refinement.world_corners(triangles[t]), triangles[t].material);
+    }
+    return sum * static_cast<double>(stride);
+}
+
+/// Splits patches on which light changes, as surfaces close by see, the worst first where not all
+/// can be.
+void refine_near_field(const Scene& scene, const TessellationSettings& settings,
+                       EdgeRefinement& refinement) {
+    const NearField field(scene);
+    const auto& triangles = refinement.triangles();
+    const std::size_t most_patches =
+        std::min(settings.max_patches, refinement.patch_count() + refinement.patch_count() / 2);
+    const double least = misplaced_share * direct_flux(refinement, field);
+    double threshold = least;      // lm
+    std::vector<float> misplaced;  // lm, by node; below zero: not known yet
+    for (int round = 0; least > 0.0 && round < max_rounds; ++round) {
+        misplaced.resize(refinement.nodes().size(), -1.0F);
+        tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
+            float& value = misplaced[triangles[t].node];
+            if (value < 0.0F) {
+                value = static_cast<float>(field.misplaced_flux(
+                    refinement.world_corners(triangles[t]), triangles[t].material, least));
+            }
+        });
+        std::vector<bool> chosen(triangles.size());
+        do {
+            std::transform(triangles.begin(), triangles.end(), chosen.begin(),
+                           [&](const auto& t) { return double{misplaced[t.node]} > threshold; });
+            if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
+                return;
+            }
+            threshold *= 2.0;
+        } while (!refinement.split(chosen, most_patches));
+        threshold *= 0.5;
+    }
+}
+
 EdgeRefinement refine(const Scene& scene, const TessellationSettings& settings) {
     EdgeRefinement refinement(scene);
     if (refinement.patch_count() > settings.max_patches) {
@@ -96,13 +145,14 @@ EdgeRefinement refine(const Scene& scene, const TessellationSettings& settings) 
     }
     cut_at_contacts(scene, settings, refinement);
     if (!(settings.patch_size > 0.0F)) {
-        return refine_to_count(scene, refinement, goal_of(settings, refinement.patch_count()));
-    }
-    if (!refinement.refine(double{settings.patch_size}, settings.max_patches)) {
+        refinement =
+            refine_to_count(scene, refinement, goal_of(settings, refinement.patch_count()));
+    } else if (!refinement.refine(double{settings.patch_size}, settings.max_patches)) {
         throw SceneError(scene.path, "",
                          fmt::format("patch size {} m gives more than {} patches",
                                      settings.patch_size, settings.max_patches));
     }
+    refine_near_field(scene, settings, refinement);
     return refinement;
 }
 

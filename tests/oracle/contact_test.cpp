@@ -20,19 +20,7 @@ Scene divided_room() {
     b.add_quad({1, 2.9F, 1}, {1, 0, 0}, {0, 0, 1}, 1, 1, lamp);
     b.add_object("wall");
     b.add_box({2.93F, 0, 0}, {3.13F, 3, 3}, false, 1, paint);
-    Scene scene = b.scene;
-    for (std::size_t t = 0; t < b.mesh.triangles.size(); ++t) {
-        Triangle triangle;
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = b.mesh.triangles[t][k];
-            triangle.vertex[k] = static_cast<std::uint32_t>(scene.vertices.size());
-            triangle.object = b.mesh.vertex_object[vertex];
-            scene.vertices.push_back({b.mesh.positions[vertex], b.mesh.normals[vertex]});
-        }
-        triangle.material = b.mesh.triangle_material[t];
-        scene.triangles.push_back(triangle);
-    }
-    return scene;
+    return b.loaded_scene();
 }
 
 TEST(Contact, NoLightGoesUnderAWallIntoTheNextRoom) {
