@@ -45,7 +45,7 @@ std::vector<std::string> chosen_methods(const Options& options) {
 }
 
 PlannedCurve planned(const std::string& method, const Options& options) {
-    PlannedCurve curve{method, method, "", parse_method(method), {}, 1.0, ""};
+    PlannedCurve curve{method, method, "", parse_method(method), {}, 1.0, PixelGrid::adaptive, ""};
     curve.solver.seed = options.seed;
     if (const auto* probabilities = std::get_if<StrategyProbabilities>(&curve.how)) {
         curve.solver.probabilities = *probabilities;
@@ -114,6 +114,11 @@ void add_variants(std::vector<PlannedCurve>& curves, const PlannedCurve& base) {
     constant.name = "with a constant radiance term";
     constant.solver.constant_radiance = true;
     curves.push_back(constant);
+    PlannedCurve centres = base;
+    centres.knob = "finer pixels";
+    centres.name = "light at the centres of pixels";
+    centres.grid = PixelGrid::centres;
+    curves.push_back(centres);
     PlannedCurve curve = base;
     curve.knob = "main part";
     curve.name = "without a separated main part";

@@ -9,6 +9,7 @@
 #include "accuracy/error_curve.h"
 #include "options/cli_options.h"
 #include "transport/solver.h"
+#include "view/final_picture.h"
 
 namespace raybundle {
 
@@ -18,9 +19,10 @@ struct PlannedCurve {
     std::string name;    ///< of the curve
     std::string knob;    ///< what is varied; empty: nothing
     RenderMethod how;
-    SolverSettings solver;     ///< ray bundles
-    double patch_scale = 1.0;  ///< of the edges, ray bundles
-    std::string without;       ///< effect that is taken out of the scene; empty: none
+    SolverSettings solver;                 ///< ray bundles
+    double patch_scale = 1.0;              ///< of the edges, ray bundles
+    PixelGrid grid = PixelGrid::adaptive;  ///< ray bundles
+    std::string without;                   ///< effect that is taken out of the scene; empty: none
 
     [[nodiscard]] bool uses_bundles() const {
         return std::holds_alternative<StrategyProbabilities>(how);

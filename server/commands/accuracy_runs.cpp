@@ -7,7 +7,7 @@
 
 #include "reference/reference_method.h"
 #include "transport/solver.h"
-#include "view/viewer_image.h"
+#include "view/final_picture.h"
 
 namespace raybundle {
 namespace {
@@ -76,7 +76,7 @@ Json json_of(const BundleResolution& resolution) {
 }
 
 Json bundle_settings(const PlannedCurve& curve, const RunSurroundings& around, const Solver& solver,
-                     const ViewerImage& image, std::uint64_t seed) {
+                     const FinalPicture& picture, std::uint64_t seed) {
     const SolverSettings& s = curve.solver;
     Json bundles = {{"first", json_of(s.coarse)}};
     if (s.coarse_iterations < std::numeric_limits<std::uint64_t>::max()) {
@@ -91,7 +91,8 @@ Json bundle_settings(const PlannedCurve& curve, const RunSurroundings& around, c
             {"mainPart", s.main_part},
             {"constantRadiance", s.constant_radiance},
             {"randomFaces", s.random_faces},
-            {"bytes", solver.bytes() + image.bytes()},
+            {"pixelGrid", picture.pixel_grid()},
+            {"bytes", solver.bytes() + picture.bytes()},
             {"seed", seed}};
 }
 
@@ -103,29 +104,27 @@ MethodRun run_bundles(const RunSurroundings& around, const PlannedCurve& curve,
     settings.seed = seed;
     Solver solver(around.scene, around.mesh, settings);
     const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, around.size);
-    image.set_camera(around.camera);
-    BundleReceiver* const receivers[] = {&image};
+    FinalPicture picture(solver.scene(), solver.store(), programs, around.camera, around.size,
+                         curve.grid);
+    BundleReceiver* const receivers[] = {&picture.receiver()};
     glFinish();
     const auto step = [&] {
-        image.smooth();  // within the time, as `render` does
+        picture.prepare();  // within the time, as `render` does
         solver.step(receivers);
         glFinish();
     };
     const auto measure = [&] {
-        image.request_statistics();
-        glFinish();
-        const ImageStatistics& statistics = image.statistics();
+        const ImageStatistics& statistics = picture.measure();
         RunCheckpoint checkpoint;
         checkpoint.point.iterations = solver.iterations();
         checkpoint.point.estimated_error = statistics.relative_error;
         checkpoint.point.estimated_low = statistics.known ? statistics.error_low : 0.0;
         checkpoint.point.estimated_high = statistics.error_high;
-        checkpoint.picture = around.pictures.add(rgb_of(image.read_radiance()));
+        checkpoint.picture = around.pictures.add(rgb_of(picture.read_radiance()));
         return checkpoint;
     };
     MethodRun run{run_checkpoints(around, step, measure), {}};
-    run.settings = bundle_settings(curve, around, solver, image, seed);
+    run.settings = bundle_settings(curve, around, solver, picture, seed);
     return run;
 }
 

@@ -9,8 +9,8 @@
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
 #include "transport/solver.h"
+#include "view/final_picture.h"
 #include "view/image_file.h"
-#include "view/viewer_image.h"
 
 namespace raybundle {
 
@@ -21,37 +21,33 @@ struct Outcome {
     ImageStatistics statistics;
 };
 
-Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
+Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
     const StopRule rule(options);
-    BundleReceiver* const receivers[] = {&image};
+    BundleReceiver* const receivers[] = {&picture.receiver()};
     ProgressBar bar;
     Outcome outcome;
     const Stopwatch stopwatch;
-    image.smooth();
     constexpr std::uint64_t statistics_interval = 16;
     constexpr std::uint64_t believed_samples = 32;
     constexpr double unknown = 1e9;
     while (true) {
+        picture.prepare();
         solver.step(receivers);
         outcome.seconds = stopwatch.seconds();
         if (solver.iterations() % statistics_interval == 0) {
-            image.request_statistics();
-            glFinish();
-            outcome.statistics = image.statistics();
+            outcome.statistics = picture.measure();
         }
         // An error is believed from some samples on; finer than its pixels no picture can be.
         const ImageStatistics& found = outcome.statistics;
         const double estimate =
-            found.samples < believed_samples ? unknown : rule.estimate_of(found);
+            found.samples < believed_samples ? unknown : rule.estimate_of(picture);
         const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
         bar.show(progress, solver.iterations(), outcome.statistics.relative_error);
         if (progress >= 1.0) {
             break;
         }
     }
-    image.request_statistics();
-    glFinish();
-    outcome.statistics = image.statistics();
+    outcome.statistics = picture.measure();
     if (options.error && outcome.statistics.error_high > *options.error) {
         spdlog::warn("--error {}: not reached; {:.2f} % come from what is finer than the pixels",
                      *options.error, 100.0 * outcome.statistics.discretisation);
@@ -59,14 +55,13 @@ Outcome solve(Solver& solver, ViewerImage& image, const Options& options) {
     return outcome;
 }
 
-void write_picture(ViewerImage& image, const std::string& path) {
-    const auto width = static_cast<int>(image.size().x);
-    const auto height = static_cast<int>(image.size().y);
+void write_picture(FinalPicture& picture, const std::string& path) {
+    const auto width = static_cast<int>(picture.size().x);
+    const auto height = static_cast<int>(picture.size().y);
     if (is_exr(path)) {
-        write_exr(path, width, height, image.read_radiance());
+        write_exr(path, width, height, picture.read_radiance());
     } else {
-        image.compose(DisplayMode::photo, image.automatic_exposure());
-        write_png(path, width, height, image.take());
+        write_png(path, width, height, picture.read_display());
     }
 }
 
@@ -75,7 +70,8 @@ EffectsPlan effects_plan(const Options& options, const LoadedScene& loaded) {
 }
 
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
-                      const LoadedScene& loaded, const ViewerImage& image, const Outcome& outcome) {
+                      const LoadedScene& loaded, const FinalPicture& picture,
+                      const Outcome& outcome) {
     const nlohmann::json plan = effects_plan_json(effects_plan(options, loaded));
     const StrategyProbabilities& p = solver.probabilities();
     const nlohmann::ordered_json json = {
@@ -83,12 +79,13 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"device", context.renderer()},
         {"method", options.method},
         {"seed", options.seed},
-        {"size", {image.size().x, image.size().y}},
+        {"size", {picture.size().x, picture.size().y}},
+        {"pixelGrid", picture.pixel_grid()},
         {"seconds", outcome.seconds},
         {"loadSeconds", loaded.seconds},
         {"iterations", solver.iterations()},
         {"patches", loaded.mesh.patch_count()},
-        {"bytes", solver.bytes() + image.bytes()},
+        {"bytes", solver.bytes() + picture.bytes()},
         {"bytesPerPatch", static_cast<double>(solver.store().bytes()) /
                               static_cast<double>(loaded.mesh.patch_count())},
         {"bundleResolution", {solver.resolution().hemicube, solver.resolution().window}},
@@ -146,12 +143,11 @@ int run_render(const Options& options) {
         spdlog::warn("--constant-radiance: left out, since {} has glossy surfaces", options.scene);
     }
     const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, size);
-    image.set_camera(camera);
-    const Outcome outcome = solve(solver, image, options);
-    write_picture(image, options.output);
+    FinalPicture picture(solver.scene(), solver.store(), programs, camera, size);
+    const Outcome outcome = solve(solver, picture, options);
+    write_picture(picture, options.output);
     if (!options.stats.empty()) {
-        write_statistics(options, context, solver, loaded, image, outcome);
+        write_statistics(options, context, solver, loaded, picture, outcome);
     }
     spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} % ({:.2f} to {:.2f} %)",
                  options.output, solver.iterations(), outcome.seconds,

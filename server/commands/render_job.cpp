@@ -78,6 +78,10 @@ double StopRule::estimate_of(const ImageStatistics& statistics) const {
     return error_ && statistics.meets(*error_) ? 0.0 : statistics.error_high;
 }
 
+double StopRule::estimate_of(const FinalPicture& picture) const {
+    return error_ && picture.meets(*error_) ? 0.0 : picture.statistics().error_high;
+}
+
 ProgressBar::ProgressBar() : shown_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {

@@ -9,7 +9,7 @@
 
 #include "options/cli_options.h"
 #include "scene/scene.h"
-#include "view/viewer_image.h"
+#include "view/final_picture.h"
 
 namespace raybundle {
 
@@ -39,6 +39,7 @@ class StopRule {
     [[nodiscard]] double progress(double elapsed, std::uint64_t done, double estimate) const;
     /// What progress() is told of a picture's error: 0 where no sample would bring it closer.
     [[nodiscard]] double estimate_of(const ImageStatistics& statistics) const;
+    [[nodiscard]] double estimate_of(const FinalPicture& picture) const;
     [[nodiscard]] bool needs_error() const { return error_.has_value(); }
 
   private:

@@ -139,6 +139,33 @@ void ViewerImage::set_camera(const Camera& camera, glm::uvec2 size) {
     refresh_geometry(moving_kept_weight);
 }
 
+void ViewerImage::refine(unsigned factor, float kept_weight) {
+    // What there is becomes the old picture of the finer one, and is replaced when that is made.
+    Buffer pixels = std::move(pixels_);
+    Buffer irradiance = std::move(irradiance_);
+    Buffer gloss = std::move(gloss_);
+    Texture2D pixel_texture = std::move(pixel_texture_);
+    Texture2D irradiance_texture = std::move(irradiance_texture_);
+    Texture2D gloss_texture = std::move(gloss_texture_);
+    full_size_ *= factor;
+    size_ = full_size_;
+    allocate();
+    std::swap(pixels_, pixels);
+    std::swap(irradiance_, irradiance);
+    std::swap(gloss_, gloss);
+    std::swap(pixel_texture_, pixel_texture);
+    std::swap(irradiance_texture_, irradiance_texture);
+    std::swap(gloss_texture_, gloss_texture);
+    has_picture_ = true;
+    refresh_geometry(kept_weight);
+    old_pixels_ = std::move(pixels);
+    old_irradiance_ = std::move(irradiance);
+    old_gloss_ = std::move(gloss);
+    old_pixel_texture_ = std::move(pixel_texture);
+    old_irradiance_texture_ = std::move(irradiance_texture);
+    old_gloss_texture_ = std::move(gloss_texture);
+}
+
 void ViewerImage::set_size(glm::uvec2 size) {
     if (size != size_) {
         size_ = size;

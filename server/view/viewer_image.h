@@ -96,6 +96,11 @@ class ViewerImage : public BundleReceiver {
     void set_camera(const Camera& camera, glm::uvec2 size);
     /// The same with another full size, where nothing is kept.
     void set_view(const Camera& camera, glm::uvec2 size);
+    /// Draws the same view with `factor` times as many pixels along each edge. What is accumulated
+    /// goes along with a share of its weight. For pictures of full size, between special phases.
+    void refine(unsigned factor, float kept_weight);
+    /// What is said of the error is from now on that of means over grid x grid pixels.
+    void show_means_over(unsigned grid) { grid_ = grid; }
     /// Begins anew, with nothing accumulated.
     void restart(const Camera& camera, glm::uvec2 size);
     /// Pixels that it is drawn with, and what there is room for.
@@ -222,6 +227,7 @@ class ViewerImage : public BundleReceiver {
     const ViewPrograms& programs_;
     glm::uvec2 full_size_;  // of the buffers
     glm::uvec2 size_;       // in use of it
+    unsigned grid_ = 1;     // see show_means_over()
     Camera camera_;
     layout::ViewParameters parameters_{};
     struct OldPicture {  ///< what was accumulated in it is reprojected

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/final_picture.h"
+
+#include <algorithm>
+
+namespace raybundle {
+namespace {
+
+constexpr unsigned finest_grid = 4;
+constexpr std::size_t most_pixels = std::size_t{1}
+                                    << 21U;  // drawn, of all pictures but larger ones
+constexpr std::uint64_t first_look = 64;     // iterations
+/// Finer pixels are due when this share of the noise is less than what the pixels do not resolve.
+/// That is estimated too low where light changes within them along edges.
+constexpr double due_share = 0.5;
+/// Weight that samples of the coarser pixels keep: their mean stays as good, and what they did not
+/// resolve is soon outweighed.
+constexpr float kept_weight = 0.25F;
+
+std::size_t pixel_count(glm::uvec2 size, unsigned grid) {
+    return std::size_t{size.x} * size.y * grid * grid;
+}
+
+/// Means of grid x grid elements. wide: size of the result; of `channels` numbers each.
+template <typename Sum, typename Element, typename Finish>
+auto means(const Element* fine, glm::uvec2 size, unsigned grid, unsigned channels, Finish finish) {
+    std::vector<Element> result(std::size_t{size.x} * size.y * channels);
+    std::vector<Sum> sums(std::size_t{size.x} * channels);
+    const std::size_t row_length = std::size_t{size.x} * grid * channels;
+    for (std::size_t y = 0; y < size.y; ++y) {
+        std::fill(sums.begin(), sums.end(), Sum{});
+        for (std::size_t row = y * grid; row < (y + 1) * grid; ++row) {
+            for (std::size_t i = 0; i < row_length; ++i) {
+                sums[i / (grid * channels) * channels + i % channels] +=
+                    Sum(fine[row * row_length + i]);
+            }
+        }
+        std::transform(sums.begin(), sums.end(),
+                       result.begin() + static_cast<std::ptrdiff_t>(y * sums.size()), finish);
+    }
+    return result;
+}
+
+}  // namespace
+
+FinalPicture::FinalPicture(const GpuScene& scene, const RadianceStore& store,
+                           const ViewPrograms& programs, const Camera& camera, glm::uvec2 size,
+                           PixelGrid grid)
+    : size_(glm::max(size, glm::uvec2(1))),
+      most_grid_(grid == PixelGrid::adaptive ? finest_grid : 1),
+      next_look_(first_look),
+      image_(scene, store, programs, size_) {
+    while (most_grid_ > 1 && pixel_count(size_, most_grid_) > most_pixels) {
+        most_grid_ /= 2;
+    }
+    image_.set_camera(camera);
+}
+
+bool FinalPicture::may_refine() const {
+    return grid_ < most_grid_;
+}
+
+void FinalPicture::prepare() {
+    if (may_refine() && iterations_ == next_look_) {
+        next_look_ *= 2;
+        measure();
+        if (statistics_.known && statistics_.discretisation > due_share * statistics_.noise) {
+            image_.refine(2, kept_weight);
+            grid_ *= 2;
+            image_.show_means_over(grid_);
+        }
+    }
+    image_.smooth();
+    ++iterations_;
+}
+
+const ImageStatistics& FinalPicture::measure() {
+    image_.request_statistics();
+    image_.finish_statistics();
+    statistics_ = image_.statistics();
+    return statistics_;
+}
+
+bool FinalPicture::meets(double target) const {
+    return may_refine() ? statistics_.error_high <= target : statistics_.meets(target);
+}
+
+std::vector<glm::vec4> FinalPicture::read_radiance() {
+    const std::vector<glm::vec4> fine = image_.read_radiance();
+    const auto count = static_cast<float>(grid_ * grid_);
+    return means<glm::dvec4>(fine.data(), size_, grid_, 1, [count](const glm::dvec4& sum) {
+        return glm::vec4(sum / double{count});
+    });
+}
+
+std::vector<std::uint8_t> FinalPicture::read_display() {
+    image_.compose(DisplayMode::photo, image_.automatic_exposure());
+    const std::span<const std::uint8_t> fine = image_.take();
+    const unsigned count = grid_ * grid_;
+    return means<unsigned>(fine.data(), size_, grid_, 4, [count](unsigned sum) {
+        return static_cast<std::uint8_t>((sum + count / 2) / count);
+    });
+}
+
+}  // namespace raybundle

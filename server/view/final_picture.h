@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// How finely a final picture is drawn.
+enum class PixelGrid {
+    adaptive,  ///< as finely as its noise makes worth while
+    centres,   ///< light at the centres of pixels alone, as viewers see it
+};
+
+/// A picture that is made to be kept: its camera rests. Light changes within pixels, along the foot
+/// of a wall or in a narrow slot, and more so in small pictures, where no number of samples at
+/// their centres tells of it. So once noise is not much more than what the pixels do not resolve,
+/// each is drawn as 2 x 2, in the end as 4 x 4 of them, whose mean it is. No clock decides, so that
+/// runs of one seed are equal to the bit.
+class FinalPicture {
+  public:
+    FinalPicture(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs,
+                 const Camera& camera, glm::uvec2 size, PixelGrid grid = PixelGrid::adaptive);
+
+    /// To be called before each iteration: smooth edges, and finer pixels when they are due.
+    void prepare();
+    /// What takes part in the iterations.
+    [[nodiscard]] BundleReceiver& receiver() { return image_; }
+
+    /// Error and brightness as they are now. Synchronous.
+    const ImageStatistics& measure();
+    /// As measured last.
+    [[nodiscard]] const ImageStatistics& statistics() const { return statistics_; }
+    /// Whether a target for the error is met, as measured last, or never will be.
+    [[nodiscard]] bool meets(double target) const;
+    /// Linear radiance of the pixels, cd/m², row 0 at the top. Synchronous.
+    [[nodiscard]] std::vector<glm::vec4> read_radiance();
+    /// RGBA bytes for display, exposed for the picture's mean, row 0 at the top. Synchronous.
+    [[nodiscard]] std::vector<std::uint8_t> read_display();
+
+    [[nodiscard]] glm::uvec2 size() const { return size_; }
+    /// Pixels that each pixel is drawn with along an edge.
+    [[nodiscard]] unsigned pixel_grid() const { return grid_; }
+    [[nodiscard]] std::size_t bytes() const { return image_.bytes(); }
+
+  private:
+    [[nodiscard]] bool may_refine() const;
+
+    glm::uvec2 size_;
+    unsigned most_grid_;
+    unsigned grid_ = 1;
+    std::uint64_t iterations_ = 0;
+    std::uint64_t next_look_;
+    ViewerImage image_;
+    ImageStatistics statistics_;
+};
+
+}  // namespace raybundle
