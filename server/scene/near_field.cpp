@@ -178,12 +178,13 @@ void NearField::place_emitters() {
         const double count =
             std::max(least_points, std::round(emitter_points * lamp.power() / all));
         const double step = lamp.area / count;
-        double next = 0.5 * step;
         double before = 0.0;
+        unsigned placed = 0;
         for (const std::uint32_t t : lamp.triangles) {
             const auto corners = world_corners(scene_, scene_.triangles[t]);
             const glm::dvec3 normal = glm::normalize(double_area(corners));
-            for (before += area(t); next < before; next += step) {
+            before += area(t);
+            for (; (placed + 0.5) * step < before; ++placed) {
                 const glm::dvec2 at = triangle_point(emitters_.size());
                 emitters_.push_back({corners[0] + at.x * (corners[1] - corners[0]) +
                                          at.y * (corners[2] - corners[0]),
