@@ -11,6 +11,8 @@ layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums fl
 #include "transmission.glsl"
 #endif
 #ifdef GLOSSY
+#include "rarely.glsl"
+#include "gloss.glsl"
 layout(std430, binding = BINDING_RADIANCE) readonly buffer RadianceBuffer { vec4 radiance[]; };
 #endif
 uniform uint patch_count;
@@ -22,13 +24,14 @@ FluxSums patch_flux(uint i) {
     float area = patches[i].area;
     FluxSums f;
     f.incident = area * source[i];
-#ifdef GLOSSY  // the albedo of glossy patches is not one number
-    f.reflected = (pi * area) * vec4(radiance[i].rgb - patch_source(i), 0.0);
-#else
     f.reflected = surfaces[i].albedo * f.incident;
 #ifdef TRANSMISSION
     f.reflected.rgb += area * transmitted_exitance(i);
 #endif
+#ifdef GLOSSY  // whose albedo is not one number, and whose radiance is of this iterate already
+    RARELY(is_glossy(i)) {
+        f.reflected = (pi * area) * vec4(radiance[i].rgb - patch_source(i), 0.0);
+    }
 #endif
     f.emitted = area * vec4(pi * patch_source(i), 1.0);
     return f;

@@ -44,6 +44,37 @@ TEST(GlossyTransport, FurnaceOfConstantAlbedoIsUniform) {
     EXPECT_LT(glossy_furnace_mean(0.3F, 0.5F, settings), 0.98);
 }
 
+/// Lambert walls whose level is known, in a scene that has a glossy surface somewhere: the
+/// iterate's level comes from what the walls reflect of this very iterate. With what they sent a
+/// group of iterations before it overshoots.
+TEST(GlossyTransport, LambertWallsKeepTheirLevelBesideGlossyOnes) {
+    constexpr float albedo = 0.95F;
+    constexpr float emission = 100.0F;
+    const auto mean_after = [&](std::uint64_t iterations) {
+        SceneBuilder b;
+        b.add_box({0, 0, 0}, {4, 3, 5}, true, 4,
+                  b.add_material(glm::vec3(albedo), glm::vec3(emission)));
+        const std::size_t walls = b.mesh.patch_count();
+        Material other;
+        other.roughness = 0.5F;
+        b.add_quad({10, 0, 0}, {0.1F, 0, 0}, {0, 0.1F, 0}, 1, 1, b.add_material(other));
+        SolverSettings settings;
+        settings.coarse = {64, 160};
+        Solver solver(b.scene, b.mesh, settings);
+        while (solver.iterations() < iterations) {
+            solver.step({});
+        }
+        double sum = 0.0;
+        const auto irradiance = solver.store().read_irradiance();
+        for (std::size_t i = 0; i < walls; ++i) {
+            sum += static_cast<double>(irradiance[i].g) / static_cast<double>(walls);
+        }
+        return sum * (1.0 - double{albedo}) / (double{emission} * glm::pi<double>());
+    };
+    EXPECT_NEAR(mean_after(128), 1.0, 0.06);  // 1.35 with the walls' older light
+    EXPECT_NEAR(mean_after(256), 1.0, 0.06);  // 1.14
+}
+
 /// A white dielectric below a coat reflects nearly as much at all angles: with a factor of a half
 /// the furnace is known. Smooth coats are wide between surfaces, in the right amount.
 TEST(GlossyTransport, FurnaceBelowAClearCoatIsUniform) {
