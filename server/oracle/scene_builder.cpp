@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/lights.h"
+#include "scene/solid_shells.h"
 
 namespace raybundle {
 
@@ -116,6 +117,7 @@ Scene SceneBuilder::loaded_scene() const {
         loaded.triangles.push_back(triangle);
     }
     loaded.lights = find_lights(loaded);
+    mark_solid_shells(loaded);
     return loaded;
 }
 

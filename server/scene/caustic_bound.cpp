@@ -106,7 +106,7 @@ double flux_on_specular_surfaces(const Scene& scene) {
         if (radiance > 0.0) {
             const auto corners = world_corners(scene, triangle);
             const double area = 0.5 * glm::length(double_area(corners));
-            flux += (material.double_sided ? 2.0 : 1.0) * pi * radiance * area *
+            flux += (two_sided(scene, triangle) ? 2.0 : 1.0) * pi * radiance * area *
                     emitter_share(spheres, corners);
         }
     }

@@ -131,7 +131,7 @@ class ContactSearch {
             if (glm::length(area) > 0.0 &&
                 longest_edge(face.corners) >= shortest_line * patch_edge_) {
                 face.normal = glm::normalize(area);
-                face.double_sided = scene_.materials[scene_.triangles[i].material].double_sided;
+                face.double_sided = two_sided(scene_, scene_.triangles[i]);
                 faces.push_back(face);
             }
         }

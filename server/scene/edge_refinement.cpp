@@ -84,9 +84,6 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
     for (const Object& object : scene.objects) {
         world_from_object_.emplace_back(object.world_from_object());
     }
-    for (const Material& material : scene.materials) {
-        double_sided_.push_back(material.double_sided);
-    }
     std::vector<PointIndex> numbers(scene.objects.size());
     std::vector<std::vector<std::uint32_t>> global(scene.objects.size());
     triangles_.reserve(scene.triangles.size());
@@ -94,6 +91,7 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
         RefinedTriangle refined;
         refined.material = triangle.material;
         refined.object = triangle.object;
+        refined.two_sided = two_sided(scene, triangle);
         for (std::size_t k = 0; k < 3; ++k) {
             const Vertex& vertex = scene.vertices[triangle.vertex[k]];
             const std::uint32_t local = numbers[triangle.object].id_of(vertex.position);
@@ -116,7 +114,7 @@ void EdgeRefinement::begin_refinement() {
     patch_count_ = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         triangles_[t].node = static_cast<std::uint32_t>(t);
-        patch_count_ += sides(triangles_[t]);
+        patch_count_ += triangles_[t].two_sided ? 2 : 1;
     }
     unrefined_ = triangles_;
 }
@@ -238,7 +236,7 @@ std::size_t EdgeRefinement::patches_after(const Edges& edges,
         for (const std::uint32_t edge : edges.of_triangle[t]) {
             pieces += marked[edge] ? 1 : 0;
         }
-        count += pieces * sides(triangles_[t]);
+        count += triangles_[t].two_sided ? 2 * pieces : pieces;
     }
     return count;
 }
@@ -270,8 +268,12 @@ std::array<EdgeRefinement::RefinedTriangle, 2> EdgeRefinement::split(
     const auto first = static_cast<std::uint32_t>(nodes_.size());
     nodes_[triangle.node] = {static_cast<std::uint8_t>(edge), first};
     nodes_.resize(nodes_.size() + 2);
-    return {RefinedTriangle{{p, m, r}, triangle.material, triangle.object, first},
-            RefinedTriangle{{m, q, r}, triangle.material, triangle.object, first + 1}};
+    std::array<RefinedTriangle, 2> halves = {triangle, triangle};
+    halves[0].corners = {p, m, r};
+    halves[0].node = first;
+    halves[1].corners = {m, q, r};
+    halves[1].node = first + 1;
+    return halves;
 }
 
 /// Bisects the longest edge, then each half whose own outer edge is marked.

@@ -28,6 +28,7 @@ class EdgeRefinement {
         std::array<Corner, 3> corners;
         std::uint32_t material = 0;
         std::uint32_t object = 0;
+        bool two_sided = false;  ///< both of its sides are patches
         std::uint32_t node = 0;  ///< its leaf in nodes()
     };
     /// A triangle on the way from the unrefined to the refined ones. Corners p, q, r with an edge
@@ -61,7 +62,7 @@ class EdgeRefinement {
     [[nodiscard]] const std::vector<RefinedTriangle>& unrefined() const { return unrefined_; }
     /// All triangles there ever were since; the unrefined come first, in their order.
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-    /// Front sides and the back sides of doubleSided materials.
+    /// Front sides, and back sides of two-sided triangles.
     [[nodiscard]] std::size_t patch_count() const { return patch_count_; }
 
   private:
@@ -91,9 +92,6 @@ class EdgeRefinement {
     void split_triangles(const Edges& edges);
     std::array<RefinedTriangle, 2> split(const RefinedTriangle& triangle, std::size_t edge,
                                          std::uint32_t midpoint);
-    [[nodiscard]] std::size_t sides(const RefinedTriangle& triangle) const {
-        return double_sided_[triangle.material] ? 2 : 1;
-    }
 
     std::vector<RefinedTriangle> triangles_, unrefined_;
     std::vector<Node> nodes_;
@@ -101,7 +99,6 @@ class EdgeRefinement {
     std::vector<glm::dvec3> world_points_;
     std::vector<std::uint32_t> point_object_;
     std::vector<glm::dmat4> world_from_object_;
-    std::vector<bool> double_sided_;  // by material
     std::size_t patch_count_ = 0;
 };
 

@@ -60,7 +60,7 @@ struct Survey {
 void survey_area(const Scene& scene, const Triangle& triangle, double area, Survey& survey) {
     const Material& material = scene.materials[triangle.material];
     const SpecularKind kind = specular_kind(material);
-    const double sides = material.double_sided || kind == SpecularKind::pane ? 2.0 : 1.0;
+    const double sides = two_sided(scene, triangle) || kind == SpecularKind::pane ? 2.0 : 1.0;
     const bool other = kind == SpecularKind::none || kind == SpecularKind::coat;
     (other ? survey.other_area : survey.specular_area) += sides * area;
 }
@@ -77,7 +77,7 @@ void survey_lights(const Scene& scene, Survey& survey) {
         const double area = 0.5 * glm::length(double_area(world_corners(scene, triangle)));
         survey_area(scene, triangle, area, survey);
         if (radiance[triangle.material] > 0.0) {
-            const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
+            const double sides = two_sided(scene, triangle) ? 2.0 : 1.0;
             survey.area_flux += sides * pi * radiance[triangle.material] * area;
         }
     }

@@ -22,6 +22,7 @@
 #include "scene/gltf_objects.h"
 #include "scene/gltf_primitive.h"
 #include "scene/lights.h"
+#include "scene/solid_shells.h"
 #include "scene/specular_surface.h"
 
 namespace raybundle {
@@ -138,6 +139,7 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
         scene.cameras.push_back(default_camera(scene));
         document.note("the file has no usable camera: a default one is used");
     }
+    scene.removed.solid_insides = mark_solid_shells(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
     scene.notices = document.notices();

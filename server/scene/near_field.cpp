@@ -146,7 +146,6 @@ void NearField::place_emitters() {
         std::vector<std::uint32_t> triangles;
         double area = 0.0;
         double luminance = 0.0;  // cd/m²
-        bool two_sided = false;
 
         [[nodiscard]] double power() const { return area * luminance; }
     };
@@ -154,7 +153,6 @@ void NearField::place_emitters() {
     for (const Light& light : scene_.lights) {
         Lamp& lamp = lamps[static_cast<std::size_t>(light.material)];
         lamp.luminance = double{luminance(light.radiance)};
-        lamp.two_sided = scene_.materials[static_cast<std::size_t>(light.material)].double_sided;
     }
     const auto area = [&](std::uint32_t t) {
         return 0.5 * glm::length(double_area(world_corners(scene_, scene_.triangles[t])));
@@ -188,7 +186,8 @@ void NearField::place_emitters() {
                 const glm::dvec2 at = triangle_point(emitters_.size());
                 emitters_.push_back({corners[0] + at.x * (corners[1] - corners[0]) +
                                          at.y * (corners[2] - corners[0]),
-                                     normal, lamp.luminance * step, step, lamp.two_sided});
+                                     normal, lamp.luminance * step, step,
+                                     two_sided(scene_, scene_.triangles[t])});
             }
         }
     }
@@ -265,7 +264,7 @@ double NearField::reflected_within(const Place& place, double distance) const {
         }
         const Triangle& triangle = scene_.triangles[met];
         const bool front = glm::dot(double_area(world_corners(scene_, triangle)), direction) < 0.0;
-        if (front || scene_.materials[triangle.material].double_sided) {
+        if (front || two_sided(scene_, triangle)) {
             sum += albedo_[triangle.material] / rays;
         }
     }
@@ -299,29 +298,28 @@ double NearField::misplaced_on_side(const Corners& corners, const glm::dvec3& no
     return flux_per_lux * std::sqrt(std::max(squares - sum * sum, 0.0));
 }
 
-double NearField::misplaced_flux(const Corners& corners, std::size_t material, double least) const {
-    const glm::dvec3 twice = double_area(corners);
+double NearField::misplaced_flux(const Face& face, double least) const {
+    const glm::dvec3 twice = double_area(face.corners);
     const double length = glm::length(twice);
-    if (!(length > 0.0) || !(albedo_[material] > 0.0)) {
+    if (!(length > 0.0) || !(albedo_[face.material] > 0.0)) {
         return 0.0;
     }
-    const double area = 0.5 * length * albedo_[material];
-    const double front = misplaced_on_side(corners, twice / length, area, least);
-    return scene_.materials[material].double_sided
-               ? std::max(front, misplaced_on_side(corners, -twice / length, area, least))
+    const double area = 0.5 * length * albedo_[face.material];
+    const double front = misplaced_on_side(face.corners, twice / length, area, least);
+    return face.two_sided
+               ? std::max(front, misplaced_on_side(face.corners, -twice / length, area, least))
                : front;
 }
 
-double NearField::direct_flux(const Corners& corners, std::size_t material) const {
-    const glm::dvec3 twice = double_area(corners);
+double NearField::direct_flux(const Face& face) const {
+    const glm::dvec3 twice = double_area(face.corners);
     const double length = glm::length(twice);
     if (!(length > 0.0)) {
         return 0.0;
     }
-    const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const glm::dvec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
     const double front = illuminance({middle, twice / length});
-    const double back =
-        scene_.materials[material].double_sided ? illuminance({middle, -twice / length}) : 0.0;
+    const double back = face.two_sided ? illuminance({middle, -twice / length}) : 0.0;
     return 0.5 * length * (front + back);
 }
 

@@ -19,19 +19,25 @@ class NearField {
   public:
     using Corners = std::array<glm::dvec3, 3>;  ///< world, m, counter-clockwise from the front
 
+    /// A triangle of the scene, or a part of one.
+    struct Face {
+        Corners corners{};
+        std::size_t material = 0;
+        bool two_sided = false;
+    };
+
     /// Takes the scene's triangles, lamps and sky; glass casts no shadow. The scene must outlive
     /// it.
     explicit NearField(const Scene& scene);
     ~NearField();
 
-    /// Luminous flux (lm) that a triangle of a material reflects onto surfaces nearer than its
+    /// Luminous flux (lm) that a face reflects onto surfaces nearer than its
     /// longest edge from other places than it should: standard deviation of its direct illuminance,
     /// times its area, its albedo, and the share of its light that these surfaces reflect. Of the
     /// worse of its sides. 0 where it cannot be as much as `least`.
-    [[nodiscard]] double misplaced_flux(const Corners& corners, std::size_t material,
-                                        double least) const;
-    /// Direct luminous flux (lm) on a triangle, from the illuminance in its middle.
-    [[nodiscard]] double direct_flux(const Corners& corners, std::size_t material) const;
+    [[nodiscard]] double misplaced_flux(const Face& face, double least) const;
+    /// Direct luminous flux (lm) on a face, from the illuminance in its middle.
+    [[nodiscard]] double direct_flux(const Face& face) const;
 
   private:
     struct Hierarchy;

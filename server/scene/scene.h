@@ -154,6 +154,7 @@ struct Triangle {
     std::uint32_t vertex[3] = {0, 0, 0};
     std::uint32_t material = 0;
     std::uint32_t object = 0;  ///< index into Scene::objects (not id)
+    bool solid = false;        ///< behind it is a solid: no light, scene/solid_shells.h
 };
 
 struct Vertex {
@@ -167,6 +168,7 @@ struct Vertex {
 struct RemovedGeometry {
     std::size_t degenerate_triangles = 0;  ///< without area
     std::size_t duplicate_faces = 0;       ///< the same three positions and side once more
+    std::size_t solid_insides = 0;  ///< back sides of doubleSided triangles, inside of solids
 };
 
 /// What a glTF file says, checked, in metres, rest pose, every node's geometry in its object's
@@ -189,6 +191,11 @@ struct Scene {
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };
+
+/// Whether both sides of a triangle receive light and send it.
+inline bool two_sided(const Scene& scene, const Triangle& triangle) {
+    return scene.materials[triangle.material].double_sided && !triangle.solid;
+}
 
 /// Whether anything but a sky emits light.
 inline bool has_emitter(const Scene& scene) {

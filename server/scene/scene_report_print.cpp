@@ -40,8 +40,11 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
                        report.referenced_vertices, report.area);
     out << fmt::format("patches     {} on {} triangles, {} vertices\n", report.patches,
                        report.patch_triangles, report.patch_vertices);
-    out << fmt::format("left out    {} triangles without area, {} duplicate faces\n",
-                       scene.removed.degenerate_triangles, scene.removed.duplicate_faces);
+    out << fmt::format(
+        "left out    {} triangles without area, {} duplicate faces, {} insides of "
+        "solids\n",
+        scene.removed.degenerate_triangles, scene.removed.duplicate_faces,
+        scene.removed.solid_insides);
     out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
                        report.edges.boundary, report.edges.non_manifold);
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
@@ -200,6 +203,7 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"patchVertices", report.patch_vertices},
         {"degenerateTriangles", scene.removed.degenerate_triangles},
         {"duplicateFaces", scene.removed.duplicate_faces},
+        {"solidInsides", scene.removed.solid_insides},
         {"boundaryEdges", report.edges.boundary},
         {"nonManifoldEdges", report.edges.non_manifold},
         {"texturedMaterials", report.textured_materials},

@@ -40,7 +40,7 @@ double total_area(const Scene& scene) {
         for (int k = 0; k < 3; ++k) {
             p[k] = world * glm::dvec4(glm::dvec3(scene.vertices[triangle.vertex[k]].position), 1.0);
         }
-        const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
+        const double sides = two_sided(scene, triangle) ? 2.0 : 1.0;
         area += sides * 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
     }
     return area;
@@ -92,13 +92,18 @@ void cut_at_contacts(const Scene& scene, const TessellationSettings& settings,
     refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
 }
 
+NearField::Face face_of(const EdgeRefinement& refinement,
+                        const EdgeRefinement::RefinedTriangle& triangle) {
+    return {refinement.world_corners(triangle), triangle.material, triangle.two_sided};
+}
+
 /// Direct flux on all patches, lm, from some of them.
 double direct_flux(const EdgeRefinement& refinement, const NearField& field) {
     const auto& triangles = refinement.triangles();
     const std::size_t stride = std::max<std::size_t>(triangles.size() / flux_samples, 1);
     double sum = 0.0;
     for (std::size_t t = 0; t < triangles.size(); t += stride) {
-        sum += field.direct_flux(refinement.world_corners(triangles[t]), triangles[t].material);
+        sum += field.direct_flux(face_of(refinement, triangles[t]));
     }
     return sum * static_cast<double>(stride);
 }
@@ -119,8 +124,8 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
         tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
             float& value = misplaced[triangles[t].node];
             if (value < 0.0F) {
-                value = static_cast<float>(field.misplaced_flux(
-                    refinement.world_corners(triangles[t]), triangles[t].material, least));
+                value = static_cast<float>(
+                    field.misplaced_flux(face_of(refinement, triangles[t]), least));
             }
         });
         std::vector<bool> chosen(triangles.size());
@@ -274,6 +279,7 @@ class MeshBuilder {
         mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
         mesh_.triangles.push_back(corners);
         mesh_.triangle_material.push_back(triangle.material);
+        two_sided_.push_back(triangle.two_sided);
         mesh_.base_colour.push_back(colour.base_colour);
         mesh_.emission.push_back(colour.emission);
         mesh_.coverage.push_back(colour.coverage);
@@ -345,7 +351,7 @@ class MeshBuilder {
         const std::size_t front_count = mesh_.triangles.size();
         mesh_.back_patch.assign(front_count, PatchMesh::no_patch);
         for (std::size_t t = 0; t < front_count; ++t) {
-            if (!scene_.materials[mesh_.triangle_material[t]].double_sided) {
+            if (!two_sided_[t]) {
                 continue;
             }
             mesh_.back_patch[t] = static_cast<std::uint32_t>(mesh_.patch_triangle.size());
@@ -371,8 +377,9 @@ class MeshBuilder {
     PatchPainter painter_;
     std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
-    bool coloured_ = false;  // some vertex is not white
-    bool cut_ = false;       // alpha MASK has left less than the whole of some patch
+    std::vector<bool> two_sided_;  // by the mesh's triangle
+    bool coloured_ = false;        // some vertex is not white
+    bool cut_ = false;             // alpha MASK has left less than the whole of some patch
     std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
     std::size_t invisible_ = 0;
 };

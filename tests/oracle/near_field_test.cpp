@@ -37,8 +37,7 @@ struct LitFloor {
     /// Of a triangle of the floor that the shadow's edge crosses, with edges of half a metre.
     [[nodiscard]] double misplaced() const {
         return NearField(scene).misplaced_flux(
-            {glm::dvec3(-0.2, 0, -0.25), glm::dvec3(-0.2, 0, 0.25), glm::dvec3(0.25, 0, 0)}, 0,
-            0.0);
+            {{glm::dvec3(-0.2, 0, -0.25), glm::dvec3(-0.2, 0, 0.25), glm::dvec3(0.25, 0, 0)}}, 0.0);
     }
 
     SceneBuilder b;
@@ -72,10 +71,9 @@ TEST(NearField, AShadowsEdgeMisplacesHalfTheLight) {
     // penumbra. The board takes a part of the light below a half, and reflects half of it.
     const LitFloor floor(true, true);
     const double area = 0.5 * 0.5 * 0.45;
-    const double flux =
-        NearField(floor.scene)
-            .direct_flux(
-                {glm::dvec3(0.5, 0, -0.25), glm::dvec3(0.5, 0, 0.25), glm::dvec3(0.95, 0, 0)}, 0);
+    const double flux = NearField(floor.scene)
+                            .direct_flux({{glm::dvec3(0.5, 0, -0.25), glm::dvec3(0.5, 0, 0.25),
+                                           glm::dvec3(0.95, 0, 0)}});
     const double lit = flux / area;  // lx, beside it in full light
     const double half = 0.5 * lit * area * double{albedo};
     EXPECT_GT(floor.misplaced(), 0.03 * half * double{albedo});
@@ -92,10 +90,9 @@ TEST(NearField, DirectFluxOfALampIsThatOfADisc) {
                                std::atan(c / std::hypot(1.0, c));
     const double e = std::acos(-1.0) * 1000.0 * form_factor;
     const glm::dvec3 size(0.02, 0, 0.02);
-    const double flux =
-        NearField(floor.scene)
-            .direct_flux({glm::dvec3(0, 0, 0), glm::dvec3(0, 0, size.z), glm::dvec3(size.x, 0, 0)},
-                         0);
+    const double flux = NearField(floor.scene)
+                            .direct_flux({{glm::dvec3(0, 0, 0), glm::dvec3(0, 0, size.z),
+                                           glm::dvec3(size.x, 0, 0)}});
     EXPECT_NEAR(flux / (0.5 * size.x * size.z), e, 0.02 * e);
 }
 

@@ -155,6 +155,9 @@ TEST(SceneTessellation, BackSidesCountAsPatches) {
     builder.json["meshes"][0]["primitives"][0]["material"] =
         builder.add_material({{"doubleSided", true}});
     Scene scene = builder.load();
+    for (Triangle& triangle : scene.triangles) {
+        triangle.solid = false;  // as if the box were open somewhere
+    }
     const PatchMesh mesh = with_count(scene, 10'000);
     EXPECT_EQ(mesh.patch_count(), 2 * mesh.triangle_count());
     EXPECT_NEAR(static_cast<double>(mesh.patch_count()), 10'000.0, 2500.0);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Finds doubleSided surfaces that are the outside of something solid, and marks their triangles
+/// (Triangle::solid): modellers write doubleSided for everything, and nobody will ever see the
+/// inside of a table's leg. Simulating it costs half of the patches, and of a lamp it would be a
+/// furnace that holds 1/(1 - albedo) times the light that the room has.
+///
+/// A solid is closed (each of its edges joins two triangles, in opposite directions), opaque,
+/// turned outwards, and has nothing within: no camera, no lamp of KHR_lights_punctual and no other
+/// surface as a whole. So a room that is one doubleSided box keeps its inside, whichever way it is
+/// turned. Surfaces that go through it do not count: walls overlap at their corners.
+///
+/// Returns the number of triangles marked. `scene.cameras` must be known.
+std::size_t mark_solid_shells(Scene& scene);
+
+}  // namespace raybundle
