@@ -13,9 +13,6 @@ constexpr std::uint64_t first_look = 64;     // iterations
 /// Finer pixels are due when this share of the noise is less than what the pixels do not resolve.
 /// That is estimated too low where light changes within them along edges.
 constexpr double due_share = 0.5;
-/// Weight that samples of the coarser pixels keep: their mean stays as good, and what they did not
-/// resolve is soon outweighed.
-constexpr float kept_weight = 0.25F;
 
 std::size_t pixel_count(glm::uvec2 size, unsigned grid) {
     return std::size_t{size.x} * size.y * grid * grid;
@@ -65,7 +62,7 @@ void FinalPicture::prepare() {
         next_look_ *= 2;
         measure();
         if (statistics_.known && statistics_.discretisation > due_share * statistics_.noise) {
-            image_.refine(2, kept_weight);
+            image_.refine(2);
             grid_ *= 2;
             image_.show_means_over(grid_);
         }

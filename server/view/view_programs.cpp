@@ -67,6 +67,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
       detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
+      scatter_refine({"view_scatter_refine.comp"}),
       depths({"view_depths.comp"}),
       hemicube_pixels(make_receive_hemicube(scene, variant)),
       hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),

@@ -29,6 +29,7 @@ struct ViewPrograms {
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
+    ShaderProgram scatter_refine;
     ShaderProgram depths;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.

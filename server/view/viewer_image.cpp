@@ -139,8 +139,12 @@ void ViewerImage::set_camera(const Camera& camera, glm::uvec2 size) {
     refresh_geometry(moving_kept_weight);
 }
 
-void ViewerImage::refine(unsigned factor, float kept_weight) {
+void ViewerImage::refine(unsigned factor) {
     // What there is becomes the old picture of the finer one, and is replaced when that is made.
+    const glm::uvec2 coarse_size = size_;
+    const glm::vec4 weights = parameters_.weights;
+    const std::uint64_t scatter_samples = scatter_samples_;
+    const Buffer scatter = std::move(scatter_);
     Buffer pixels = std::move(pixels_);
     Buffer irradiance = std::move(irradiance_);
     Buffer gloss = std::move(gloss_);
@@ -157,7 +161,11 @@ void ViewerImage::refine(unsigned factor, float kept_weight) {
     std::swap(irradiance_texture_, irradiance_texture);
     std::swap(gloss_texture_, gloss_texture);
     has_picture_ = true;
-    refresh_geometry(kept_weight);
+    refresh_geometry(1.0F);
+    refine_scatter(scatter, coarse_size);
+    parameters_.weights.y = weights.y;
+    parameters_.weights.z = weights.z;
+    scatter_samples_ = scatter_samples;
     old_pixels_ = std::move(pixels);
     old_irradiance_ = std::move(irradiance);
     old_gloss_ = std::move(gloss);

@@ -97,8 +97,9 @@ class ViewerImage : public BundleReceiver {
     /// The same with another full size, where nothing is kept.
     void set_view(const Camera& camera, glm::uvec2 size);
     /// Draws the same view with `factor` times as many pixels along each edge. What is accumulated
-    /// goes along with a share of its weight. For pictures of full size, between special phases.
-    void refine(unsigned factor, float kept_weight);
+    /// goes along, and so does what its samples say of their scatter. For pictures of full size,
+    /// between special phases.
+    void refine(unsigned factor);
     /// What is said of the error is from now on that of means over grid x grid pixels.
     void show_means_over(unsigned grid) { grid_ = grid; }
     /// Begins anew, with nothing accumulated.
@@ -214,6 +215,7 @@ class ViewerImage : public BundleReceiver {
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void restart_scatter();
+    void refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size);
     void begin_change();
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);

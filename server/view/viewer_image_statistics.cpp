@@ -19,6 +19,21 @@ void ViewerImage::restart_scatter() {
     statistics_.samples = 0;
 }
 
+/// The sums of a coarser picture of the same view.
+void ViewerImage::refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size) {
+    const glm::uvec2 coarse_probes = (coarse_size + 3U) / 4U;
+    const glm::uvec2 probes = (size_ + 3U) / 4U;
+    const ShaderProgram& program = programs_.scatter_refine;
+    program.set("factor", size_.x / coarse_size.x);
+    program.set("probes", static_cast<std::uint32_t>(pixel_count(probes)));
+    program.set("probe_columns", probes.x);
+    program.set("coarse_columns", coarse_probes.x);
+    program.set("coarse_rows", coarse_probes.y);
+    coarse.bind_storage(BINDING_FRAME);
+    scatter_.bind_storage(BINDING_PIXEL_SCATTER);
+    program.dispatch(pixel_count(probes));
+}
+
 void ViewerImage::request_statistics() {
     if (continued() != nullptr) {
         continued()->request_statistics();
