@@ -106,6 +106,7 @@ MethodRun run_bundles(const RunSurroundings& around, const PlannedCurve& curve,
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, around.camera, around.size,
                          curve.grid);
+    picture.check_by(spot_check(around.scene, around.mesh, around.camera, around.size, seed));
     BundleReceiver* const receivers[] = {&picture.receiver()};
     glFinish();
     const auto step = [&] {

@@ -69,6 +69,18 @@ EffectsPlan effects_plan(const Options& options, const LoadedScene& loaded) {
     return plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
 }
 
+/// What path tracing of some pixels measured of the error; null where it did not.
+nlohmann::ordered_json measured_json(const FinalPicture& picture) {
+    const std::optional<FinalPicture::Checked>& checked = picture.checked();
+    if (!checked) {
+        return nullptr;
+    }
+    return {{"squared", checked->square.value},
+            {"standardError", checked->square.standard_error},
+            {"pixels", checked->pixels},
+            {"paths", checked->paths}};
+}
+
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
                       const LoadedScene& loaded, const FinalPicture& picture,
                       const Outcome& outcome) {
@@ -92,6 +104,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"relativeError", outcome.statistics.relative_error},
         {"errorLow", outcome.statistics.error_low},
         {"errorHigh", outcome.statistics.error_high},
+        {"errorMeasured", measured_json(picture)},
         {"errorNoise", outcome.statistics.noise},
         {"errorDiscretisation", outcome.statistics.discretisation},
         {"biased", options.bias_for_noise > 0},
@@ -144,6 +157,7 @@ int run_render(const Options& options) {
     }
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, camera, size);
+    picture.check_by(spot_check(loaded.scene, loaded.mesh, camera, size, options.seed));
     const Outcome outcome = solve(solver, picture, options);
     write_picture(picture, options.output);
     if (!options.stats.empty()) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,10 @@ Camera choose_camera(const Scene& scene, const Options& options);
 /// Throws UsageError unless the path ends in .exr or .png.
 void require_picture_format(const std::string& path);
 bool is_exr(const std::string& path);
+
+/// Paths that a picture's error is measured by, independent of whatever else has this seed.
+std::unique_ptr<SpotCheck> spot_check(const Scene& scene, const PatchMesh& mesh,
+                                      const Camera& camera, glm::uvec2 size, std::uint64_t seed);
 
 class Stopwatch {
   public:

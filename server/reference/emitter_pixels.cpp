@@ -10,7 +10,10 @@ namespace {
 
 constexpr int rays_per_side = 8;
 
-bool sees_emitter(const RayScene& scene, const CameraRays& camera, const glm::dvec2& corner) {
+}  // namespace
+
+bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::size_t pixel) {
+    const glm::dvec2 corner = camera.corner(pixel);
     for (int k = 0; k < rays_per_side * rays_per_side; ++k) {
         const glm::dvec2 cell(k % rays_per_side, k / rays_per_side);
         const auto hit = scene.trace(
@@ -22,17 +25,13 @@ bool sees_emitter(const RayScene& scene, const CameraRays& camera, const glm::dv
     return false;
 }
 
-}  // namespace
-
 std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRays& camera) {
     const std::size_t width = camera.size().x;
     const std::size_t height = camera.size().y;
     std::vector<std::uint8_t> found(width * height, 0);  // bits of vector<bool> share bytes
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
-            found[y * width + x] =
-                sees_emitter(scene, camera, {static_cast<double>(x), static_cast<double>(y)}) ? 1
-                                                                                              : 0;
+            found[y * width + x] = pixel_sees_emitter(scene, camera, y * width + x) ? 1 : 0;
         }
     });
     return {found.begin(), found.end()};

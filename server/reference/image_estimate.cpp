@@ -26,6 +26,14 @@ ImageEstimate::ImageEstimate(glm::uvec2 size, std::uint64_t seed, PixelFilter fi
       filter_(filter),
       sums_(std::size_t{size.x} * size.y * batches, glm::dvec3(0.0)) {}
 
+ImageEstimate::ImageEstimate(std::span<const std::uint32_t> pixels, std::uint64_t seed,
+                             PixelFilter filter)
+    : size_(pixels.size(), 1),
+      pixels_(pixels.begin(), pixels.end()),
+      seed_(seed),
+      filter_(filter),
+      sums_(pixels_.size() * batches, glm::dvec3(0.0)) {}
+
 void ImageEstimate::add_pass(const CameraRays& camera, const RadianceEstimator& estimator) {
     const std::size_t pixels = sums_.size() / batches;
     std::atomic<std::uint64_t> dropped{0};
@@ -67,10 +75,10 @@ void ImageEstimate::add_splatting_pass(const CameraRays& camera,
 
 ImageEstimate::PixelRay ImageEstimate::next_ray(std::size_t pixel, const CameraRays& camera) const {
     const auto batch = static_cast<std::uint32_t>(passes_ % batches);
-    PixelSampler sampler(seed_, static_cast<std::uint32_t>(pixel), batch,
-                         static_cast<std::uint32_t>(passes_ / batches));
+    const auto shown = pixels_.empty() ? static_cast<std::uint32_t>(pixel) : pixels_[pixel];
+    PixelSampler sampler(seed_, shown, batch, static_cast<std::uint32_t>(passes_ / batches));
     const glm::dvec2 within = filter_ == PixelFilter::box ? sampler.next_pair() : glm::dvec2(0.5);
-    return {camera.direction(camera.corner(pixel) + within), sampler};
+    return {camera.direction(camera.corner(shown) + within), sampler};
 }
 
 bool ImageEstimate::add(std::size_t pixel, const glm::dvec3& value) {
@@ -89,6 +97,11 @@ glm::dvec3 ImageEstimate::mean(std::size_t pixel) const {
     return sum / static_cast<double>(std::max<std::uint64_t>(passes_, 1));
 }
 
+glm::dvec3 ImageEstimate::batch_mean(std::size_t pixel, std::uint32_t batch) const {
+    return sums_[pixel * batches + batch] /
+           static_cast<double>(std::max<std::uint64_t>(samples_of(batch), 1));
+}
+
 glm::dvec3 ImageEstimate::standard_error(std::size_t pixel) const {
     if (passes_ < batches) {
         return glm::dvec3(std::numeric_limits<double>::infinity());
@@ -96,10 +109,9 @@ glm::dvec3 ImageEstimate::standard_error(std::size_t pixel) const {
     // Batch means scatter about the mean with sigma^2 / n_b; n_b differ by at most one.
     const glm::dvec3 centre = mean(pixel);
     glm::dvec3 scatter(0.0);
-    for (std::uint64_t batch = 0; batch < batches; ++batch) {
-        const std::uint64_t samples = passes_ / batches + (batch < passes_ % batches ? 1 : 0);
-        const auto count = static_cast<double>(samples);
-        const glm::dvec3 deviation = sums_[pixel * batches + batch] / count - centre;
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        const auto count = static_cast<double>(samples_of(batch));
+        const glm::dvec3 deviation = batch_mean(pixel, batch) - centre;
         scatter += count * deviation * deviation;
     }
     return glm::sqrt(scatter / static_cast<double>((batches - 1) * passes_));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "reference/camera_rays.h"
@@ -63,6 +64,10 @@ class ImageEstimate {
     static constexpr std::uint32_t batches = 8;
 
     ImageEstimate(glm::uvec2 size, std::uint64_t seed, PixelFilter filter = PixelFilter::box);
+    /// Of some pixels of a picture alone, given by their numbers row by row: what is said of pixel
+    /// i here is of pixels[i].
+    ImageEstimate(std::span<const std::uint32_t> pixels, std::uint64_t seed,
+                  PixelFilter filter = PixelFilter::box);
 
     /// Adds one sample to every pixel. The result depends on the seed and the number of passes
     /// alone, not on the number of threads.
@@ -76,6 +81,8 @@ class ImageEstimate {
     [[nodiscard]] glm::dvec3 mean(std::size_t pixel) const;                 ///< cd/m²
     /// Of the mean, cd/m²; infinite before every batch has a sample.
     [[nodiscard]] glm::dvec3 standard_error(std::size_t pixel) const;
+    /// Mean of one batch's samples, cd/m²; before it has any 0.
+    [[nodiscard]] glm::dvec3 batch_mean(std::size_t pixel, std::uint32_t batch) const;
     [[nodiscard]] std::vector<glm::dvec3> means() const;
     [[nodiscard]] std::size_t bytes() const { return sums_.size() * sizeof(glm::dvec3); }
     /// measured: pixels that count, row by row; empty: all.
@@ -91,7 +98,12 @@ class ImageEstimate {
     /// False where the value is not finite and was dropped.
     bool add(std::size_t pixel, const glm::dvec3& value);
 
+    [[nodiscard]] std::uint64_t samples_of(std::uint32_t batch) const {
+        return passes_ / batches + (batch < passes_ % batches ? 1 : 0);
+    }
+
     glm::uvec2 size_;
+    std::vector<std::uint32_t> pixels_;  // of the picture; empty: all
     std::uint64_t seed_;
     PixelFilter filter_;
     std::uint64_t passes_ = 0;

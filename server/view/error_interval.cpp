@@ -2,6 +2,7 @@
 #include "view/error_interval.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -76,6 +77,58 @@ ErrorInterval error_interval(double noise, double discretisation, std::uint64_t 
     return {error, error / factor, error * factor};
 }
 
+namespace {
+
+/// Logarithm of the density of what was measured, for a true error: Student's t, since the standard
+/// error is an estimate, and one that is too small where the largest differences were missed.
+double measured_log_density(double error, double square, double standard_error) {
+    constexpr double freedom = 8.0;
+    const double t = (square - error * error) / standard_error;
+    return -0.5 * (freedom + 1.0) * std::log1p(t * t / freedom);
+}
+
+/// Density of the logarithm of the error, as the samples say, up to a factor.
+double said_density(double log_ratio, double deviation) {
+    constexpr double far_off = 1.0 / 7.0;
+    constexpr double deviation_far_off = 1.2;  // a factor of 3.3
+    const auto normal = [log_ratio](double sigma) {
+        return std::exp(-0.5 * log_ratio * log_ratio / (sigma * sigma)) / sigma;
+    };
+    return (1.0 - far_off) * normal(deviation) + far_off * normal(deviation_far_off);
+}
+
+}  // namespace
+
+ErrorInterval measured_interval(const ErrorInterval& said, double square, double standard_error) {
+    constexpr double two_sided = 1.96;  // standard deviations, 95 %
+    constexpr int steps = 2000;
+    if (!(said.error > 0.0) || !(said.high > said.error) || !(standard_error > 0.0) ||
+        !std::isfinite(standard_error)) {
+        return said;
+    }
+    const double deviation = std::log(said.high / said.error) / two_sided;
+    const double most = std::sqrt(std::max(square, 0.0) + 6.0 * standard_error);
+    const double first = std::log(said.error) - 5.0;
+    const double last = std::log(std::max(said.error, most)) + 3.0;
+    const auto error_at = [&](double step) {
+        return std::exp(first + (last - first) * step / steps);
+    };
+    std::array<double, steps + 1> below{};  // posterior up to each step
+    for (int i = 0; i < steps; ++i) {
+        const double error = error_at(i + 0.5);
+        const double density = said_density(std::log(error / said.error), deviation) *
+                               std::exp(measured_log_density(error, square, standard_error));
+        below[static_cast<std::size_t>(i) + 1] = below[static_cast<std::size_t>(i)] + density;
+    }
+    const auto quantile = [&](double share) {
+        const double sum = share * below.back();
+        const auto at = std::lower_bound(below.begin() + 1, below.end(), sum);
+        const auto step = static_cast<double>(at - below.begin());
+        return error_at(step - (*at - sum) / std::max(*at - *(at - 1), 1e-300));
+    };
+    return {quantile(0.5), quantile(0.025), quantile(0.975)};
+}
+
 bool reachable(double discretisation, double target) {
     return discretisation * std::exp(discretisation_half_width) < target;
 }
@@ -105,6 +158,20 @@ double samples_factor(double noise, double discretisation, double target, std::u
         (high_after(middle) > target ? low : high) = middle;
     }
     return high;
+}
+
+double samples_factor(const ErrorInterval& measured, double discretisation, double target,
+                      SampleOrder order) {
+    // high sqrt((1 - d^2) f^-2x + d^2) = target
+    const double d2 = std::min(discretisation * discretisation, 1.0);
+    const double wanted = target * target / (measured.high * measured.high) - d2;
+    if (measured.high <= target) {
+        return 1.0;
+    }
+    if (wanted <= 0.0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return std::pow((1.0 - d2) / wanted, 0.5 / (0.5 + gain_of(order).exponent));
 }
 
 }  // namespace raybundle

@@ -37,12 +37,24 @@ double discretisation_error(double at_edges, double elsewhere);
 ErrorInterval error_interval(double noise, double discretisation, std::uint64_t samples,
                              SampleOrder order);
 
+/// What a measurement of the squared error makes of an interval that a picture's own samples say:
+/// both together, by Bayes' rule over the logarithm of the error. The samples know of noise alone,
+/// so that once in seven times they are taken to be far off; what was measured is as it is, with
+/// the tails of its own uncertainty. So where both agree the interval is narrower than either, and
+/// where they do not it is what was measured. The error is the median.
+ErrorInterval measured_interval(const ErrorInterval& said, double square, double standard_error);
+
 /// Whether some number of samples brings error_interval().high below a target.
 bool reachable(double discretisation, double target);
 
 /// Factor of the number of samples after which error_interval().high is at a target, >= 1; infinite
 /// where it never is.
 double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
+                      SampleOrder order);
+
+/// The same for an interval that was measured, whose width relative to the error stays as it is.
+/// discretisation: its share of the error, <= 1.
+double samples_factor(const ErrorInterval& measured, double discretisation, double target,
                       SampleOrder order);
 
 }  // namespace raybundle

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "reference/spot_check.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -25,21 +28,40 @@ class FinalPicture {
     FinalPicture(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs,
                  const Camera& camera, glm::uvec2 size, PixelGrid grid = PixelGrid::adaptive);
 
+    /// From now on errors are measured by path tracing some pixels, too. Its paths are traced by
+    /// measure(), so that they take a small share of the time.
+    void check_by(std::unique_ptr<SpotCheck> check) { check_ = std::move(check); }
+
     /// To be called before each iteration: smooth edges, and finer pixels when they are due.
     void prepare();
     /// What takes part in the iterations.
     [[nodiscard]] BundleReceiver& receiver() { return image_; }
 
-    /// Error and brightness as they are now. Synchronous.
+    /// Error and brightness as they are now: by its samples, and by what was measured of some
+    /// pixels. Synchronous.
     const ImageStatistics& measure();
     /// As measured last.
     [[nodiscard]] const ImageStatistics& statistics() const { return statistics_; }
+    /// What was measured last, and of how many pixels by how many paths each; nothing before, or
+    /// without a check.
+    struct Checked {
+        SquaredError square;  ///< squared relRMSE
+        std::size_t pixels = 0;
+        std::uint64_t paths = 0;
+    };
+    [[nodiscard]] const std::optional<Checked>& checked() const { return checked_; }
+    /// Error and interval by the picture's samples alone, as measured last.
+    [[nodiscard]] const ErrorInterval& said_by_samples() const { return by_samples_; }
     /// Whether a target for the error is met, as measured last, or never will be.
     [[nodiscard]] bool meets(double target) const;
     /// Linear radiance of the pixels, cd/m², row 0 at the top. Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_radiance();
     /// RGBA bytes for display, exposed for the picture's mean, row 0 at the top. Synchronous.
     [[nodiscard]] std::vector<std::uint8_t> read_display();
+
+    /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
+    /// where none do.
+    [[nodiscard]] double samples_factor_to(double target) const;
 
     [[nodiscard]] glm::uvec2 size() const { return size_; }
     /// Pixels that each pixel is drawn with along an edge.
@@ -48,6 +70,8 @@ class FinalPicture {
 
   private:
     [[nodiscard]] bool may_refine() const;
+    void measure_pixels();
+    void take_measured_error();
 
     glm::uvec2 size_;
     unsigned most_grid_;
@@ -56,6 +80,11 @@ class FinalPicture {
     std::uint64_t next_look_;
     ViewerImage image_;
     ImageStatistics statistics_;
+    std::unique_ptr<SpotCheck> check_;  // may be null
+    std::optional<Checked> checked_;
+    ErrorInterval by_samples_;
+    std::uint64_t next_check_ = 0;
+    double said_when_checked_ = 0.0;  // error by the samples
 };
 
 }  // namespace raybundle

@@ -83,6 +83,8 @@ class ViewerImage : public BundleReceiver {
                 glm::uvec2 size);
     ~ViewerImage() override;
 
+    /// How even its samples are.
+    [[nodiscard]] SampleOrder sample_order() const;
     /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
     /// where none do.
     [[nodiscard]] double samples_factor_to(double target) const {
@@ -220,7 +222,6 @@ class ViewerImage : public BundleReceiver {
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
     void measure_detail();
-    [[nodiscard]] SampleOrder sample_order() const;
     [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 

@@ -18,32 +18,45 @@ bool is_judged(std::uint64_t iterations) {
     return std::find(judged_at.begin(), judged_at.end(), iterations) != judged_at.end();
 }
 
-/// 800 pictures: five scenes, 32 seeds, five times. One run gives five pictures.
+/// 800 pictures: five scenes, 32 seeds, five times. One run gives five pictures. Those with the
+/// true error of some pixels measured are what `render` and `accuracy` say; those by samples alone
+/// are what moving viewers are told.
 TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
     Coverage all;
+    Coverage all_by_samples;
     for (const char* file :
          {"cornell_box.gltf", "effects/punctual_lights.gltf", "effects/vertex_colours.gltf",
           "effects/normal_map.gltf", "effects/roughness_texture.gltf"}) {
         const JudgedScene scene(file, 0.4F, 1500);
         Coverage own;
+        Coverage own_by_samples;
         for (std::uint64_t seed = 65; seed <= 96; ++seed) {  // smaller ones were fitted to
             scene.run(seed, 0.02, [&](const JudgedPicture& picture) {
                 if (is_judged(picture.iterations)) {
-                    own.add(picture);
-                    all.add(picture);
+                    own.add(picture.error, picture.said);
+                    all.add(picture.error, picture.said);
+                    own_by_samples.add(picture.error, picture.said_by_samples);
+                    all_by_samples.add(picture.error, picture.said_by_samples);
                 }
                 return picture.iterations < judged_at.back();
             });
         }
         RecordProperty(file, own.text());
-        std::printf("%s: %s\n", file, own.text().c_str());
-        EXPECT_GE(own.share(), 0.85) << file << ": " << own.text();
+        std::printf("%s: measured: %s\n  by samples: %s\n", file, own.text().c_str(),
+                    own_by_samples.text().c_str());
+        std::fflush(stdout);
+        EXPECT_GE(own.share(), 0.9) << file << ": " << own.text();
+        EXPECT_GE(own_by_samples.share(), 0.85) << file << ": " << own_by_samples.text();
     }
-    std::printf("all: %s\n", all.text().c_str());
+    std::printf("all: measured: %s\n  by samples: %s\n", all.text().c_str(),
+                all_by_samples.text().c_str());
     EXPECT_EQ(all.pictures, 800U);
     EXPECT_GE(all.share(), 0.92) << all.text();
     EXPECT_LE(all.share(), 0.98) << all.text();
-    EXPECT_LE(all.half_width(), 0.42) << all.text();
+    EXPECT_LE(all.half_width(), 0.3) << all.text();
+    EXPECT_GE(all_by_samples.share(), 0.92) << all_by_samples.text();
+    EXPECT_LE(all_by_samples.share(), 0.98) << all_by_samples.text();
+    EXPECT_LE(all_by_samples.half_width(), 0.42) << all_by_samples.text();
 }
 
 /// Runs that end when their interval says that a target is met: 120 of them, and of all seeds at
@@ -57,7 +70,7 @@ TEST(ErrorIntervalHeavy, TargetsThatItCallsMetAreMet) {
             JudgedPicture last;
             scene.run(seed, target, [&](const JudgedPicture& picture) {
                 last = picture;
-                return picture.iterations < 32 || picture.said.error_high > target;
+                return picture.iterations < 32 || picture.said.high > target;
             });
             ++runs;
             met += last.error <= target ? 1 : 0;
@@ -78,7 +91,7 @@ TEST(ErrorIntervalHeavy, PredictsWhenATargetIsMet) {
         std::vector<JudgedPicture> pictures;
         scene.run(seed, target, [&](const JudgedPicture& picture) {
             pictures.push_back(picture);
-            return picture.said.error_high > target && picture.iterations < 4000;
+            return picture.said.high > target && picture.iterations < 4000;
         });
         const auto end = static_cast<double>(pictures.back().iterations);
         const JudgedPicture& early = pictures.at(std::max<std::size_t>(pictures.size() / 4, 2));

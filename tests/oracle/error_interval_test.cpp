@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "judged_scene.h"
 
@@ -80,23 +82,70 @@ TEST(SamplesFactor, LeadsToTheTarget) {
     }
 }
 
+/// What agrees makes sure; what was measured well counts alone.
+TEST(MeasuredInterval, IsNarrowerWhereBothAgreeAndFollowsWhatWasMeasuredElsewhere) {
+    const ErrorInterval said{0.02, 0.014, 0.0286};
+    const ErrorInterval together = measured_interval(said, 0.0004, 0.0001);
+    EXPECT_NEAR(together.error, 0.02, 0.0005);
+    EXPECT_LT(together.high - together.low, said.high - said.low);
+    EXPECT_LT(together.high - together.low, 2.0 * (std::sqrt(0.0006) - 0.02) * 1.96);
+
+    const ErrorInterval above = measured_interval(said, 0.01, 0.0005);
+    EXPECT_NEAR(above.error, 0.1, 0.003);
+    EXPECT_GT(above.low, 0.09);
+    EXPECT_LT(above.high, 0.11);
+    const ErrorInterval below = measured_interval(said, 1e-5, 1e-5);
+    EXPECT_LT(below.error, 0.008);
+}
+
+/// Where nothing was measured, or so badly that it says nothing, the samples have the word.
+TEST(MeasuredInterval, IsWhatSamplesSayWhereNothingWasMeasured) {
+    const ErrorInterval said{0.02, 0.014, 0.0286};
+    const ErrorInterval nothing =
+        measured_interval(said, 0.0, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(nothing.error, said.error);
+    EXPECT_EQ(nothing.high, said.high);
+    const ErrorInterval hardly = measured_interval(said, -0.001, 0.05);
+    EXPECT_NEAR(hardly.error, said.error, 0.001);
+    EXPECT_GT(hardly.high, said.high);  // they may be far off
+    const ErrorInterval black = measured_interval({0.0, 0.0, 0.0}, 0.01, 0.001);
+    EXPECT_EQ(black.error, 0.0);
+}
+
+/// An error that falls like the samples' power is at the target after so many.
+TEST(SamplesFactor, OfWhatWasMeasuredLeadsToTheTarget) {
+    const ErrorInterval measured{0.05, 0.04, 0.06};
+    const double factor = samples_factor(measured, 0.2, 0.03, SampleOrder::low_discrepancy);
+    const double share = std::sqrt(0.96 * std::pow(factor, -1.5) + 0.04);
+    EXPECT_NEAR(share * measured.high, 0.03, 1e-9);
+    EXPECT_EQ(samples_factor(measured, 0.2, 0.07, SampleOrder::shuffled), 1.0);
+    EXPECT_TRUE(std::isinf(samples_factor(measured, 0.6, 0.03, SampleOrder::shuffled)));
+}
+
 /// 100 pictures, four of each run. Their errors are 10 to 30 %, of which the noise of the reference
 /// (2 %) is a small part. With 95 % right, fewer than 87 of 100 are found right once in 1000 times
 /// if they are independent; the four of a run are not quite.
 TEST(ErrorInterval, CoversTheTrueErrorOfMostPictures) {
     const JudgedScene scene("cornell_box.gltf", 0.4F, 512);
     EXPECT_LT(scene.reference_noise(), 0.03);
-    Coverage coverage;
+    Coverage measured;
+    Coverage by_samples;
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
         scene.run(seed, 0.02, [&](const JudgedPicture& picture) {
-            coverage.add(picture);
+            measured.add(picture.error, picture.said);
+            by_samples.add(picture.error, picture.said_by_samples);
             return picture.iterations < 64;
         });
     }
-    RecordProperty("coverage", coverage.text());
-    EXPECT_EQ(coverage.pictures, 100U);
-    EXPECT_GE(coverage.covered, 85U) << coverage.text();
-    EXPECT_LE(coverage.half_width(), 0.45) << coverage.text();
+    RecordProperty("measured", measured.text());
+    RecordProperty("by samples", by_samples.text());
+    std::printf("measured: %s\nby samples: %s\n", measured.text().c_str(),
+                by_samples.text().c_str());
+    EXPECT_EQ(measured.pictures, 100U);
+    EXPECT_GE(measured.covered, 87U) << measured.text();
+    EXPECT_LE(measured.half_width(), 0.3) << measured.text();
+    EXPECT_GE(by_samples.covered, 85U) << by_samples.text();
+    EXPECT_LE(by_samples.half_width(), 0.45) << by_samples.text();
 }
 
 }  // namespace

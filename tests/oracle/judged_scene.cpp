@@ -44,9 +44,9 @@ JudgedScene::JudgedScene(const std::string& file, float patch_size, unsigned pas
     reference_ = maker.result();
 }
 
-double JudgedScene::error_of(ViewerImage& image) const {
+double JudgedScene::error_of(FinalPicture& final_picture) const {
     std::vector<glm::dvec3> picture;
-    for (const glm::vec4& pixel : image.read_radiance()) {
+    for (const glm::vec4& pixel : final_picture.read_radiance()) {
         picture.emplace_back(pixel);
     }
     const double measured = compare_images(picture, reference_.radiance, measured_).relative_rmse;
@@ -59,29 +59,30 @@ void JudgedScene::run(std::uint64_t seed, double target,
     settings.seed = seed;
     Solver solver(scene_, mesh_, settings);
     const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, size);
-    image.set_camera(camera_);
-    image.smooth();
-    BundleReceiver* const receivers[] = {&image};
+    FinalPicture picture(solver.scene(), solver.store(), programs, camera_, size);
+    picture.check_by(std::make_unique<SpotCheck>(scene_, mesh_, camera_, size, mixed_bits(seed)));
+    BundleReceiver* const receivers[] = {&picture.receiver()};
     JudgedPicture judged;
     do {
         for (std::uint64_t i = 0; i < interval; ++i) {
+            picture.prepare();
             solver.step(receivers);
         }
-        image.request_statistics();
-        image.finish_statistics();
-        judged = {solver.iterations(), error_of(image), image.statistics(),
-                  image.samples_factor_to(target)};
+        const ImageStatistics& s = picture.measure();
+        judged = {solver.iterations(),
+                  error_of(picture),
+                  {s.relative_error, s.error_low, s.error_high},
+                  picture.said_by_samples(),
+                  picture.samples_factor_to(target)};
     } while (goes_on(judged));
 }
 
-void Coverage::add(const JudgedPicture& picture) {
+void Coverage::add(double error, const ErrorInterval& said) {
     ++pictures;
-    covered += picture.covered() ? 1 : 0;
-    above += picture.error > picture.said.error_high ? 1 : 0;
-    below += picture.error < picture.said.error_low ? 1 : 0;
-    widths +=
-        0.5 * (picture.said.error_high - picture.said.error_low) / picture.said.relative_error;
+    above += error > said.high ? 1 : 0;
+    below += error < said.low ? 1 : 0;
+    covered = pictures - above - below;
+    widths += 0.5 * (said.high - said.low) / said.error;
 }
 
 std::string Coverage::text() const {

@@ -10,7 +10,7 @@
 #include "accuracy/reference_picture.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
-#include "view/viewer_image.h"
+#include "view/final_picture.h"
 
 namespace raybundle {
 
@@ -18,12 +18,9 @@ namespace raybundle {
 struct JudgedPicture {
     std::uint64_t iterations = 0;
     double error = 0.0;  ///< relRMSE against the reference, whose own noise is subtracted
-    ImageStatistics said;
-    double samples_factor = 1.0;  ///< to the target of the run
-
-    [[nodiscard]] bool covered() const {
-        return said.error_low <= error && error <= said.error_high;
-    }
+    ErrorInterval said;  ///< with the true error of some pixels measured
+    ErrorInterval said_by_samples;  ///< without
+    double samples_factor = 1.0;    ///< to the target of the run
 };
 
 /// A shipped scene, 48x48 pixels, with a path-traced reference.
@@ -38,7 +35,7 @@ class JudgedScene {
     [[nodiscard]] double reference_noise() const { return reference_.noise->relative_rmse; }
 
   private:
-    [[nodiscard]] double error_of(ViewerImage& image) const;
+    [[nodiscard]] double error_of(FinalPicture& picture) const;
 
     Scene scene_;
     PatchMesh mesh_;
@@ -52,7 +49,7 @@ struct Coverage {
     unsigned pictures = 0, covered = 0, above = 0, below = 0;
     double widths = 0.0;  ///< sum of (high - low) / (2 error)
 
-    void add(const JudgedPicture& picture);
+    void add(double error, const ErrorInterval& said);
     [[nodiscard]] double share() const { return static_cast<double>(covered) / pictures; }
     [[nodiscard]] double half_width() const { return widths / pictures; }
     [[nodiscard]] std::string text() const;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "reference/image_estimate.h"
+#include "reference/light_sampling.h"
+#include "reference/path_tracer.h"
+#include "reference/ray_scene.h"
+
+namespace raybundle {
+
+/// A picture's squared relRMSE (design.md, section 8) as it was measured. Unbiased, so that it may
+/// come out below 0.
+struct SquaredError {
+    double value = 0.0;
+    double standard_error = 0.0;
+};
+
+/// Measures the true error of a picture by path tracing some of its pixels: everything that is
+/// wrong with them counts, whatever the reason, and not only what the picture's own samples know
+/// of.
+///
+/// The squared difference of a pixel I from the mean of noisy estimates r is too large by their
+/// variance. The product of the differences from two independent ones is not: its expectation is
+/// (I - R)^2. Over all pairs of B batches that is (|sum D|^2 - sum |D|^2) / (B (B - 1)) with
+/// D_b = I - r_b (a U-statistic, Hoeffding 1948). So few paths say enough: with so many pixels the
+/// noise of each may be several times what is to be measured.
+///
+/// One pixel of each square of pixels takes part, chosen at random; of small pictures all do. Those
+/// that see an emitter or the sky, and their neighbours, are left out.
+class SpotCheck {
+  public:
+    /// Scene and mesh must outlive it.
+    SpotCheck(const Scene& scene, const PatchMesh& mesh, const Camera& camera, glm::uvec2 size,
+              std::uint64_t seed);
+
+    /// One more path of each of its pixels for every batch.
+    void add_round();
+    [[nodiscard]] std::uint64_t rounds() const { return paths_.passes() / ImageEstimate::batches; }
+    [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
+    /// Of a picture, cd/m², row 0 at the top. Nothing is known before the first round, or where no
+    /// pixel is left: an infinite standard error.
+    [[nodiscard]] SquaredError measure(std::span<const glm::vec4> picture) const;
+
+  private:
+    struct Pixel {
+        std::uint32_t number = 0;  ///< in the picture, row by row
+        double weight = 0.0;       ///< pixels that it stands for
+    };
+
+    [[nodiscard]] std::vector<Pixel> choose(glm::uvec2 size, std::uint64_t seed);
+    [[nodiscard]] bool is_measured(glm::ivec2 at) const;
+
+    RayScene scene_;
+    LightSampling lights_;
+    PathTracer tracer_;
+    CameraRays camera_;
+    double sampled_share_ = 1.0;  ///< of the picture's pixels
+    std::vector<Pixel> pixels_;
+    ImageEstimate paths_;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The true error of pictures by path tracing some pixels, where the error is known.
+#include "reference/spot_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rooms.h"
+
+namespace raybundle {
+namespace {
+
+constexpr float albedo = 0.6F;
+constexpr float sky = 100.0F;
+
+/// A floor under a uniform sky and walls that emit nothing and absorb: its radiance is known where
+/// it sees the whole sky, and every path is a sample of it with noise.
+SceneBuilder open_floor() {
+    SceneBuilder b;
+    const auto paint = b.add_material(glm::vec3(albedo));
+    b.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}, 1, 1, paint);
+    b.scene.sky_radiance = glm::vec3(sky);
+    return b;
+}
+
+Camera from_above() {
+    Camera camera;
+    camera.eye = {0.0F, 5.0F, 0.0F};
+    camera.target = {0.3F, 0.0F, 0.1F};
+    camera.vertical_fov = 1.0F;
+    return camera;
+}
+
+Camera in_enclosure() {
+    Camera camera;
+    camera.eye = glm::vec3(odd_rotation() * glm::vec4(2.0F, 2.0F, 0.2F, 1.0F));
+    camera.target = glm::vec3(odd_rotation() * glm::vec4(1.8F, 1.2F, 4.0F, 1.0F));
+    camera.vertical_fov = 1.4F;
+    return camera;
+}
+
+double relative_square(std::span<const glm::vec4> picture, double truth) {
+    double sum = 0.0;
+    for (const glm::vec4& p : picture) {
+        const glm::dvec3 d = glm::dvec3(p) - truth;
+        sum += glm::dot(d, d);
+    }
+    return sum / (3.0 * truth * truth * static_cast<double>(picture.size()));
+}
+
+/// A picture of the floor, wrong by a few percent everywhere and by more in a few places.
+std::vector<glm::vec4> wrong_picture(glm::uvec2 size) {
+    std::vector<glm::vec4> picture(std::size_t{size.x} * size.y);
+    RandomStream random(11, 0);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const double wave = 0.03 * std::sin(0.05 * static_cast<double>(i % size.x));
+        const double speck = random.next() < 0.02 ? 0.2 : 0.0;
+        picture[i] = glm::vec4(glm::vec3(albedo * sky) * static_cast<float>(1.0 + wave + speck), 1);
+    }
+    return picture;
+}
+
+/// The squared error comes out right in the mean, and as far off as its standard error says: over
+/// 64 checks of one picture, each of its own pixels and paths.
+TEST(SpotCheck, MeasuresTheTrueErrorOfALargePicture) {
+    constexpr glm::uvec2 size(320, 200);
+    constexpr int checks = 64;
+    const SceneBuilder b = open_floor();
+    const std::vector<glm::vec4> picture = wrong_picture(size);
+    const double truth = relative_square(picture, double{albedo} * sky);
+    double mean = 0.0;
+    double squares = 0.0;
+    int inside = 0;
+    for (int i = 0; i < checks; ++i) {
+        SpotCheck check(b.scene, b.mesh, from_above(), size, 100 + static_cast<std::uint64_t>(i));
+        check.add_round();
+        const SquaredError found = check.measure(picture);
+        const double z = (found.value - truth) / found.standard_error;
+        mean += (found.value / truth - 1.0) / checks;
+        squares += z * z / checks;
+        inside += std::abs(z) < 1.96 ? 1 : 0;
+        EXPECT_LT(found.standard_error, 0.3 * truth);
+        EXPECT_LT(check.pixels(), 6000U);
+    }
+    EXPECT_LT(std::abs(mean), 5.0 * 0.3 / std::sqrt(checks));
+    EXPECT_GT(squares, 0.5);  // chi-square of 64: 5 sigma are 0.88 about 1
+    EXPECT_LT(squares, 1.9);
+    EXPECT_GE(inside, 54);  // of 64; 95 % less 4 sigma
+}
+
+/// Paths of a room are noisy; a picture that is as they say in the mean has no error to be found,
+/// and one that is 5 % too dark has that.
+TEST(SpotCheck, FindsWhatIsMissingThroughTheNoiseOfItsPaths) {
+    constexpr glm::uvec2 size(40, 30);
+    const SceneBuilder b = enclosure(0.5F);
+    const RayScene scene(b.scene, b.mesh);
+    const LightSampling lights(scene);
+    const PathTracer tracer(scene, lights);
+    const CameraRays rays(scene, in_enclosure(), size);
+    ImageEstimate reference(size, 5);
+    for (int i = 0; i < 1024; ++i) {
+        reference.add_pass(rays, [&](const glm::dvec3& origin, const glm::dvec3& direction,
+                                     PixelSampler& sampler) {
+            return tracer.radiance(origin, direction, sampler);
+        });
+    }
+    const double noise = reference.error({}).relative;
+    SpotCheck check(b.scene, b.mesh, in_enclosure(), size, 9);
+    for (int round = 0; round < 4; ++round) {
+        check.add_round();
+    }
+    for (const double darker : {0.0, 0.05, 0.2}) {
+        std::vector<glm::vec4> picture;
+        for (const glm::dvec3& mean : reference.means()) {
+            picture.emplace_back(glm::vec3((1.0 - darker) * mean), 1.0F);
+        }
+        const SquaredError found = check.measure(picture);
+        const double truth = darker * darker + (1.0 - darker) * (1.0 - darker) * noise * noise;
+        EXPECT_NEAR(found.value, truth, 4.0 * found.standard_error) << darker;
+        EXPECT_LT(found.standard_error, 0.0005 + 0.15 * darker * darker) << darker;
+    }
+}
+
+TEST(SpotCheck, KnowsNothingWithoutPathsOrPixels) {
+    constexpr glm::uvec2 size(8, 8);
+    const SceneBuilder b = enclosure(0.5F);
+    const std::vector<glm::vec4> picture(std::size_t{size.x} * size.y, glm::vec4(1.0F));
+    const SpotCheck none(b.scene, b.mesh, in_enclosure(), size, 1);
+    EXPECT_TRUE(std::isinf(none.measure(picture).standard_error));
+    const SceneBuilder lamps = furnace_room(0.5F, 10.0F);  // every pixel sees an emitter
+    Camera camera = in_enclosure();
+    SpotCheck empty(lamps.scene, lamps.mesh, camera, size, 1);
+    empty.add_round();
+    EXPECT_EQ(empty.pixels(), 0U);
+    EXPECT_TRUE(std::isinf(empty.measure(picture).standard_error));
+}
+
+/// Without the picture a check is the same every time: nothing depends on the threads.
+TEST(SpotCheck, ComesOutTheSameEveryTime) {
+    constexpr glm::uvec2 size(20, 15);
+    const SceneBuilder b = enclosure(0.8F);
+    const std::vector<glm::vec4> picture(std::size_t{size.x} * size.y, glm::vec4(50.0F));
+    std::vector<SquaredError> found;
+    for (int i = 0; i < 2; ++i) {
+        SpotCheck check(b.scene, b.mesh, in_enclosure(), size, 3);
+        check.add_round();
+        found.push_back(check.measure(picture));
+    }
+    EXPECT_EQ(found[0].value, found[1].value);
+    EXPECT_EQ(found[0].standard_error, found[1].standard_error);
+}
+
+}  // namespace
+}  // namespace raybundle
