@@ -96,6 +96,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [relativeError]  absent: not known yet
  * @property {number} [errorLow]  95 % interval of relativeError
  * @property {number} [errorHigh]
+ * @property {boolean} [errorMeasured]  at some pixels, by path tracing
  * @property {number} [secondsToTarget]
  */
 
@@ -113,6 +114,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [relativeError]  absent: not known yet
  * @property {number} [errorLow]
  * @property {number} [errorHigh]
+ * @property {boolean} [errorMeasured]  at some pixels, by path tracing
  * @property {number} exposure  EV (log2)
  * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
  * @property {number} serverTimeMs

@@ -90,6 +90,7 @@ export class Readouts {
             relativeError: state?.relativeError ?? null,
             errorLow: state?.errorLow ?? null,
             errorHigh: state?.errorHigh ?? null,
+            errorMeasured: state?.errorMeasured ?? false,
             secondsToTarget: this.#solution?.secondsToTarget ?? null,
             latencyMs: this.#latency.quantile(0.5),
             latencyP95Ms: this.#latency.quantile(0.95),
@@ -105,6 +106,7 @@ export class Readouts {
         const known = this.#header !== null || this.#solution !== null;
         showValue('error', known ? pictureError(stats.relativeError) : percent(null));
         showValue('errorInterval', interval(low, high));
+        showValue('errorBasis', stats.errorMeasured ? 'measured by path tracing' : 'by its samples');
         showValue('iterations', count(stats.iterations));
         showValue('iterationRate', rate(stats.iterationsPerSecond));
         showValue('frameRate', rate(stats.framesPerSecond));

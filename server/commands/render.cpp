@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <variant>
 
@@ -27,15 +28,18 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
     ProgressBar bar;
     Outcome outcome;
     const Stopwatch stopwatch;
-    constexpr std::uint64_t statistics_interval = 16;
+    constexpr std::uint64_t statistics_interval = 16;  // iterations, at least
+    constexpr std::uint64_t statistics_share = 16;     // and of them all
+    std::uint64_t next_statistics = statistics_interval;
     constexpr std::uint64_t believed_samples = 32;
     constexpr double unknown = 1e9;
     while (true) {
         picture.prepare();
         solver.step(receivers);
         outcome.seconds = stopwatch.seconds();
-        if (solver.iterations() % statistics_interval == 0) {
+        if (solver.iterations() >= next_statistics) {
             outcome.statistics = picture.measure();
+            next_statistics += std::max(statistics_interval, next_statistics / statistics_share);
         }
         // An error is believed from some samples on; finer than its pixels no picture can be.
         const ImageStatistics& found = outcome.statistics;

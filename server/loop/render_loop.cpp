@@ -79,6 +79,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
         }
         send_solutions();
         send_presence(Clock::now());
+        check_pictures(Clock::now());
         const bool smoothed = smooth_pictures();
         const bool solved = solve();
         idle = !sent && !smoothed && !solved;

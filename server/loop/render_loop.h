@@ -12,6 +12,7 @@
 
 #include "loop/change_log.h"
 #include "loop/change_queue.h"
+#include "loop/check_desk.h"
 #include "loop/loop_metrics.h"
 #include "loop/phase_budget.h"
 #include "loop/review_board.h"
@@ -128,6 +129,7 @@ class RenderLoop {
     bool greet_within(TimeBudget& budget, std::span<const Wanted> newcomers);
     void send_first_frames(std::span<const Wanted> newcomers, double slice_ms);
     void refresh_statistics(Clock::time_point now);
+    void check_pictures(Clock::time_point now);
     [[nodiscard]] double moving_frames_ms(Clock::time_point now) const;
     void choose_moving_scale(Clock::time_point now);
     [[nodiscard]] bool dragging(Clock::time_point now) const;
@@ -177,6 +179,7 @@ class RenderLoop {
     ReviewBoard review_;
     TargetBook targets_;
     SnapshotDesk snapshots_;
+    CheckDesk checks_;
     bool presence_changed_ = false;
     Clock::time_point last_presence_;
     Clock::time_point last_solution_, rate_since_;

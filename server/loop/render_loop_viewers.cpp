@@ -161,6 +161,37 @@ void RenderLoop::refresh_statistics(Clock::time_point now) {
 }
 
 /// False where it has been refused and answered.
+/// Has the true error of a picture at rest measured, of the one that has waited longest. Its
+/// reading back stops the GPU for a moment, so not while somebody walks.
+void RenderLoop::check_pictures(Clock::time_point now) {
+    if (const auto found = checks_.take()) {
+        const auto entry = sessions_.find(found->viewer);
+        if (entry != sessions_.end() && entry->second->last_change() == found->shown_since) {
+            entry->second->take_measured(found->square, found->by_samples);
+        }
+    }
+    if (solver_->correcting() || walking(now) || !checks_.idle(now)) {
+        return;
+    }
+    ViewerSession* longest = nullptr;
+    for (const auto& [id, session] : sessions_) {
+        if (session->wants_check(now) &&
+            (longest == nullptr || session->last_check() < longest->last_check())) {
+            longest = session.get();
+        }
+    }
+    if (longest == nullptr) {
+        return;
+    }
+    if (!checks_.has_scene(epoch_)) {
+        checks_.set_scene(epoch_, scene_, mesh_);
+    }
+    longest->note_check(now);
+    ViewerImage& image = longest->image();
+    checks_.check({longest->id(), longest->last_change(), image.camera(), image.size(),
+                   image.read_radiance(), image.statistics()});
+}
+
 bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) {
     const v1::SetViewport& wanted = event.message.set_viewport();
     const glm::uvec2 size(wanted.width(), wanted.height());

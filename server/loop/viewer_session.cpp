@@ -17,6 +17,7 @@ namespace {
 constexpr double moving_s = 0.4;             // after the last change a viewer counts as moving
 constexpr double moving_interval_s = 0.016;  // between frames while moving
 constexpr double statistics_interval_s = 0.15;
+constexpr double check_after_s = 1.0;         // of rest
 constexpr double cost_smoothing = 0.2;        // weight of a new measurement
 constexpr std::uint64_t target_samples = 32;  // before an error is believed
 constexpr glm::uvec2 default_size(800, 600);
@@ -56,6 +57,8 @@ double ViewerSession::since_change_s(Clock::time_point now) const {
 
 void ViewerSession::note_change() {
     changed_ = true;
+    measured_.forget();
+    samples_at_check_ = 0;
     last_change_ = Clock::now();
 }
 
@@ -148,6 +151,8 @@ void ViewerSession::set_viewport(glm::uvec2 size) {
 
 void ViewerSession::give_image(std::unique_ptr<ViewerImage> image, bool shown) {
     image_ = std::move(image);
+    measured_.forget();
+    samples_at_check_ = 0;
     view_waits_ = view_waits_ || !shown;
     rendering_ = false;
     changed_ = true;
@@ -231,7 +236,7 @@ bool ViewerSession::target_met() {
         return false;
     }
     if (target_error_ > 0.0) {
-        const ImageStatistics& statistics = image_->statistics();
+        const ImageStatistics statistics = measured_statistics();
         return statistics.samples >= target_samples && statistics.meets(target_error_);
     }
     return target_seconds_ > 0.0 && since_change_s(Clock::now()) >= target_seconds_;
@@ -310,7 +315,9 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
     };
     const glm::uvec2 frame_size =
         glm::min(glm::uvec2(scaled(size_.x), scaled(size_.y)), image.size());
-    const ImageStatistics& statistics = image.statistics();
+    // What was measured is of the own picture; a shared one has just begun.
+    const ImageStatistics statistics =
+        &image == image_.get() ? measured_statistics() : image.statistics();
     header_ = figures;
     header_.set_frame(++frame_);
     header_.set_camera_id(camera_id_);
@@ -322,6 +329,7 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
         header_.set_relative_error(static_cast<float>(statistics.relative_error));
         header_.set_error_low(static_cast<float>(statistics.error_low));
         header_.set_error_high(static_cast<float>(statistics.error_high));
+        header_.set_error_measured(&image == image_.get() && measured_.known());
     }
     header_.set_exposure(exposure(image));
     header_.set_server_time_ms(Server::now_ms());
@@ -340,6 +348,22 @@ std::pair<v1::FrameHeader, std::span<const std::uint8_t>> ViewerSession::take_fr
     return {header_, image_->take()};
 }
 
+ImageStatistics ViewerSession::measured_statistics() {
+    return measured_.with(image_->statistics());
+}
+
+bool ViewerSession::wants_check(Clock::time_point now) {
+    return image_ && acknowledged_ && !paused_ && !view_waits_ && image_->smoothed() &&
+           since_change_s(now) >= check_after_s && image_->statistics().known &&
+           static_cast<double>(image_->samples()) >=
+               next_check_factor * static_cast<double>(samples_at_check_);
+}
+
+void ViewerSession::note_check(Clock::time_point now) {
+    samples_at_check_ = image_->samples();
+    last_check_ = now;
+}
+
 bool ViewerSession::wants_statistics(Clock::time_point now) const {
     return image_ && !paused_ && seconds(now - last_statistics_) >= statistics_interval_s;
 }
@@ -353,13 +377,16 @@ void ViewerSession::fill_solution(v1::Solution* solution) {
     if (!image_ || !image_->statistics().known) {
         return;
     }
-    const ImageStatistics& statistics = image_->statistics();
+    const ImageStatistics statistics = measured_statistics();
+    solution->set_error_measured(measured_.known());
     solution->set_relative_error(static_cast<float>(statistics.relative_error));
     solution->set_error_low(static_cast<float>(statistics.error_low));
     solution->set_error_high(static_cast<float>(statistics.error_high));
     const auto rate = static_cast<double>(solution->iterations_per_second());
     if (target_error_ > 0.0) {
-        const double more = image_->samples_factor_to(target_error_) - 1.0;
+        const double more = measured_.samples_factor_to(target_error_, image_->statistics(),
+                                                        image_->sample_order()) -
+                            1.0;
         const double samples = more * static_cast<double>(image_->samples());
         if (target_met()) {
             if (statistics.error_high <= target_error_) {

@@ -13,6 +13,7 @@
 #include "raybundle.pb.h"
 #include "stream/congestion_window.h"
 #include "stream/depth_code.h"
+#include "view/measured_error.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -98,6 +99,18 @@ class ViewerSession {
     /// Error, interval and prediction for a `solution` message that has its iterationsPerSecond.
     void fill_solution(v1::Solution* solution);
 
+    /// The picture is at rest and its true error worth measuring (again).
+    [[nodiscard]] bool wants_check(Clock::time_point now);
+    /// Since when it shows what it shows: what was measured before that is of another picture.
+    [[nodiscard]] Clock::time_point last_change() const { return last_change_; }
+    /// The picture is being measured.
+    void note_check(Clock::time_point now);
+    [[nodiscard]] Clock::time_point last_check() const { return last_check_; }
+    /// by_samples: what they said when it was.
+    void take_measured(const SquaredError& square, const ImageStatistics& by_samples) {
+        measured_.take(square, by_samples);
+    }
+
     /// Nobody seems to look: frames stay unacknowledged.
     [[nodiscard]] bool paused() const { return paused_; }
     void set_paused(bool paused) { paused_ = paused; }
@@ -121,6 +134,7 @@ class ViewerSession {
     [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
 
   private:
+    [[nodiscard]] ImageStatistics measured_statistics();
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
     [[nodiscard]] bool in_motion(Clock::time_point now) const;
     [[nodiscard]] glm::uvec2 drawn_size() const;
@@ -158,6 +172,9 @@ class ViewerSession {
     bool depths_coming_ = false;  // with the frame that is being rendered
     bool paused_ = false;
     bool acknowledged_ = false;
+    MeasuredError measured_;
+    std::uint64_t samples_at_check_ = 0;
+    Clock::time_point last_check_;
     v1::FrameHeader header_;
     Clock::time_point last_change_, last_motion_, last_frame_, last_statistics_;
     std::uint64_t samples_at_frame_ = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "reference/emitter_pixels.h"
 #include "scene/environment.h"
@@ -57,12 +58,10 @@ PixelError pixel_error(const ImageEstimate& paths, std::size_t pixel, const glm:
 
 }  // namespace
 
-SpotCheck::SpotCheck(const Scene& scene, const PatchMesh& mesh, const Camera& camera,
+SpotCheck::SpotCheck(std::shared_ptr<const TracedScene> scene, const Camera& camera,
                      glm::uvec2 size, std::uint64_t seed)
-    : scene_(scene, mesh),
-      lights_(scene_),
-      tracer_(scene_, lights_),
-      camera_(scene_, camera, size),
+    : scene_(std::move(scene)),
+      camera_(scene_->rays, camera, size),
       pixels_(choose(size, seed)),
       paths_(
           [this] {
@@ -100,15 +99,15 @@ std::vector<SpotCheck::Pixel> SpotCheck::choose(glm::uvec2 size, std::uint64_t s
 /// Neither the pixel nor one of its 8 neighbours sees an emitter or the sky.
 bool SpotCheck::is_measured(glm::ivec2 at) const {
     const auto size = glm::ivec2(camera_.size());
-    const bool sky = has_sky(scene_.scene());
+    const bool sky = has_sky(scene_->rays.scene());
     for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, size.y - 1); ++y) {
         for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, size.x - 1); ++x) {
             const auto pixel =
                 static_cast<std::size_t>(y) * camera_.size().x + static_cast<std::size_t>(x);
             const glm::dvec3 through_centre =
                 camera_.direction(camera_.corner(pixel) + glm::dvec2(0.5));
-            if ((sky && !scene_.trace(camera_.origin(), through_centre)) ||
-                pixel_sees_emitter(scene_, camera_, pixel)) {
+            if ((sky && !scene_->rays.trace(camera_.origin(), through_centre)) ||
+                pixel_sees_emitter(scene_->rays, camera_, pixel)) {
                 return false;
             }
         }
@@ -120,7 +119,7 @@ void SpotCheck::add_round() {
     for (std::uint32_t batch = 0; batch < ImageEstimate::batches; ++batch) {
         paths_.add_pass(camera_, [this](const glm::dvec3& origin, const glm::dvec3& direction,
                                         PixelSampler& sampler) {
-            return tracer_.radiance(origin, direction, sampler);
+            return scene_->paths.radiance(origin, direction, sampler);
         });
     }
 }

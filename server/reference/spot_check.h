@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,16 @@ struct SquaredError {
     double standard_error = 0.0;
 };
 
+/// A scene as paths are traced in it; scene and mesh must outlive it.
+struct TracedScene {
+    TracedScene(const Scene& scene, const PatchMesh& mesh)
+        : rays(scene, mesh), lights(rays), paths(rays, lights) {}
+
+    RayScene rays;
+    LightSampling lights;
+    PathTracer paths;
+};
+
 /// Measures the true error of a picture by path tracing some of its pixels: everything that is
 /// wrong with them counts, whatever the reason, and not only what the picture's own samples know
 /// of.
@@ -34,8 +45,7 @@ struct SquaredError {
 /// that see an emitter or the sky, and their neighbours, are left out.
 class SpotCheck {
   public:
-    /// Scene and mesh must outlive it.
-    SpotCheck(const Scene& scene, const PatchMesh& mesh, const Camera& camera, glm::uvec2 size,
+    SpotCheck(std::shared_ptr<const TracedScene> scene, const Camera& camera, glm::uvec2 size,
               std::uint64_t seed);
 
     /// One more path of each of its pixels for every batch.
@@ -55,9 +65,7 @@ class SpotCheck {
     [[nodiscard]] std::vector<Pixel> choose(glm::uvec2 size, std::uint64_t seed);
     [[nodiscard]] bool is_measured(glm::ivec2 at) const;
 
-    RayScene scene_;
-    LightSampling lights_;
-    PathTracer tracer_;
+    std::shared_ptr<const TracedScene> scene_;
     CameraRays camera_;
     double sampled_share_ = 1.0;  ///< of the picture's pixels
     std::vector<Pixel> pixels_;

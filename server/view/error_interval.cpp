@@ -89,7 +89,7 @@ double measured_log_density(double error, double square, double standard_error) 
 
 /// Density of the logarithm of the error, as the samples say, up to a factor.
 double said_density(double log_ratio, double deviation) {
-    constexpr double far_off = 1.0 / 7.0;
+    constexpr double far_off = 0.05;
     constexpr double deviation_far_off = 1.2;  // a factor of 3.3
     const auto normal = [log_ratio](double sigma) {
         return std::exp(-0.5 * log_ratio * log_ratio / (sigma * sigma)) / sigma;

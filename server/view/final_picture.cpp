@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace raybundle {
 namespace {
@@ -14,15 +13,11 @@ constexpr std::size_t most_pixels = std::size_t{1}
 constexpr std::uint64_t first_look = 64;     // iterations
 /// Finer pixels are due when this share of the noise is less than what the pixels do not resolve.
 /// That is estimated too low where light changes within them along edges.
-constexpr double due_share = 0.5;
-/// The true error is measured again after so many times as many iterations; until then it is taken
-/// to have fallen as the samples say.
-constexpr double next_check_factor = 1.25;
+constexpr double due_share = 0.2;
 /// Paths of a pixel for each iteration, at most, beside those of the first rounds: a few percent of
-/// the time. Fewer where the squared error is known to this share of it.
+/// the time. Fewer where the squared error is known well.
 constexpr double most_rounds = 0.03;  // of 8 paths
 constexpr std::uint64_t first_rounds = 1;
-constexpr double known_well = 0.15;
 
 std::size_t pixel_count(glm::uvec2 size, unsigned grid) {
     return std::size_t{size.x} * size.y * grid * grid;
@@ -84,61 +79,31 @@ void FinalPicture::prepare() {
 const ImageStatistics& FinalPicture::measure() {
     image_.request_statistics();
     image_.finish_statistics();
-    statistics_ = image_.statistics();
-    by_samples_ = {statistics_.relative_error, statistics_.error_low, statistics_.error_high};
-    if (check_ != nullptr && statistics_.known) {
-        if (iterations_ >= next_check_) {
-            measure_pixels();
-            next_check_ = static_cast<std::uint64_t>(
-                std::ceil(next_check_factor * static_cast<double>(iterations_)));
-        }
-        take_measured_error();
+    by_samples_ = image_.statistics();
+    if (check_ != nullptr && by_samples_.known) {
+        measure_pixels();
     }
+    statistics_ = measured_.with(by_samples_);
     return statistics_;
 }
 
 /// Traces paths until the true error is known well, or as many as there is time for.
 void FinalPicture::measure_pixels() {
     const std::vector<glm::vec4> picture = read_radiance();
-    const auto most = static_cast<std::uint64_t>(most_rounds * static_cast<double>(iterations_));
-    SquaredError square{0.0, std::numeric_limits<double>::infinity()};
-    while (square.standard_error > known_well * square.value &&
-           check_->rounds() < first_rounds + most) {
-        check_->add_round();
-        square = check_->measure(picture);
+    SquaredError square = check_->measure(picture);
+    if (iterations_ >= next_check_) {
+        next_check_ = static_cast<std::uint64_t>(
+            std::ceil(next_check_factor * static_cast<double>(iterations_)));
+        const std::uint64_t most =
+            first_rounds +
+            static_cast<std::uint64_t>(most_rounds * static_cast<double>(iterations_));
+        while (square.standard_error > known_well * square.value && check_->rounds() < most) {
+            check_->add_round();
+            square = check_->measure(picture);
+        }
     }
-    if (check_->rounds() > 0) {
-        square = check_->measure(picture);
-        checked_ = {square, check_->pixels(), check_->rounds() * ImageEstimate::batches};
-        said_when_checked_ = by_samples_.error;
-    }
-}
-
-void FinalPicture::take_measured_error() {
-    if (!checked_ || !(said_when_checked_ > 0.0)) {
-        return;
-    }
-    ImageStatistics& s = statistics_;
-    const double fallen = by_samples_.error / said_when_checked_;
-    const double factor = fallen * fallen;
-    const ErrorInterval interval = measured_interval(by_samples_, factor * checked_->square.value,
-                                                     factor * checked_->square.standard_error);
-    s.relative_error = interval.error;
-    s.error_low = interval.low;
-    s.error_high = interval.high;
-    if (interval.low > by_samples_.high) {
-        // What samples do not know of does not fall with their number.
-        s.discretisation = std::max(s.discretisation,
-                                    std::sqrt(interval.error * interval.error - s.noise * s.noise));
-    }
-}
-
-double FinalPicture::samples_factor_to(double target) const {
-    const ImageStatistics& s = statistics_;
-    return checked_ && by_samples_.error > 0.0
-               ? samples_factor(ErrorInterval{s.relative_error, s.error_low, s.error_high},
-                                s.discretisation / by_samples_.error, target, image_.sample_order())
-               : image_.samples_factor_to(target);
+    checked_ = {square, check_->pixels(), check_->rounds() * ImageEstimate::batches};
+    measured_.take(square, by_samples_);
 }
 
 bool FinalPicture::meets(double target) const {

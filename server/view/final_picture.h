@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/spot_check.h"
+#include "view/measured_error.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -51,7 +52,9 @@ class FinalPicture {
     };
     [[nodiscard]] const std::optional<Checked>& checked() const { return checked_; }
     /// Error and interval by the picture's samples alone, as measured last.
-    [[nodiscard]] const ErrorInterval& said_by_samples() const { return by_samples_; }
+    [[nodiscard]] ErrorInterval said_by_samples() const {
+        return {by_samples_.relative_error, by_samples_.error_low, by_samples_.error_high};
+    }
     /// Whether a target for the error is met, as measured last, or never will be.
     [[nodiscard]] bool meets(double target) const;
     /// Linear radiance of the pixels, cd/m², row 0 at the top. Synchronous.
@@ -61,7 +64,9 @@ class FinalPicture {
 
     /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
     /// where none do.
-    [[nodiscard]] double samples_factor_to(double target) const;
+    [[nodiscard]] double samples_factor_to(double target) const {
+        return measured_.samples_factor_to(target, by_samples_, image_.sample_order());
+    }
 
     [[nodiscard]] glm::uvec2 size() const { return size_; }
     /// Pixels that each pixel is drawn with along an edge.
@@ -71,7 +76,6 @@ class FinalPicture {
   private:
     [[nodiscard]] bool may_refine() const;
     void measure_pixels();
-    void take_measured_error();
 
     glm::uvec2 size_;
     unsigned most_grid_;
@@ -79,12 +83,11 @@ class FinalPicture {
     std::uint64_t iterations_ = 0;
     std::uint64_t next_look_;
     ViewerImage image_;
-    ImageStatistics statistics_;
+    ImageStatistics statistics_, by_samples_;
     std::unique_ptr<SpotCheck> check_;  // may be null
     std::optional<Checked> checked_;
-    ErrorInterval by_samples_;
+    MeasuredError measured_;
     std::uint64_t next_check_ = 0;
-    double said_when_checked_ = 0.0;  // error by the samples
 };
 
 }  // namespace raybundle

@@ -85,12 +85,6 @@ class ViewerImage : public BundleReceiver {
 
     /// How even its samples are.
     [[nodiscard]] SampleOrder sample_order() const;
-    /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
-    /// where none do.
-    [[nodiscard]] double samples_factor_to(double target) const {
-        return samples_factor(statistics_.noise, statistics_.discretisation, target,
-                              statistics_.samples, sample_order());
-    }
     /// Changes what is seen; accumulated irradiance follows its surface points.
     void set_camera(const Camera& camera) { set_camera(camera, size_); }
     /// The same, drawn with fewer pixels than full_size(), or as many: quickly, for a picture that

@@ -106,5 +106,26 @@ TEST_F(TargetTest, SecondsAreATargetToo) {
     EXPECT_TRUE(goes_on_to(iterations + 16));
 }
 
+/// What is said of a picture at rest is measured by path tracing, and is forgotten when it shows
+/// something else.
+TEST_F(TargetTest, APictureAtRestHasItsErrorMeasured) {
+    const auto measured = [](bool yes) {
+        return [yes](const Json& m) {
+            return m.contains("solution") && m["solution"].contains("errorMeasured") &&
+                   m["solution"].value("errorMeasured", !yes) == yes;
+        };
+    };
+    const Json found = viewer_.next(measured(true));
+    ASSERT_FALSE(found.empty()) << "it was never measured";
+    const Json& solution = found["solution"];
+    EXPECT_LT(solution.value("errorLow", 1.0), solution.value("relativeError", 0.0));
+    EXPECT_GT(solution.value("errorHigh", 0.0), solution.value("relativeError", 1.0));
+    viewer_.request({{"setCamera",
+                      {{"eye", {{"x", 2.2}, {"y", 2.2}, {"z", -6.5}}},
+                       {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+    EXPECT_FALSE(viewer_.next(measured(false)).empty());
+    EXPECT_FALSE(viewer_.next(measured(true)).empty());
+}
+
 }  // namespace
 }  // namespace raybundle

@@ -60,7 +60,8 @@ void JudgedScene::run(std::uint64_t seed, double target,
     Solver solver(scene_, mesh_, settings);
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, camera_, size);
-    picture.check_by(std::make_unique<SpotCheck>(scene_, mesh_, camera_, size, mixed_bits(seed)));
+    picture.check_by(std::make_unique<SpotCheck>(std::make_shared<const TracedScene>(scene_, mesh_),
+                                                 camera_, size, mixed_bits(seed)));
     BundleReceiver* const receivers[] = {&picture.receiver()};
     JudgedPicture judged;
     do {

@@ -40,6 +40,10 @@ Camera in_enclosure() {
     return camera;
 }
 
+std::shared_ptr<const TracedScene> traced(const SceneBuilder& b) {
+    return std::make_shared<const TracedScene>(b.scene, b.mesh);
+}
+
 double relative_square(std::span<const glm::vec4> picture, double truth) {
     double sum = 0.0;
     for (const glm::vec4& p : picture) {
@@ -73,7 +77,7 @@ TEST(SpotCheck, MeasuresTheTrueErrorOfALargePicture) {
     double squares = 0.0;
     int inside = 0;
     for (int i = 0; i < checks; ++i) {
-        SpotCheck check(b.scene, b.mesh, from_above(), size, 100 + static_cast<std::uint64_t>(i));
+        SpotCheck check(traced(b), from_above(), size, 100 + static_cast<std::uint64_t>(i));
         check.add_round();
         const SquaredError found = check.measure(picture);
         const double z = (found.value - truth) / found.standard_error;
@@ -106,7 +110,7 @@ TEST(SpotCheck, FindsWhatIsMissingThroughTheNoiseOfItsPaths) {
         });
     }
     const double noise = reference.error({}).relative;
-    SpotCheck check(b.scene, b.mesh, in_enclosure(), size, 9);
+    SpotCheck check(traced(b), in_enclosure(), size, 9);
     for (int round = 0; round < 4; ++round) {
         check.add_round();
     }
@@ -126,11 +130,11 @@ TEST(SpotCheck, KnowsNothingWithoutPathsOrPixels) {
     constexpr glm::uvec2 size(8, 8);
     const SceneBuilder b = enclosure(0.5F);
     const std::vector<glm::vec4> picture(std::size_t{size.x} * size.y, glm::vec4(1.0F));
-    const SpotCheck none(b.scene, b.mesh, in_enclosure(), size, 1);
+    const SpotCheck none(traced(b), in_enclosure(), size, 1);
     EXPECT_TRUE(std::isinf(none.measure(picture).standard_error));
     const SceneBuilder lamps = furnace_room(0.5F, 10.0F);  // every pixel sees an emitter
     Camera camera = in_enclosure();
-    SpotCheck empty(lamps.scene, lamps.mesh, camera, size, 1);
+    SpotCheck empty(traced(lamps), camera, size, 1);
     empty.add_round();
     EXPECT_EQ(empty.pixels(), 0U);
     EXPECT_TRUE(std::isinf(empty.measure(picture).standard_error));
@@ -143,7 +147,7 @@ TEST(SpotCheck, ComesOutTheSameEveryTime) {
     const std::vector<glm::vec4> picture(std::size_t{size.x} * size.y, glm::vec4(50.0F));
     std::vector<SquaredError> found;
     for (int i = 0; i < 2; ++i) {
-        SpotCheck check(b.scene, b.mesh, in_enclosure(), size, 3);
+        SpotCheck check(traced(b), in_enclosure(), size, 3);
         check.add_round();
         found.push_back(check.measure(picture));
     }

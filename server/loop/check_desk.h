@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "reference/spot_check.h"
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+#include "stream/viewer_id.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// Measures the true error of viewers' pictures at rest by path tracing some of their pixels: on a
+/// thread of its own, one picture at a time, and with pauses, so that it takes a small share of one
+/// core. What it has traced is kept for as long as scene, camera and size stay as they are, for a
+/// few viewers. Its methods are for one thread, which none of them lets wait.
+class CheckDesk {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    struct Picture {
+        ViewerId viewer = 0;
+        Clock::time_point shown_since;  ///< names what the picture shows, beside the viewer
+        Camera camera;
+        glm::uvec2 size{0};
+        std::vector<glm::vec4> radiance;  ///< cd/m², row 0 at the top
+        ImageStatistics by_samples;       ///< what its samples said of it then
+    };
+    struct Result {
+        ViewerId viewer = 0;
+        Clock::time_point shown_since;
+        ImageStatistics by_samples;
+        SquaredError square;
+    };
+
+    CheckDesk();
+    ~CheckDesk();
+    CheckDesk(const CheckDesk&) = delete;
+    CheckDesk& operator=(const CheckDesk&) = delete;
+
+    /// Takes another picture now. One at a time, with pauses.
+    [[nodiscard]] bool idle(Clock::time_point now);
+    /// Whether it has this state of the scene. What it is told of others is forgotten.
+    [[nodiscard]] bool has_scene(std::uint32_t epoch) const { return scene_ && epoch_ == epoch; }
+    void set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh);
+    /// Requires idle() and a scene.
+    void check(Picture picture);
+    /// What was found since the last call.
+    [[nodiscard]] std::optional<Result> take();
+
+  private:
+    struct OwnScene;
+    struct Job {
+        Picture picture;
+        std::shared_ptr<const OwnScene> scene;
+    };
+    struct Begun {  ///< paths of one viewer's picture
+        Clock::time_point shown_since;
+        std::shared_ptr<const OwnScene> scene;
+        std::unique_ptr<SpotCheck> check;
+    };
+
+    void run();
+    Result work(const Job& job);
+    SpotCheck& paths_for(const Job& job);
+
+    std::shared_ptr<const OwnScene> scene_;
+    std::uint32_t epoch_ = 0;
+
+    std::map<ViewerId, Begun> begun_;  // of the thread alone
+
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    bool busy_ = false;
+    std::optional<Job> job_;
+    std::optional<Result> result_;
+    Clock::time_point rests_until_;
+    std::thread thread_;
+};
+
+}  // namespace raybundle
