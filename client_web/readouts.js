@@ -106,7 +106,7 @@ export class Readouts {
         const known = this.#header !== null || this.#solution !== null;
         showValue('error', known ? pictureError(stats.relativeError) : percent(null));
         showValue('errorInterval', interval(low, high));
-        showValue('errorBasis', stats.errorMeasured ? 'measured by path tracing' : 'by its samples');
+        showValue('errorBasis', stats.errorMeasured ? 'measured' : 'estimated');
         showValue('iterations', count(stats.iterations));
         showValue('iterationRate', rate(stats.iterationsPerSecond));
         showValue('frameRate', rate(stats.framesPerSecond));

@@ -14,7 +14,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double about_pixels = 3000.0;  // that are checked of a large picture
+constexpr double about_pixels = 1500.0;  // that are checked of a large picture
 constexpr int batch_count = ImageEstimate::batches;
 
 /// What one pixel adds to the sums over all of them.

@@ -80,16 +80,17 @@ ErrorInterval error_interval(double noise, double discretisation, std::uint64_t 
 namespace {
 
 /// Logarithm of the density of what was measured, for a true error: Student's t, since the standard
-/// error is an estimate, and one that is too small where the largest differences were missed.
+/// error is an estimate. Where the largest differences were missed both come out too small, so that
+/// true errors that are larger are ruled out less.
 double measured_log_density(double error, double square, double standard_error) {
-    constexpr double freedom = 8.0;
+    const double freedom = error * error > square ? 8.0 : 30.0;
     const double t = (square - error * error) / standard_error;
     return -0.5 * (freedom + 1.0) * std::log1p(t * t / freedom);
 }
 
 /// Density of the logarithm of the error, as the samples say, up to a factor.
 double said_density(double log_ratio, double deviation) {
-    constexpr double far_off = 0.05;
+    constexpr double far_off = 0.1;
     constexpr double deviation_far_off = 1.2;  // a factor of 3.3
     const auto normal = [log_ratio](double sigma) {
         return std::exp(-0.5 * log_ratio * log_ratio / (sigma * sigma)) / sigma;

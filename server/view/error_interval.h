@@ -39,7 +39,7 @@ ErrorInterval error_interval(double noise, double discretisation, std::uint64_t 
 
 /// What a measurement of the squared error makes of an interval that a picture's own samples say:
 /// both together, by Bayes' rule over the logarithm of the error. The samples know of noise alone,
-/// so that once in twenty times they are taken to be far off; what was measured is as it is, with
+/// so that once in ten times they are taken to be far off; what was measured is as it is, with
 /// the tails of its own uncertainty. So where both agree the interval is narrower than either, and
 /// where they do not it is what was measured. The error is the median.
 ErrorInterval measured_interval(const ErrorInterval& said, double square, double standard_error);

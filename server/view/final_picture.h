@@ -51,10 +51,6 @@ class FinalPicture {
         std::uint64_t paths = 0;
     };
     [[nodiscard]] const std::optional<Checked>& checked() const { return checked_; }
-    /// Error and interval by the picture's samples alone, as measured last.
-    [[nodiscard]] ErrorInterval said_by_samples() const {
-        return {by_samples_.relative_error, by_samples_.error_low, by_samples_.error_high};
-    }
     /// Whether a target for the error is met, as measured last, or never will be.
     [[nodiscard]] bool meets(double target) const;
     /// Linear radiance of the pixels, cd/m², row 0 at the top. Synchronous.

@@ -25,7 +25,7 @@ bool is_judged(std::uint64_t iterations) {
 /// are what moving viewers are told.
 TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
     Coverage all;
-    Coverage all_by_samples;
+    Coverage all_viewers;
     // Where paths are noisy it takes more of them until the true error is known better than said.
     for (const auto& [file, passes] :
          {std::pair("effects/normal_map.gltf", 12000U),
@@ -34,34 +34,34 @@ TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
           std::pair("effects/punctual_lights.gltf", 6000U), std::pair("cornell_box.gltf", 3000U)}) {
         const JudgedScene scene(file, 0.4F, passes);
         Coverage own;
-        Coverage own_by_samples;
+        Coverage own_viewers;
         for (std::uint64_t seed = 65; seed <= 96; ++seed) {  // smaller ones were fitted to
             scene.run(seed, 0.02, [&](const JudgedPicture& picture) {
                 if (is_judged(picture.iterations)) {
                     own.add(picture.error, picture.said);
                     all.add(picture.error, picture.said);
-                    own_by_samples.add(picture.error, picture.said_by_samples);
-                    all_by_samples.add(picture.error, picture.said_by_samples);
+                    own_viewers.add(picture.viewer_error, picture.viewer_said);
+                    all_viewers.add(picture.viewer_error, picture.viewer_said);
                 }
                 return picture.iterations < judged_at.back();
             });
         }
         RecordProperty(file, own.text());
-        std::printf("%s: measured: %s\n  by samples: %s\n", file, own.text().c_str(),
-                    own_by_samples.text().c_str());
+        std::printf("%s: measured: %s\n  viewers: %s\n", file, own.text().c_str(),
+                    own_viewers.text().c_str());
         std::fflush(stdout);
         EXPECT_GE(own.share(), 0.9) << file << ": " << own.text();
-        EXPECT_GE(own_by_samples.share(), 0.85) << file << ": " << own_by_samples.text();
+        EXPECT_GE(own_viewers.share(), 0.85) << file << ": " << own_viewers.text();
     }
-    std::printf("all: measured: %s\n  by samples: %s\n", all.text().c_str(),
-                all_by_samples.text().c_str());
+    std::printf("all: measured: %s\n  viewers: %s\n", all.text().c_str(),
+                all_viewers.text().c_str());
     EXPECT_EQ(all.pictures, 800U);
     EXPECT_GE(all.share(), 0.92) << all.text();
     EXPECT_LE(all.share(), 0.98) << all.text();
     EXPECT_LE(all.half_width(), 0.3) << all.text();
-    EXPECT_GE(all_by_samples.share(), 0.92) << all_by_samples.text();
-    EXPECT_LE(all_by_samples.share(), 0.98) << all_by_samples.text();
-    EXPECT_LE(all_by_samples.half_width(), 0.42) << all_by_samples.text();
+    EXPECT_GE(all_viewers.share(), 0.92) << all_viewers.text();
+    EXPECT_LE(all_viewers.share(), 0.98) << all_viewers.text();
+    EXPECT_LE(all_viewers.half_width(), 0.42) << all_viewers.text();
 }
 
 /// Runs that end when their interval says that a target is met: 120 of them, and of all seeds at
@@ -69,13 +69,14 @@ TEST(ErrorIntervalHeavy, CoversTheTrueErrorIn95PercentOfRuns) {
 TEST(ErrorIntervalHeavy, TargetsThatItCallsMetAreMet) {
     unsigned runs = 0;
     unsigned met = 0;
-    const JudgedScene scene("cornell_box.gltf", 0.4F, 1500);
-    for (const double target : {0.15, 0.1, 0.07}) {
+    const JudgedScene scene("cornell_box.gltf", 0.4F, 12000);
+    for (const double target : {0.1, 0.05, 0.02}) {
         for (std::uint64_t seed = 101; seed <= 140; ++seed) {
             JudgedPicture last;
             scene.run(seed, target, [&](const JudgedPicture& picture) {
                 last = picture;
-                return picture.iterations < 32 || picture.said.high > target;
+                return picture.iterations < 32 ||
+                       (picture.said.high > target && picture.iterations < 8000);
             });
             ++runs;
             met += last.error <= target ? 1 : 0;
@@ -88,7 +89,7 @@ TEST(ErrorIntervalHeavy, TargetsThatItCallsMetAreMet) {
 
 /// The number of iterations to a target, as predicted when a quarter of them is done.
 TEST(ErrorIntervalHeavy, PredictsWhenATargetIsMet) {
-    const double target = 0.06;
+    const double target = 0.02;
     unsigned right = 0;
     const JudgedScene scene("cornell_box.gltf", 0.4F, 64);
     constexpr unsigned runs = 20;

@@ -129,23 +129,22 @@ TEST(ErrorInterval, CoversTheTrueErrorOfMostPictures) {
     const JudgedScene scene("cornell_box.gltf", 0.4F, 512);
     EXPECT_LT(scene.reference_noise(), 0.03);
     Coverage measured;
-    Coverage by_samples;
+    Coverage viewers;
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
         scene.run(seed, 0.02, [&](const JudgedPicture& picture) {
             measured.add(picture.error, picture.said);
-            by_samples.add(picture.error, picture.said_by_samples);
+            viewers.add(picture.viewer_error, picture.viewer_said);
             return picture.iterations < 64;
         });
     }
     RecordProperty("measured", measured.text());
-    RecordProperty("by samples", by_samples.text());
-    std::printf("measured: %s\nby samples: %s\n", measured.text().c_str(),
-                by_samples.text().c_str());
+    RecordProperty("viewers", viewers.text());
+    std::printf("measured: %s\nviewers: %s\n", measured.text().c_str(), viewers.text().c_str());
     EXPECT_EQ(measured.pictures, 100U);
     EXPECT_GE(measured.covered, 87U) << measured.text();
     EXPECT_LE(measured.half_width(), 0.3) << measured.text();
-    EXPECT_GE(by_samples.covered, 85U) << by_samples.text();
-    EXPECT_LE(by_samples.half_width(), 0.45) << by_samples.text();
+    EXPECT_GE(viewers.covered, 85U) << viewers.text();
+    EXPECT_LE(viewers.half_width(), 0.45) << viewers.text();
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ PatchMesh mesh_of(Scene& scene, float patch_size) {
     return tessellate(scene, settings);
 }
 
+ErrorInterval interval_of(const ImageStatistics& s) {
+    return {s.relative_error, s.error_low, s.error_high};
+}
+
 }  // namespace
 
 JudgedScene::JudgedScene(const std::string& file, float patch_size, unsigned passes)
@@ -44,11 +48,8 @@ JudgedScene::JudgedScene(const std::string& file, float patch_size, unsigned pas
     reference_ = maker.result();
 }
 
-double JudgedScene::error_of(FinalPicture& final_picture) const {
-    std::vector<glm::dvec3> picture;
-    for (const glm::vec4& pixel : final_picture.read_radiance()) {
-        picture.emplace_back(pixel);
-    }
+double JudgedScene::error_of(const std::vector<glm::vec4>& radiance) const {
+    const std::vector<glm::dvec3> picture(radiance.begin(), radiance.end());
     const double measured = compare_images(picture, reference_.radiance, measured_).relative_rmse;
     return std::sqrt(std::max(measured * measured - reference_noise() * reference_noise(), 0.0));
 }
@@ -62,19 +63,24 @@ void JudgedScene::run(std::uint64_t seed, double target,
     FinalPicture picture(solver.scene(), solver.store(), programs, camera_, size);
     picture.check_by(std::make_unique<SpotCheck>(std::make_shared<const TracedScene>(scene_, mesh_),
                                                  camera_, size, mixed_bits(seed)));
-    BundleReceiver* const receivers[] = {&picture.receiver()};
+    ViewerImage viewer(solver.scene(), solver.store(), programs, size);
+    viewer.set_camera(camera_);
+    viewer.smooth();
+    BundleReceiver* const receivers[] = {&picture.receiver(), &viewer};
     JudgedPicture judged;
     do {
         for (std::uint64_t i = 0; i < interval; ++i) {
             picture.prepare();
             solver.step(receivers);
         }
-        const ImageStatistics& s = picture.measure();
+        viewer.request_statistics();
+        viewer.finish_statistics();
         judged = {solver.iterations(),
-                  error_of(picture),
-                  {s.relative_error, s.error_low, s.error_high},
-                  picture.said_by_samples(),
-                  picture.samples_factor_to(target)};
+                  error_of(picture.read_radiance()),
+                  interval_of(picture.measure()),
+                  picture.samples_factor_to(target),
+                  error_of(viewer.read_radiance()),
+                  interval_of(viewer.statistics())};
     } while (goes_on(judged));
 }
 

@@ -14,13 +14,15 @@
 
 namespace raybundle {
 
-/// What a picture says about its error, and what that is.
+/// What a final picture says about its error, with the true error of some pixels measured, and a
+/// viewer's beside it, by its samples alone; and what their errors are.
 struct JudgedPicture {
     std::uint64_t iterations = 0;
     double error = 0.0;  ///< relRMSE against the reference, whose own noise is subtracted
-    ErrorInterval said;  ///< with the true error of some pixels measured
-    ErrorInterval said_by_samples;  ///< without
-    double samples_factor = 1.0;    ///< to the target of the run
+    ErrorInterval said;
+    double samples_factor = 1.0;  ///< to the target of the run
+    double viewer_error = 0.0;
+    ErrorInterval viewer_said;
 };
 
 /// A shipped scene, 48x48 pixels, with a path-traced reference.
@@ -35,7 +37,7 @@ class JudgedScene {
     [[nodiscard]] double reference_noise() const { return reference_.noise->relative_rmse; }
 
   private:
-    [[nodiscard]] double error_of(FinalPicture& picture) const;
+    [[nodiscard]] double error_of(const std::vector<glm::vec4>& radiance) const;
 
     Scene scene_;
     PatchMesh mesh_;
