@@ -53,7 +53,7 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
     }
     outcome.statistics = picture.measure();
     if (options.error && outcome.statistics.error_high > *options.error) {
-        spdlog::warn("--error {}: not reached; {:.2f} % come from what is finer than the pixels",
+        spdlog::warn("--error {}: not reached; {:.2f} % come from what more time does not mend",
                      *options.error, 100.0 * outcome.statistics.discretisation);
     }
     return outcome;

@@ -79,17 +79,17 @@ void CheckDesk::run() {
         if (stop_) {
             return;
         }
-        const Job job = std::move(*job_);
-        job_.reset();
+        std::optional<Job> job = std::exchange(job_, std::nullopt);
         lock.unlock();
         const Clock::time_point start = Clock::now();
         std::optional<Result> result;
         try {
-            result = work(job);
+            result = work(*job);
         } catch (const std::exception& error) {  // as where there is no memory for it
             begun_.clear();
             spdlog::warn("a picture's error could not be measured: {}", error.what());
         }
+        job.reset();
         lock.lock();
         const Clock::time_point end = Clock::now();
         result_ = std::move(result);
@@ -121,6 +121,7 @@ SpotCheck& CheckDesk::paths_for(const Job& job) {
         found->second.scene == job.scene) {
         return *found->second.check;
     }
+    std::erase_if(begun_, [&](const auto& entry) { return entry.second.scene != job.scene; });
     if (begun_.size() >= most_begun) {
         begun_.clear();
     }

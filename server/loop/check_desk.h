@@ -22,7 +22,7 @@ namespace raybundle {
 /// Measures the true error of viewers' pictures at rest by path tracing some of their pixels: on a
 /// thread of its own, one picture at a time, and with pauses, so that it takes a small share of one
 /// core. What it has traced is kept for as long as scene, camera and size stay as they are, for a
-/// few viewers. Its methods are for one thread, which none of them lets wait.
+/// few viewers. Its methods are for one thread; only set_scene() takes that longer, for a copy.
 class CheckDesk {
   public:
     using Clock = std::chrono::steady_clock;

@@ -160,7 +160,6 @@ void RenderLoop::refresh_statistics(Clock::time_point now) {
     }
 }
 
-/// False where it has been refused and answered.
 /// Has the true error of a picture at rest measured, of the one that has waited longest. Its
 /// reading back stops the GPU for a moment, so not while somebody walks.
 void RenderLoop::check_pictures(Clock::time_point now) {
@@ -188,10 +187,15 @@ void RenderLoop::check_pictures(Clock::time_point now) {
     }
     longest->note_check(now);
     ViewerImage& image = longest->image();
-    checks_.check({longest->id(), longest->last_change(), image.camera(), image.size(),
-                   image.read_radiance(), image.statistics()});
+    try {
+        checks_.check({longest->id(), longest->last_change(), image.camera(), image.size(),
+                       image.read_radiance(), image.statistics()});
+    } catch (const GpuError& error) {  // no memory to read it back: the picture itself goes on
+        spdlog::warn("viewer {}: its error is not measured: {}", longest->id(), error.what());
+    }
 }
 
+/// False where it has been refused and answered.
 bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) {
     const v1::SetViewport& wanted = event.message.set_viewport();
     const glm::uvec2 size(wanted.width(), wanted.height());

@@ -28,7 +28,9 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
     uint count = min(layer_counts[pixel], layer_capacity());
     for (uint k = 0u; k < count; ++k) {
         uint surface = layer_surfaces[layer_slot(k, pixel)];
+#ifdef SKY
         seen.own = seen.own || surface >> 1 == x.surface >> 1;
+#endif
         vec4 plane = facet_plane(facet_base + facet_of(surface));
         if (is_turned_over(surface) || folded_over(surface, plane)) {
             continue;
@@ -80,6 +82,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
         w_in = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
         Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
+#ifdef SKY
         // A line beside the receiver's surface may pass outside of a room. One next to it that meets the surface
         // sees what the receiver sees.
         RARELY(seen.surface == NO_HIT && !seen.own) {
@@ -98,6 +101,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
                 }
             }
         }
+#endif
         if (seen.surface == NO_HIT) {
             float density = sky_density(d.z, far);
             value = density > 0.0 ? sky_radiance(far) * (cos_x / density) : vec3(0.0);

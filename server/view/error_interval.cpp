@@ -102,7 +102,7 @@ double said_density(double log_ratio, double deviation) {
 
 ErrorInterval measured_interval(const ErrorInterval& said, double square, double standard_error) {
     constexpr double two_sided = 1.96;  // standard deviations, 95 %
-    constexpr int steps = 2000;
+    constexpr int steps = 500;
     if (!(said.error > 0.0) || !(said.high > said.error) || !(standard_error > 0.0) ||
         !std::isfinite(standard_error)) {
         return said;

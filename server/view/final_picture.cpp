@@ -70,6 +70,8 @@ void FinalPicture::prepare() {
             image_.refine(2);
             grid_ *= 2;
             image_.show_means_over(grid_);
+            image_.smooth();
+            measure();  // what was found of the coarser pixels holds no more
         }
     }
     image_.smooth();

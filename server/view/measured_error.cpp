@@ -9,7 +9,7 @@ namespace raybundle {
 void MeasuredError::take(const SquaredError& square, const ImageStatistics& by_samples) {
     constexpr double too_badly = 0.5;  // share of the squared error
     const double said = by_samples.relative_error;
-    if (by_samples.known && said > 0.0 &&
+    if (by_samples.known && by_samples.samples > 0 && said > 0.0 && square.standard_error > 0.0 &&
         square.standard_error < too_badly * std::max(said * said, square.value)) {
         square_ = square;
         said_ = by_samples;
@@ -26,7 +26,9 @@ SquaredError MeasuredError::now(const ImageStatistics& by_samples) const {
     const double more = static_cast<double>(by_samples.samples) /
                             static_cast<double>(std::max<std::uint64_t>(said_.samples, 1)) -
                         1.0;
-    const double value = factor * square_->value;
+    // What samples do not know of does not fall with their number.
+    const double foreseen = std::min(square_->value, said_.relative_error * said_.relative_error);
+    const double value = factor * foreseen + square_->value - foreseen;
     const double drift = unforeseen * std::max(value, 0.0) * std::sqrt(std::max(more, 0.0));
     return {value, std::hypot(factor * square_->standard_error, drift)};
 }
@@ -42,11 +44,10 @@ ImageStatistics MeasuredError::with(const ImageStatistics& by_samples) const {
     s.relative_error = interval.error;
     s.error_low = interval.low;
     s.error_high = interval.high;
-    if (interval.low > by_samples.error_high) {
-        // What samples do not know of does not fall with their number.
-        s.discretisation =
-            std::max(s.discretisation,
-                     std::sqrt(std::max(interval.error * interval.error - s.noise * s.noise, 0.0)));
+    const double rest =
+        std::sqrt(std::max(interval.error * interval.error - s.noise * s.noise, 0.0));
+    if (interval.low > by_samples.error_high || s.noise <= 0.5 * rest) {
+        s.discretisation = std::max(s.discretisation, rest);
     }
     return s;
 }
@@ -59,7 +60,7 @@ double MeasuredError::samples_factor_to(double target, const ImageStatistics& by
     }
     const ImageStatistics s = with(by_samples);
     return samples_factor(ErrorInterval{s.relative_error, s.error_low, s.error_high},
-                          by_samples.discretisation / by_samples.relative_error, target, order);
+                          s.discretisation / s.relative_error, target, order);
 }
 
 }  // namespace raybundle

@@ -51,7 +51,8 @@ struct ImageStatistics {
     double relative_error = 1.0;  ///< estimated relRMSE of luminance
     double error_low = 1.0;       ///< 95 % interval
     double error_high = 1.0;
-    double noise = 1.0;  ///< of it what more samples take away, and what they do not
+    double noise = 1.0;  ///< of it what more samples take away, and what they do not: detail finer
+                         ///< than the pixels, and where errors are measured whatever else is wrong
     double discretisation = 0.0;
     double mean_log_luminance = 0.0;  ///< mean of ln(luminance / (cd/m²))
     double rms_luminance = 0.0;       ///< cd/m²
@@ -93,8 +94,8 @@ class ViewerImage : public BundleReceiver {
     /// The same with another full size, where nothing is kept.
     void set_view(const Camera& camera, glm::uvec2 size);
     /// Draws the same view with `factor` times as many pixels along each edge. What is accumulated
-    /// goes along, and so does what its samples say of their scatter. For pictures of full size,
-    /// between special phases.
+    /// goes along, and so does what its samples say of their scatter; what is seen in mirrors and
+    /// through glass begins anew. For pictures of full size, between special phases.
     void refine(unsigned factor);
     /// What is said of the error is from now on that of means over grid x grid pixels.
     void show_means_over(unsigned grid) { grid_ = grid; }
