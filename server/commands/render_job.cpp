@@ -56,8 +56,8 @@ void require_picture_format(const std::string& path) {
 std::unique_ptr<SpotCheck> spot_check(const Scene& scene, const PatchMesh& mesh,
                                       const Camera& camera, glm::uvec2 size, std::uint64_t seed) {
     constexpr std::uint64_t own_stream = 0x73706f7463686563ULL;
-    return std::make_unique<SpotCheck>(std::make_shared<const TracedScene>(scene, mesh), camera, size,
-                                       mixed_bits(seed ^ own_stream));
+    return std::make_unique<SpotCheck>(std::make_shared<const TracedScene>(scene, mesh), camera,
+                                       size, mixed_bits(seed ^ own_stream));
 }
 
 StopRule::StopRule(const Options& options)

@@ -52,7 +52,7 @@ bool reachable(double discretisation, double target);
 double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
                       SampleOrder order);
 
-/// The same for an interval that was measured, whose width relative to the error stays as it is.
+/// The same for an interval that was measured, and will be known at least to a quarter by then.
 /// discretisation: its share of the error, <= 1.
 double samples_factor(const ErrorInterval& measured, double discretisation, double target,
                       SampleOrder order);

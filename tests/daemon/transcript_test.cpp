@@ -18,30 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Fields whose values depend on time, machine or build; recorded by type only.
-const std::set<std::string> kVolatile{"server",
-                                      "iterations",
-                                      "iterationsPerSecond",
-                                      "settled",
-                                      "relativeError",
-                                      "errorLow",
-                                      "errorHigh",
-                                      "errorMeasured",
-                                      "secondsToTarget",
-                                      "exposure",
-                                      "serverTimeMs",
-                                      "illuminance",
-                                      "luminance",
-                                      "patch",
-                                      "frame",
-                                      "quality",
-                                      "localPosition",
-                                      "position",
-                                      "normal",
-                                      "effects",
-                                      "worldFromParent",
-                                      "bounds",
-                                      "renderer",
-                                      "softwareRendering",
+const std::set<std::string> kVolatile{"server",    "iterations",    "iterationsPerSecond",
+                                      "settled",   "relativeError", "errorLow",
+                                      "errorHigh", "errorMeasured", "secondsToTarget",
+                                      "exposure",  "serverTimeMs",  "illuminance",
+                                      "luminance", "patch",         "frame",
+                                      "quality",   "localPosition", "position",
+                                      "normal",    "effects",       "worldFromParent",
+                                      "bounds",    "renderer",      "softwareRendering",
                                       "setAtMs"};
 
 std::string type_mark(const Json& value) {
