@@ -130,8 +130,9 @@ MethodRun AccuracyMeasurement::run_once(const PlannedCurve& plan, std::uint64_t 
     if (!plan.without.empty()) {
         remove_effect(plan.without, scene, mesh);
     }
-    const RunSurroundings around{scene,        mesh,      camera_,   job_.size,
-                                 job_.seconds, pictures_, progress_, seconds_after};
+    const RunSurroundings around{scene,     mesh,         loaded_.scene, loaded_.mesh,
+                                 camera_,   job_.size,    job_.seconds,  pictures_,
+                                 progress_, seconds_after};
     return plan.uses_bundles()
                ? run_bundles(around, plan, seed)
                : run_on_cpu(around, ray_scene_, std::get<ReferenceKind>(plan.how), seed);

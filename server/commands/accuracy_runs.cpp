@@ -106,7 +106,8 @@ MethodRun run_bundles(const RunSurroundings& around, const PlannedCurve& curve,
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, around.camera, around.size,
                          curve.grid);
-    picture.check_by(spot_check(around.scene, around.mesh, around.camera, around.size, seed));
+    picture.check_by(
+        spot_check(around.whole_scene, around.whole_mesh, around.camera, around.size, seed));
     BundleReceiver* const receivers[] = {&picture.receiver()};
     glFinish();
     const auto step = [&] {

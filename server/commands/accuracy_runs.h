@@ -28,6 +28,9 @@ struct MethodRun {
 struct RunSurroundings {
     const Scene& scene;
     const PatchMesh& mesh;
+    const Scene&
+        whole_scene;  ///< with the effects that a knob leaves out: errors are measured by it
+    const PatchMesh& whole_mesh;
     const Camera& camera;
     glm::uvec2 size;
     double seconds;  ///< of solving
