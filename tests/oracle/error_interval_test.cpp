@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "judged_scene.h"
+#include "view/measured_error.h"
 
 namespace raybundle {
 namespace {
@@ -120,6 +121,58 @@ TEST(SamplesFactor, OfWhatWasMeasuredLeadsToTheTarget) {
     EXPECT_NEAR(share * measured.high, 0.03, 1e-9);
     EXPECT_EQ(samples_factor(measured, 0.2, 0.07, SampleOrder::shuffled), 1.0);
     EXPECT_TRUE(std::isinf(samples_factor(measured, 0.6, 0.03, SampleOrder::shuffled)));
+}
+
+ImageStatistics statistics_of(std::uint64_t samples, double noise, double discretisation) {
+    const ErrorInterval said =
+        error_interval(noise, discretisation, samples, SampleOrder::low_discrepancy);
+    ImageStatistics s;
+    s.known = true;
+    s.samples = samples;
+    s.relative_error = said.error;
+    s.error_low = said.low;
+    s.error_high = said.high;
+    s.noise = noise;
+    s.discretisation = discretisation;
+    return s;
+}
+
+/// Noise that is gone takes with it no more than the samples knew of.
+TEST(MeasuredError, WhatSamplesDoNotKnowOfStaysAsTheyCome) {
+    MeasuredError measured;
+    const ImageStatistics before = statistics_of(100, 0.04, 0.0);
+    measured.take({0.01, 0.0005}, before);  // 10 %
+    ASSERT_TRUE(measured.known());
+    EXPECT_NEAR(measured.with(before).relative_error, 0.1, 0.005);
+    const ImageStatistics later = statistics_of(110, 0.02, 0.0);
+    const ImageStatistics after = measured.with(later);
+    EXPECT_NEAR(after.relative_error, std::sqrt(0.01 - 0.04 * 0.04 + 0.02 * 0.02), 0.01);
+    EXPECT_GT(after.discretisation, 0.07);
+    EXPECT_TRUE(std::isinf(measured.samples_factor_to(0.05, later, SampleOrder::low_discrepancy)));
+}
+
+/// Whatever the target, a run ends once its noise is gone: it is met, or it never will be.
+TEST(MeasuredError, LeavesNoTargetOpenForEver) {
+    for (double target = 0.02; target < 0.4; target *= 1.02) {
+        for (const double error : {0.05, 0.06, 0.08, 0.1, 0.15}) {  // samples call it 6 %
+            MeasuredError measured;
+            const ImageStatistics s = statistics_of(100000, 1e-4, 0.06);
+            measured.take({error * error, 0.15 * error * error}, s);
+            EXPECT_TRUE(measured.with(s).meets(target)) << target << " of " << error;
+        }
+    }
+}
+
+TEST(MeasuredError, IsNotTakenWhereItSaysLessThanTheSamples) {
+    MeasuredError measured;
+    const ImageStatistics s = statistics_of(100, 0.1, 0.0);
+    measured.take({0.005, 0.02}, s);
+    EXPECT_FALSE(measured.known());
+    EXPECT_EQ(measured.with(s).error_high, s.error_high);
+    measured.take({0.01, 0.001}, s);
+    EXPECT_TRUE(measured.known());
+    measured.forget();
+    EXPECT_EQ(measured.with(s).error_high, s.error_high);
 }
 
 /// 100 pictures, four of each run. Their errors are 10 to 30 %, of which the noise of the reference
