@@ -46,7 +46,8 @@ TEST(ErrorIntervalOf, IsNarrowestWhereBothPartsAreEqual) {
 TEST(ErrorIntervalOf, EndsHigherWithMoreNoise) {
     for (const SampleOrder order : both) {
         double last = 0.0;
-        for (double noise = 0.0; noise < 0.3; noise += 0.001) {
+        for (int step = 0; step < 300; ++step) {
+            const double noise = 0.001 * step;
             const double high = error_interval(noise, 0.05, 1024, order).high;
             EXPECT_GT(high, last) << noise;
             last = high;
@@ -153,7 +154,8 @@ TEST(MeasuredError, WhatSamplesDoNotKnowOfStaysAsTheyCome) {
 
 /// Whatever the target, a run ends once its noise is gone: it is met, or it never will be.
 TEST(MeasuredError, LeavesNoTargetOpenForEver) {
-    for (double target = 0.02; target < 0.4; target *= 1.02) {
+    for (int step = 0; step < 150; ++step) {
+        const double target = 0.02 * std::pow(1.02, step);          // up to 40 %
         for (const double error : {0.05, 0.06, 0.08, 0.1, 0.15}) {  // samples call it 6 %
             MeasuredError measured;
             const ImageStatistics s = statistics_of(100000, 1e-4, 0.06);
