@@ -94,6 +94,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 void RenderLoop::rehearse(const glm::uvec2& size) {
     ViewerImage image(solver_->scene(), solver_->store(), *programs_, size);
     image.set_camera(scene_.cameras.front());
+    image.rest();
     BundleReceiver* const receivers[] = {&image};
     do {
         solver_->step(receivers);

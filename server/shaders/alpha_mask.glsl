@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Alpha MASK, per fragment: where the base colour texture's alpha is below the cutoff nothing is there. Only
 // compiled where a scene has such surfaces (ALPHA_MASK).
-layout(location = 0) in vec2 mesh_uv;
+#ifndef FACETS
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;
+#endif
 layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
 layout(std430, binding = BINDING_TEXELS) readonly buffer TexelBuffer { uint texels[]; };
 
@@ -12,8 +13,8 @@ int texel_at(float coordinate, int size, bool repeat) {
     return clamp(int(wrapped * float(size)), 0, size - 1);
 }
 
-/// Whether there is any surface of a facet at this fragment.
-bool covered(uint facet) {
+/// Whether there is any surface of a facet at a point of it.
+bool covered(uint facet, vec2 mesh_uv) {
     int material = 5 * int(floatBitsToUint(texelFetch(facet_texels, int(4u * facet + 3u)).w));
     float cutoff = texelFetch(material_texels, material).w;
     uvec4 info = floatBitsToUint(texelFetch(material_texels, material + 4));

@@ -7,11 +7,11 @@
 #include "density.glsl"
 #include "layers.glsl"
 #ifdef ALPHA_MASK
+layout(location = 0) in vec2 mesh_uv;
 #include "alpha_mask.glsl"
 #endif
 #ifdef GLASS
 uniform uint facet_base;
-vec3 line_direction() { return bundle.axis_z.xyz; }
 #include "glass.glsl"
 #endif
 
@@ -21,12 +21,12 @@ uniform uint first_facet;
 void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-    if (!covered(facet)) {
+    if (!covered(facet, mesh_uv)) {
         return;
     }
 #endif
 #ifdef GLASS
-    if (passes(facet)) {
+    if (passes(facet, bundle.axis_z.xyz, uint(gl_FragCoord.y) << 16 | uint(gl_FragCoord.x))) {
         return;
     }
 #endif

@@ -4,6 +4,7 @@
 #include "density.glsl"
 #include "hemicube.glsl"
 #ifdef ALPHA_MASK
+layout(location = 0) in vec2 mesh_uv;
 #include "alpha_mask.glsl"
 #endif
 #if defined(GLASS) && !defined(SHOW_GLASS)
@@ -30,12 +31,12 @@ uniform uint first_facet;
 void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-    if (!covered(facet)) {
+    if (!covered(facet, mesh_uv)) {
         discard;
     }
 #endif
 #ifdef GLASS_PASSES
-    if (passes(facet)) {
+    if (passes(facet, line_direction(), uint(gl_FragCoord.y) << 16 | uint(gl_FragCoord.x))) {
         discard;
     }
 #endif

@@ -8,13 +8,13 @@
 #include "density.glsl"
 #include "parallel.glsl"
 #ifdef ALPHA_MASK
+layout(location = 0) in vec2 mesh_uv;
 #include "alpha_mask.glsl"
 #elif !defined(GLASS)
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;
 #endif
 uniform uint facet_base;
 #ifdef GLASS
-vec3 line_direction() { return bundle.axis_z.xyz; }
 #include "glass.glsl"
 #endif
 layout(location = 0) out uint surface;
@@ -32,12 +32,12 @@ float ordering_depth(vec4 plane, uint id, vec3 point) {
 void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
 #ifdef ALPHA_MASK
-    if (!covered(facet)) {
+    if (!covered(facet, mesh_uv)) {
         discard;
     }
 #endif
 #ifdef GLASS
-    if (passes(facet)) {
+    if (passes(facet, bundle.axis_z.xyz, uint(gl_FragCoord.y) << 16 | uint(gl_FragCoord.x))) {
         discard;
     }
 #endif

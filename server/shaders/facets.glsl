@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Facets: the flat triangles that are rasterised, and the way from a point of a facet to the one of the
 // triangles tiling it that the point lies on. Surfaces are numbered 2 * facet + side (0 front, 1 back).
+#define FACETS  // for what can be included beside this
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;
 layout(binding = UNIT_FACET_NODES) uniform usamplerBuffer facet_node_texels;
 

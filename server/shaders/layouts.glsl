@@ -69,12 +69,15 @@
 #define BINDING_TILES 59              // see tiles.glsl
 #define BINDING_CONTINUED 60          // ContinuedPixel[]
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
+#define BINDING_CROWDED 63            // see crowded_pixels.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
+#define TIE_SHARE 4e-6  // of it: closer surfaces coincide
 #define SHOOTER_LIFT 1e-6  // of it: how far shooters stand above their patches, see solution_shooters.comp
 #define POWER_BLOCK 256
 #define SPECULAR_GROUP 64  // pixels
+#define CROWDED_GROUP 64  // pixels
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
 #define VIEW_TILE 8  // pixels along a tile of a viewer
 #define MOST_DIFFERENCES 8  // pairs of bundles whose affected tiles are listed at once
@@ -110,6 +113,7 @@
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 #define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
 
+#define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
@@ -144,6 +148,14 @@ struct FacetGeometry {
     uint root_first;
     uint object;
     uint material;
+};
+
+// Node of the tree of boxes round the facets, see solution/facet_boxes.h.
+struct FacetBox {
+    vec3 low;    // world space
+    uint next;   // node after its subtree
+    vec3 high;
+    uint facet;  // NO_HIT: an inner node, whose first part is the next one
 };
 
 struct PatchSurface {
@@ -281,7 +293,8 @@ struct PixelSurface {
 #define PIXEL_GLOSSY 0x10000000u
 #define PIXEL_UNLIT 0x08000000u  // shown as is
 #define PIXEL_CONTINUED 0x04000000u  // specular: shows what lies at the ends of its view rays
-#define PIXEL_FACET_MASK 0x03ffffffu
+#define PIXEL_CROWDED 0x02000000u  // other surfaces are near it, see view_crowded.comp
+#define PIXEL_FACET_MASK 0x01ffffffu
 
 #define CONTINUED_NONE 0xfffffffeu  // surface of a continued pixel that is not used
 

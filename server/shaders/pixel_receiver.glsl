@@ -18,8 +18,15 @@ layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer 
 };
 layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelDeltaBuffer { vec4 pixel_delta[]; };
 layout(std430, binding = BINDING_PIXEL_SCATTER) buffer PixelScatterBuffer { float pixel_scatter[]; };
-#ifdef SPECIAL
+#if defined(SPECIAL) || defined(CROWDED)
 #include "mesh.glsl"
+#endif
+// A layered bundle has a program for the crowded pixels (CROWDED) and one for all others (BUT_CROWDED).
+#ifdef CROWDED
+#define CROWDED_ACCESS readonly
+#include "crowded_pixels.glsl"
+#endif
+#ifdef SPECIAL
 #define TILE_LISTS (2 * MOST_DIFFERENCES)  // of view_affected_tiles.comp
 #define TILES_ACCESS readonly
 #include "tiles.glsl"
@@ -66,6 +73,11 @@ bool receives(uint patch_id, uint facet) {
 #ifdef MIRRORS
     received = received && (facet & PIXEL_CONTINUED) == 0u;
 #endif
+#ifdef CROWDED
+    received = received && (facet & PIXEL_CROWDED) != 0u;
+#elif defined(BUT_CROWDED)
+    received = received && (facet & PIXEL_CROWDED) == 0u;
+#endif
 #ifdef GLOSSY_PIXELS
     return received && (facet & PIXEL_GLOSSY) != 0u;
 #elif defined(GLOSSY)
@@ -90,6 +102,12 @@ bool load_receiver(uint index, out Receiver x) {
 #endif
     x.surface = 2u * facet + (back ? 1u : 0u);
     x.object = 0u;
+#ifdef CROWDED
+    // Its own rays need no distance from creases, see receiving_point() of view_resolve.comp.
+    vec2 v = unpackUnorm2x16(q.z);
+    uvec4 t = p.w == NO_PATCH ? uvec4(0u) : load_triangle(floatBitsToUint(patch_attributes(p.w).w));
+    x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
+#endif
     x.albedo = q.y;
 #ifdef SPECIAL
     // SPECIAL: signed increments instead of samples of the mean, at either place of moved objects.
@@ -206,6 +224,9 @@ uint receiving_pixel() {
 #endif
     uvec2 at = tile_pixel(tile_of_group(listed_tiles, tile_list), gl_LocalInvocationID.x);
     return all(lessThan(at, view.size.xy)) ? at.y * view.size.x + at.x : 0xffffffffu;
+#elif defined(CROWDED)
+    uint k = (gl_WorkGroupID.y * crowded_groups_a_row + gl_WorkGroupID.x) * CROWDED_GROUP + gl_LocalInvocationID.x;
+    return k < crowded_count ? crowded_pixels[k] : 0xffffffffu;
 #elif defined(GLOSSY_PIXELS)
     return specular_pixel();
 #else

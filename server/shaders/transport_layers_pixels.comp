@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layered parallel bundle to the pixels of a viewer: the next surface that x sees along the bundle's
 // direction sends its radiance;  E(x) += L(y) cos_x / d(omega).
+//
+// A window's line runs up to a pixel of the window beside the receiver, and what is as near to that as the line, the
+// line sees otherwise: light in a slot would be spread over the floor beside it. Crowded receivers (view_crowded.comp)
+// follow their own ray as far as that matters.
 #include "layouts.glsl"
 #include "rarely.glsl"
 #include "density.glsl"
@@ -8,6 +12,10 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
+#ifdef CROWDED
+#include "facet_boxes.glsl"
+uniform float own_ray_reach;  // m
+#endif
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 layout(std430, binding = BINDING_COUNTERS) readonly buffer CounterBuffer { Counters counters; };
 
@@ -20,6 +28,7 @@ struct Seen {
 
 /// Nearest surface that x sees, looking far (+z) or near (-z), among those on the window pixel's line.
 /// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
+/// CROWDED: only what lies beyond what the receiver's own ray looks for.
 Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
     Seen seen = Seen(NO_HIT, beyond_all, false);
     float tiny = bundle.sky.w;
@@ -37,12 +46,17 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         }
         float along = plane_depth(plane, line) - x_depth;
         float ahead = far ? along : -along;
+#ifdef CROWDED
+        bool close = false;
+        bool passed = surface == x.surface || ahead < 0.5 * own_ray_reach;
+#else
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
         bool close = abs(ahead) <= footprint;
         bool passed = surface == x.surface || ahead < (close ? -footprint : 0.0);
         WHERE(close && !passed) {
             passed = beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny);
         }
+#endif
         if (passed) {
             continue;
         }
@@ -59,6 +73,14 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         }
     }
     return seen;
+}
+
+/// L(y) cos_y / d(omega) of what lies `ahead`, m. point: on the facet; side: of it.
+vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
+    uint y = patch_of_surface(2u * triangle_at(facet, point) + side);
+    vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
+    float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
+    return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, cos_y, l.w);
 }
 
 vec3 gather(Receiver x, out vec3 w_in) {
@@ -81,6 +103,13 @@ vec3 gather(Receiver x, out vec3 w_in) {
         float footprint = 1.5 * bundle.weights.z / max(cos_x, 0.02);
         uint pixel = uint(texel.y) * bundle.resolution.x + uint(texel.x);
         w_in = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
+#ifdef CROWDED
+        Met met = nearest_facet(x.position, w_in, own_ray_reach, bundle.sky.w);
+        if (met.facet != NO_HIT) {
+            Facet facet = load_facet(facet_base + met.facet);
+            return cos_x * sent_by(facet, x.position + met.ahead * w_in, met.back ? 1u : 0u, met.ahead);
+        }
+#endif
         Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
 #ifdef SKY
         // A line beside the receiver's surface may pass outside of a room. One next to it that meets the surface
@@ -108,11 +137,8 @@ vec3 gather(Receiver x, out vec3 w_in) {
         } else {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));
             float depth = plane_depth(facet.plane, line);
-            uint triangle = triangle_at(facet, line + depth * bundle.axis_z.xyz);
-            uint y = patch_of_surface(2u * triangle + side_of_surface(seen.surface, !far));
-            vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
-            float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
-            value = (l.rgb - bundle.constant.rgb) * (cos_x * cosine_over_density(abs(depth - d.z), cos_y, l.w));
+            vec3 point = line + depth * bundle.axis_z.xyz;
+            value = cos_x * sent_by(facet, point, side_of_surface(seen.surface, !far), abs(depth - d.z));
         }
     }
     return value;

@@ -51,6 +51,16 @@ Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
     return result;
 }
 
+/// world_from_object of all objects, see GpuScene::origin().
+std::vector<glm::mat4> shifted_matrices(const Scene& scene) {
+    const glm::mat4 shift = glm::translate(glm::mat4(1.0F), -scene.bounds.centre());
+    std::vector<glm::mat4> matrices;
+    for (const Object& object : scene.objects) {
+        matrices.push_back(shift * object.world_from_object());
+    }
+    return matrices;
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance, bool caustics)
@@ -69,13 +79,13 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
+      facet_boxes_(mesh.positions, mesh.facets.empty() ? mesh.triangles : mesh.facets,
+                   mesh.vertex_object, shifted_matrices(scene)),
       place_vertices_({"scene_place_vertices.comp"}),
       place_patches_({"scene_place_patches.comp"}) {
-    const glm::mat4 shift = glm::translate(glm::mat4(1.0F), -origin_);
+    const std::vector<glm::mat4> matrices = shifted_matrices(scene);
     for (int place = 0; place < 2; ++place) {
-        for (const Object& object : scene.objects) {
-            world_from_object_.push_back(shift * object.world_from_object());
-        }
+        world_from_object_.insert(world_from_object_.end(), matrices.begin(), matrices.end());
     }
     for (const Object& object : scene.objects) {
         object_bounds_.push_back(object.bounds);
@@ -268,6 +278,7 @@ void GpuScene::settle() {
     copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
     copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     facets_.settle();
+    facet_boxes_.settle();
     measure();
 }
 
@@ -303,6 +314,7 @@ void GpuScene::bind() const {
     glBindTextureUnit(UNIT_VERTEX_DATA, vertex_texture_.get());
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
     facets_.bind();
+    facet_boxes_.bind();
     reflectance_.bind();
     if (transmitting()) {
         transmittance_.bind_storage(BINDING_TRANSMITTANCE);
@@ -324,20 +336,15 @@ std::uint32_t GpuScene::patch_base(Place place) const {
 std::uint32_t GpuScene::facet_base(Place place) const {
     return place == Place::now ? 0 : facets_.count();
 }
+std::uint32_t GpuScene::box_base(Place place) const {
+    return place == Place::now ? 0 : facet_boxes_.count();
+}
 std::uint32_t GpuScene::vertex_base(Place place) const {
     return place == Place::now ? 0 : vertex_count_;
 }
 
 glm::mat4 GpuScene::world_from_object(std::uint32_t object, Place place) const {
     return world_from_object_[static_cast<unsigned>(place) * object_count_ + object];
-}
-
-PlacedLight GpuScene::placed_light(std::size_t light) const {
-    const PunctualLight& punctual = punctual_lights_[light];
-    return place_light(
-        punctual, punctual.object == PunctualLight::no_object
-                      ? glm::translate(glm::mat4(1.0F), -origin_)
-                      : world_from_object(static_cast<std::uint32_t>(punctual.object), Place::now));
 }
 
 glm::mat4 GpuScene::now_from_before(std::uint32_t object) const {
@@ -376,7 +383,8 @@ Bounds GpuScene::bounds() const {
 
 std::size_t GpuScene::bytes() const {
     std::size_t sum = details_.bytes() + transmittance_.bytes() + facets_.bytes() +
-                      reflectance_.bytes() + reflectors_.bytes() + environment_bytes_;
+                      facet_boxes_.bytes() + reflectance_.bytes() + reflectors_.bytes() +
+                      environment_bytes_;
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {

@@ -12,6 +12,7 @@
 #include "scene/environment.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "solution/facet_boxes.h"
 #include "solution/facet_raster.h"
 #include "solution/reflectance_tables.h"
 #include "solution/specular_rays.h"
@@ -81,6 +82,7 @@ class GpuScene {
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
+    [[nodiscard]] std::uint32_t box_base(Place place) const;
     [[nodiscard]] std::uint32_t vertex_base(Place place) const;
     /// What programs that include corrected_weight.glsl have to know of a move.
     void set_move(const ShaderProgram& program) const;
@@ -164,6 +166,7 @@ class GpuScene {
     std::unique_ptr<SpecularRays> specular_rays_;
     Buffer world_positions_;
     FacetRaster facets_;
+    FacetBoxes facet_boxes_;
     Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;
     Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
     std::vector<glm::uvec4> texture_info_;  // of the scene's textures, see MaterialData

@@ -73,6 +73,7 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
             glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
         rescaled_ = rescaled_ || differ_in_size(world_from_object(move.object, Place::now),
                                                 world_from_object(move.object, Place::before));
+        facet_boxes_.place(move.object, world_from_object_[move.object]);
         if (specular_rays_) {
             specular_rays_->place(move.object, world_from_object_[move.object]);
         }
@@ -80,6 +81,14 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
     upload_matrices();
     place_geometry(Place::now);
     measure();
+}
+
+PlacedLight GpuScene::placed_light(std::size_t light) const {
+    const PunctualLight& punctual = punctual_lights_[light];
+    return place_light(
+        punctual, punctual.object == PunctualLight::no_object
+                      ? glm::translate(glm::mat4(1.0F), -origin_)
+                      : world_from_object(static_cast<std::uint32_t>(punctual.object), Place::now));
 }
 
 std::vector<Bounds> GpuScene::moved_bounds() const {

@@ -30,6 +30,7 @@ class BundleReceiver {
         std::uint32_t difference = NO_PATCH;
         std::uint32_t number = 0;     ///< of the bundle in its phase, the same at both places
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
+        float window_pixel = 0.0F;    ///< size of a pixel of a layered bundle's window, m
     };
 
     BundleReceiver() = default;

@@ -58,7 +58,6 @@ std::uint32_t longest_list(std::uint32_t capacity) {
 /// special phase sample more.
 constexpr unsigned row_stride = 4;
 constexpr unsigned special_row_stride = 2;
-constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
 
 glm::ivec4 to_vector(const PixelRectangle& r) {
     return {r.x0, r.y0, r.x1, r.y1};
@@ -121,8 +120,8 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                    settings.probabilities.plane / (two_pi * parallel_depth(scene_.diameter())),
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
-    p.sky =
-        glm::vec4(scene_.sky_towards(frame.z) - settings.constant, tie_share * scene_.diameter());
+    p.sky = glm::vec4(scene_.sky_towards(frame.z) - settings.constant,
+                      static_cast<float>(TIE_SHARE) * scene_.diameter());
     p.sky_behind = glm::vec4(scene_.sky_towards(-frame.z) - settings.constant, 0.0F);
     p.constant = glm::vec4(settings.constant, settings.face_weights[0]);
     p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
@@ -231,8 +230,10 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
     set_bases(patches, place);
     const unsigned rows = set_rows(patches, rectangle.y0, rectangle.height(), settings);
     patches.dispatch(std::size_t{columns} * ((rows + 7) / 8 * 8));
+    BundleReceiver::Context context = settings.context;
+    context.window_pixel = window.pixel_size;
     for (BundleReceiver* receiver : receivers) {
-        receiver->receive_layers(settings.context);
+        receiver->receive_layers(context);
     }
 }
 

@@ -56,6 +56,7 @@ FinalPicture::FinalPicture(const GpuScene& scene, const RadianceStore& store,
         most_grid_ /= 2;
     }
     image_.set_camera(camera);
+    image_.rest();
 }
 
 bool FinalPicture::may_refine() const {

@@ -69,12 +69,16 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
       scatter_refine({"view_scatter_refine.comp"}),
       depths({"view_depths.comp"}),
+      crowded({"view_crowded.comp"}),
       hemicube_pixels(make_receive_hemicube(scene, variant)),
       hemicube_pixels_special(make_receive_hemicube(scene, with(variant, "SPECIAL 1"))),
-      layers_pixels(make_receive("transport_layers_pixels.comp", scene, variant)),
+      layers_pixels(
+          make_receive("transport_layers_pixels.comp", scene, with(variant, "BUT_CROWDED 1"))),
       layers_pixels_special(
           make_receive("transport_layers_pixels.comp", scene, with(variant, "SPECIAL 1"))),
       planes_pixels(make_receive("transport_planes_pixels.comp", scene, variant)),
+      layers_crowded(
+          make_receive("transport_layers_pixels.comp", scene, with(variant, "CROWDED 1"))),
       edges(scene),
       affected_tiles(scene) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",

@@ -31,6 +31,7 @@ struct ViewPrograms {
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
     ShaderProgram scatter_refine;
     ShaderProgram depths;
+    ShaderProgram crowded;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
@@ -41,6 +42,7 @@ struct ViewPrograms {
     };
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
+    Receive layers_crowded;  ///< to crowded pixels, which layers_pixels leaves out
     EdgePrograms edges;
     AffectedTilePrograms affected_tiles;
     std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on

@@ -66,6 +66,7 @@ void ViewerImage::allocate() {
     create_pixel_textures();
     edges_.emplace(size_);
     affected_.emplace(size_);
+    crowded_.emplace(pixels);
     if (scene_.reflectance().specular()) {
         specular_.emplace(pixels);
     }
@@ -262,6 +263,7 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     restart_scatter();
     edges_->restart();
     samples_ = 0;
+    crowded_->begin();
     has_picture_ = true;
 }
 
@@ -403,7 +405,7 @@ std::span<const std::uint8_t> ViewerImage::take() {
 
 std::size_t ViewerImage::bytes() const {
     std::size_t sum = pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() +
-                      (continued_ ? continued_->bytes() : 0) +
+                      crowded_->bytes() + (continued_ ? continued_->bytes() : 0) +
                       (depth_grid_ ? depth_grid_->bytes() : 0);
     for (const Buffer* buffer :
          {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &scatter_,

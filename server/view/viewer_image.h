@@ -16,6 +16,7 @@
 #include "transport/bundle_receiver.h"
 #include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
+#include "view/crowded_pixels.h"
 #include "view/depth_grid.h"
 #include "view/edge_filter.h"
 #include "view/error_interval.h"
@@ -99,6 +100,9 @@ class ViewerImage : public BundleReceiver {
     void refine(unsigned factor);
     /// What is said of the error is from now on that of means over grid x grid pixels.
     void show_means_over(unsigned grid) { grid_ = grid; }
+    /// The camera will not move again: what makes the picture better and takes a while is done at
+    /// once.
+    void rest() { rests_ = true; }
     /// Begins anew, with nothing accumulated.
     void restart(const Camera& camera, glm::uvec2 size);
     /// Pixels that it is drawn with, and what there is room for.
@@ -209,6 +213,9 @@ class ViewerImage : public BundleReceiver {
     void bind_pixels() const;
     void upload_view();
     void receive(const ViewPrograms::Receive& programs, const Context& context);
+    void mark_crowded(float window_pixel);
+    void set_place(const ShaderProgram& program, Place place) const;
+    void receive_crowded(const ShaderProgram& program, const Context& context);
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void restart_scatter();
@@ -238,6 +245,7 @@ class ViewerImage : public BundleReceiver {
     std::size_t frame_bytes_ = 0;
     bool has_picture_ = false;  // accumulators that can be reprojected
     std::uint64_t samples_ = 0;
+    bool rests_ = false;                   // see rest()
     std::uint64_t scatter_samples_ = 0;    // since the sums of their scatter began
     std::uint64_t detail_samples_ = 0;     // of them when the detail was measured last
     std::uint64_t requested_samples_ = 0;  // of them when statistics were requested last
@@ -246,6 +254,7 @@ class ViewerImage : public BundleReceiver {
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, scatter_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<EdgeFilter> edges_;           // always
+    std::optional<CrowdedPixels> crowded_;      // always
     std::optional<DepthGrid> depth_grid_;       // only for who asks for depths
     std::optional<AffectedTiles> affected_;     // always
     std::optional<SpecularGroups> specular_;    // only where the scene is specular

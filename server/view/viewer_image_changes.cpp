@@ -77,6 +77,7 @@ void ViewerImage::copy_rows(const PixelRectangle& rectangle) const {
 void ViewerImage::refresh_moved() {
     restart_scatter();
     samples_ = 0;
+    crowded_->restart();
     if (continued_) {
         continued_->refresh(parameters_, camera_, 1.0F);
     }

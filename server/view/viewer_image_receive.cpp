@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // A viewer's pixels as receivers of bundles.
+#include <algorithm>
+
 #include "view/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
+/// Marks more of the pixels that have other surfaces near them. Where the camera may move on soon
+/// it waits until it rests, and does a part at a time: frames shall not wait for it.
+void ViewerImage::mark_crowded(float window_pixel) {
+    constexpr std::uint64_t resting_samples = 8;
+    constexpr std::size_t parts = 16;
+    constexpr std::size_t fewest = 4096;  // pixels
+    if (!rests_ && samples_ < resting_samples) {
+        return;
+    }
+    const std::size_t pixels = pixel_count(size_);
+    crowded_->mark(programs_.crowded, pixels, rests_ ? pixels : std::max(pixels / parts, fewest),
+                   window_pixel, static_cast<float>(TIE_SHARE) * scene_.diameter());
+}
+
+void ViewerImage::set_place(const ShaderProgram& program, Place place) const {
+    program.set("facet_base", scene_.facet_base(place));
+    program.set("vertex_base", scene_.vertex_base(place));
+    program.set("moved_objects", scene_.moved_objects());
+}
 
 void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& context) {
     bind_pixels();
-    const auto set_common = [&](const ShaderProgram& program) {
-        program.set("facet_base", scene_.facet_base(context.place));
-        program.set("vertex_base", scene_.vertex_base(context.place));
-        program.set("moved_objects", scene_.moved_objects());
-    };
-    set_common(programs.all);
+    set_place(programs.all, context.place);
     if (gloss_.bytes() > 0) {
-        set_common(programs.glossy);
+        set_place(programs.glossy, context.place);
     }
     if (context.special) {
         receive_special(programs, context);
@@ -42,10 +58,26 @@ void ViewerImage::receive_hemicube(const Context& context) {
 }
 
 void ViewerImage::receive_layers(const Context& context) {
-    receive(context.special ? programs_.layers_pixels_special : programs_.layers_pixels, context);
+    if (context.special) {
+        receive(programs_.layers_pixels_special, context);
+    } else {
+        bind_pixels();
+        mark_crowded(context.window_pixel);
+        receive_crowded(programs_.layers_crowded.all, context);
+        if (gloss_.bytes() > 0) {
+            receive_crowded(programs_.layers_crowded.glossy, context);
+        }
+        receive(programs_.layers_pixels, context);
+    }
     if (continued() != nullptr) {
         continued()->receive_layers(context);
     }
+}
+
+void ViewerImage::receive_crowded(const ShaderProgram& program, const Context& context) {
+    set_place(program, context.place);
+    program.set("box_base", scene_.box_base(context.place));
+    crowded_->dispatch(program);
 }
 
 void ViewerImage::receive_planes(const Context& context) {

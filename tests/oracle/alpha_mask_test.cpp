@@ -39,8 +39,8 @@ Texture chequered() {
 
 enum class Screen { none, chequered, opaque };
 
-/// A floor (material 0), a lamp above it and a black screen between them.
-Scene lit_floor(Screen screen) {
+/// A floor (material 0), a lamp above it and a black screen of 3 m between them.
+Scene lit_floor(Screen screen, float height = 1.5F) {
     Scene scene;
     scene.objects.emplace_back();
     scene.textures.push_back(chequered());
@@ -59,7 +59,7 @@ Scene lit_floor(Screen screen) {
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 0);
     add_quad(scene, {-0.5F, 3, -0.5F}, {1, 0, 0}, {0, 0, 1}, 1);
     if (screen != Screen::none) {
-        add_quad(scene, {-1.5F, 1.5F, -1.5F}, {0, 0, 3}, {3, 0, 0}, 2);
+        add_quad(scene, {-1.5F, height, -1.5F}, {0, 0, 3}, {3, 0, 0}, 2);
     }
     return scene;
 }
@@ -104,6 +104,48 @@ Lighting measure(Screen screen, const StrategyProbabilities& probabilities) {
         result.picture += static_cast<double>(pixel.g) / (32.0 * 32.0);
     }
     return result;
+}
+
+/// Luminance of the floor right below a texel of the screen, which hangs 8 mm above it, so near
+/// that pixels follow their own rays.
+double below(Screen screen, unsigned row, unsigned column) {
+    Scene scene = lit_floor(screen, 0.008F);
+    TessellationSettings tessellation;
+    tessellation.patch_size = 0.25F;
+    const PatchMesh mesh = tessellate(scene, tessellation);
+    SolverSettings settings;
+    settings.probabilities = {1.0F, 0.0F, 0.0F};
+    Solver solver(scene, mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    constexpr glm::uvec2 size(8, 8);
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    const auto middle = [](unsigned texel) {
+        return -1.5F + 3.0F / 32.0F * (static_cast<float>(texel) + 0.5F);
+    };
+    Camera camera;
+    camera.target = {middle(row), 0.0F, middle(column)};
+    camera.eye = camera.target + glm::vec3(0.0F, 0.004F, 0.02F);
+    camera.vertical_fov = 0.1F;
+    image.set_camera(camera);
+    image.rest();
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 256; ++i) {
+        solver.step(receivers);
+    }
+    double sum = 0.0;
+    for (const glm::vec4& pixel : image.read_radiance()) {
+        sum += static_cast<double>(pixel.g) / (size.x * size.y);
+    }
+    return sum;
+}
+
+TEST(AlphaMaskNearby, LetsLightThroughItsHoles) {
+    const double open = below(Screen::none, 17, 16);
+    EXPECT_GT(open, 0.0);
+    EXPECT_NEAR(below(Screen::chequered, 17, 16) / open, 1.0, 0.05);
+    // The object-space value there, of about a texel's width, still counts as six samples of 256.
+    EXPECT_LT(below(Screen::chequered, 16, 16) / open, 1.1 * 6.0 / 262.0);
+    EXPECT_EQ(below(Screen::opaque, 17, 16), 0.0);
 }
 
 class AlphaMask : public testing::TestWithParam<StrategyProbabilities> {};
