@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nearest facet that a ray meets, by the tree of boxes of solution/facet_boxes.h. Requires rarely.glsl and
-// facets.glsl, and of the including shader uint facet_base of the place that was drawn. ALPHA_MASK: rays go through where
-// nothing is (alpha_mask.glsl); GLASS: and through glass, as bundles do (glass.glsl).
+// facets.glsl, and of the including shader uint facet_base of the present place. ALPHA_MASK: rays go through where nothing
+// is (alpha_mask.glsl); GLASS: and through glass, as bundles do (glass.glsl, which requires density.glsl).
 layout(binding = UNIT_FACET_BOXES) uniform samplerBuffer facet_box_texels;
-uniform uint box_base;  // of the nodes of that place
 #ifdef ALPHA_MASK
 #include "alpha_mask.glsl"
 layout(binding = UNIT_VERTEX_DATA) uniform usamplerBuffer vertex_data_texels;
@@ -24,7 +23,7 @@ struct Met {
     bool back;    // the facet's back is met
 };
 
-uint box_count() { return floatBitsToUint(texelFetch(facet_box_texels, int(2u * box_base)).w); }
+uint box_count() { return floatBitsToUint(texelFetch(facet_box_texels, 0).w); }
 
 /// Whether there is something for a ray where it meets a facet. w1, w2: barycentric weights of corners 1 and 2.
 bool is_there(uint facet, vec3 origin, vec3 direction, float w1, float w2) {
@@ -34,7 +33,8 @@ bool is_there(uint facet, vec3 origin, vec3 direction, float w1, float w2) {
     there = covered(facet, uv);
 #endif
 #ifdef GLASS
-    there = there && !passes(facet, direction, floatBitsToUint(origin.x) ^ floatBitsToUint(origin.z) << 9);
+    uint line = floatBitsToUint(origin.x) ^ floatBitsToUint(origin.y) << 5 ^ floatBitsToUint(origin.z) << 9;
+    there = there && !passes(facet, direction, line);
 #endif
     return there;
 }
@@ -68,8 +68,8 @@ Met nearest_facet(vec3 origin, vec3 direction, float farthest, float tie) {
     vec3 slowness = 1.0 / mix(direction, vec3(least), lessThan(abs(direction), vec3(least)));
     uint end = box_count();
     for (uint node = 0u; node < end;) {
-        vec4 low = texelFetch(facet_box_texels, int(2u * (box_base + node)));
-        vec4 high = texelFetch(facet_box_texels, int(2u * (box_base + node) + 1u));
+        vec4 low = texelFetch(facet_box_texels, int(2u * node));
+        vec4 high = texelFetch(facet_box_texels, int(2u * node + 1u));
         vec3 a = (low.xyz - origin) * slowness;
         vec3 b = (high.xyz - origin) * slowness;
         vec3 entry = min(a, b);

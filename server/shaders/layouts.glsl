@@ -69,8 +69,8 @@
 #define BINDING_TILES 59              // see tiles.glsl
 #define BINDING_CONTINUED 60          // ContinuedPixel[]
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
-#define BINDING_CROWDED 63            // see crowded_pixels.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
+#define BINDING_CROWDED 63            // see crowded_pixels.glsl
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
 #define TIE_SHARE 4e-6  // of it: closer surfaces coincide
@@ -113,8 +113,8 @@
 #define UNIT_OLD_PIXEL_GLOSS 19   // rgba32f
 #define UNIT_LAYERS 20            // rgba32ui: the first four surfaces of a window pixel, see layers.glsl
 
-#define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
+#define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -284,7 +284,7 @@ struct PixelSurface {
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // at the angle of view, unorm 4x8, square-root encoded; w: place in the material's ReflectanceGrid
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
-    uint facet;        // also of black backs; and flags: PIXEL_EMITTER, PIXEL_SKY, PIXEL_BACK
+    uint facet;        // also of black backs; and flags, PIXEL_...
 };
 
 #define PIXEL_EMITTER 0x80000000u

@@ -173,11 +173,12 @@ vec3 gather(Receiver x, out vec3 w_in);
 #ifdef QUADS
 uint pixel_of_quad(uvec2 corner, uint k) { return (corner.y + (k >> 1)) * view.size.x + corner.x + (k & 1u); }
 
-/// Shading normal, and facet with its flags, which tell surfaces apart; NO_PATCH as facet where nothing is received.
+/// Shading normal, and facet with those of its flags that tell surfaces apart; NO_PATCH as facet where nothing is
+/// received.
 uvec2 surface_of_pixel(uint index) {
     uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
     uvec2 surface = texelFetch(pixel_texels, int(2u * index + 1u)).xw;
-    return receives(patch_id, surface.y) ? surface : uvec2(NO_PATCH);
+    return receives(patch_id, surface.y) ? uvec2(surface.x, surface.y & ~PIXEL_CROWDED) : uvec2(NO_PATCH);
 }
 
 bool alike(uvec2 a, uvec2 b) {

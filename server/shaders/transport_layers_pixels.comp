@@ -28,7 +28,7 @@ struct Seen {
 
 /// Nearest surface that x sees, looking far (+z) or near (-z), among those on the window pixel's line.
 /// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
-/// CROWDED: only what lies beyond what the receiver's own ray looks for.
+/// CROWDED: only from half of the way on that the receiver's own ray is followed.
 Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
     Seen seen = Seen(NO_HIT, beyond_all, false);
     float tiny = bundle.sky.w;
@@ -46,17 +46,16 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         }
         float along = plane_depth(plane, line) - x_depth;
         float ahead = far ? along : -along;
-#ifdef CROWDED
-        bool close = false;
-        bool passed = surface == x.surface || ahead < 0.5 * own_ray_reach;
-#else
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
         bool close = abs(ahead) <= footprint;
+#ifdef CROWDED
+        bool passed = surface == x.surface || ahead < 0.5 * own_ray_reach;
+#else
         bool passed = surface == x.surface || ahead < (close ? -footprint : 0.0);
+#endif
         WHERE(close && !passed) {
             passed = beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny);
         }
-#endif
         if (passed) {
             continue;
         }

@@ -140,7 +140,10 @@ Bounds moved_box(const Bounds& box, const glm::mat4& matrix) {
     const glm::vec3 reach = glm::abs(glm::vec3(matrix[0])) * half.x +
                             glm::abs(glm::vec3(matrix[1])) * half.y +
                             glm::abs(glm::vec3(matrix[2])) * half.z;
-    const glm::vec3 rounding = 1e-6F * (glm::abs(centre) + reach);
+    // Of the vertices' products, which may be large and cancel.
+    const auto product = [&](int k) { return glm::abs(glm::vec3(matrix[k]) * box.centre()[k]); };
+    const glm::vec3 rounding =
+        1e-6F * (glm::abs(glm::vec3(matrix[3])) + product(0) + product(1) + product(2) + reach);
     return {centre - reach - rounding, centre + reach + rounding};
 }
 
@@ -210,10 +213,8 @@ FacetBoxes::FacetBoxes(std::span<const glm::vec3> positions, std::span<const glm
     }
     std::for_each(over_objects_.rbegin(), over_objects_.rend(),
                   [this](std::uint32_t node) { enclose_parts(node); });
-    buffer_ = Buffer("facet boxes", 2 * nodes_.size() * sizeof(layout::FacetBox));
+    buffer_ = Buffer::from<layout::FacetBox>("facet boxes", nodes_);
     texture_ = create_buffer_texture("facet boxes", GL_RGBA32F, buffer_);
-    upload(0, count());
-    settle();
 }
 
 void FacetBoxes::enclose(Range range, const glm::mat4& world_from_object) {
@@ -250,11 +251,6 @@ void FacetBoxes::place(std::uint32_t object, const glm::mat4& world_from_object)
 void FacetBoxes::upload(std::uint32_t first, std::uint32_t end) {
     buffer_.write(std::span<const layout::FacetBox>(nodes_).subspan(first, end - first),
                   first * sizeof(layout::FacetBox));
-}
-
-void FacetBoxes::settle() const {
-    const auto half = static_cast<GLsizeiptr>(buffer_.bytes() / 2);
-    glCopyNamedBufferSubData(buffer_.get(), buffer_.get(), 0, half, half);
 }
 
 void FacetBoxes::bind() const {

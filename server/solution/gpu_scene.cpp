@@ -278,7 +278,6 @@ void GpuScene::settle() {
     copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
     copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     facets_.settle();
-    facet_boxes_.settle();
     measure();
 }
 
@@ -335,9 +334,6 @@ std::uint32_t GpuScene::patch_base(Place place) const {
 }
 std::uint32_t GpuScene::facet_base(Place place) const {
     return place == Place::now ? 0 : facets_.count();
-}
-std::uint32_t GpuScene::box_base(Place place) const {
-    return place == Place::now ? 0 : facet_boxes_.count();
 }
 std::uint32_t GpuScene::vertex_base(Place place) const {
     return place == Place::now ? 0 : vertex_count_;

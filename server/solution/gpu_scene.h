@@ -82,7 +82,6 @@ class GpuScene {
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
-    [[nodiscard]] std::uint32_t box_base(Place place) const;
     [[nodiscard]] std::uint32_t vertex_base(Place place) const;
     /// What programs that include corrected_weight.glsl have to know of a move.
     void set_move(const ShaderProgram& program) const;

@@ -53,12 +53,12 @@ void CrowdedPixels::mark(const ShaderProgram& program, std::size_t pixels, std::
     marked_ = end;
 }
 
-void CrowdedPixels::dispatch(const ShaderProgram& program) const {
+void CrowdedPixels::dispatch(const ShaderProgram& program, float window_pixel) const {
     if (!any_) {
         return;
     }
     list_.bind_storage(BINDING_CROWDED);
-    program.set("own_ray_reach", reach_in_pixels * window_pixel_);
+    program.set("own_ray_reach", reach_in_pixels * window_pixel);
     program.dispatch_indirect(list_);
 }
 

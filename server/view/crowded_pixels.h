@@ -25,8 +25,9 @@ class CrowdedPixels {
     /// bound. tie: m, surfaces that are nearer to each other coincide.
     void mark(const ShaderProgram& program, std::size_t pixels, std::size_t most,
               float window_pixel, float tie);
-    /// Runs a program of local size CROWDED_GROUP on all that are marked.
-    void dispatch(const ShaderProgram& program) const;
+    /// Runs a program of local size CROWDED_GROUP on all that are marked. window_pixel: m, of the
+    /// running window, which may be another than they are marked for.
+    void dispatch(const ShaderProgram& program, float window_pixel) const;
     [[nodiscard]] std::size_t bytes() const { return list_.bytes(); }
 
   private:

@@ -70,14 +70,16 @@ void ViewerImage::receive_layers(const Context& context) {
         receive(programs_.layers_pixels, context);
     }
     if (continued() != nullptr) {
+        if (rests_) {
+            continued()->rest();
+        }
         continued()->receive_layers(context);
     }
 }
 
 void ViewerImage::receive_crowded(const ShaderProgram& program, const Context& context) {
     set_place(program, context.place);
-    program.set("box_base", scene_.box_base(context.place));
-    crowded_->dispatch(program);
+    crowded_->dispatch(program, context.window_pixel);
 }
 
 void ViewerImage::receive_planes(const Context& context) {
