@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alpha MASK, per fragment: where the base colour texture's alpha is below the cutoff nothing is there. Only
+// Alpha MASK, by the point of a facet: where the base colour texture's alpha is below the cutoff nothing is there. Only
 // compiled where a scene has such surfaces (ALPHA_MASK).
 #ifndef FACETS
 layout(binding = UNIT_FACETS) uniform samplerBuffer facet_texels;

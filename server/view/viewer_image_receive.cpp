@@ -6,6 +6,7 @@
 #include "view/viewer_image.h"
 
 namespace raybundle {
+
 /// Marks more of the pixels that have other surfaces near them. Where the camera may move on soon
 /// it waits until it rests, and does a part at a time: frames shall not wait for it.
 void ViewerImage::mark_crowded(float window_pixel) {
