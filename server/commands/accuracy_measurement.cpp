@@ -82,8 +82,8 @@ AccuracyMeasurement::AccuracyMeasurement(const Options& options, const AccuracyJ
     }
 }
 
-/// Of the methods that nobody has named, those go that cannot follow all of the scene's light, and
-/// knobs for what the scene has not. Throws std::runtime_error for others.
+/// Of the methods that nobody has named, those go that do not find all of the scene's light, and
+/// knobs for what the scene has not. Throws std::runtime_error for named ones that cannot run.
 void AccuracyMeasurement::leave_out_unable() {
     const EffectsPlan plan = plan_effects(loaded_.scene, loaded_.mesh.patch_count(), 0.0);
     std::erase_if(job_.curves, [&plan](const PlannedCurve& curve) {
@@ -91,14 +91,22 @@ void AccuracyMeasurement::leave_out_unable() {
     });
     std::erase_if(job_.curves, [this](const PlannedCurve& curve) {
         const auto* kind = std::get_if<ReferenceKind>(&curve.how);
-        const std::string reason = kind ? reason_against(*kind, ray_scene_) : "";
-        if (!reason.empty() && !options_.methods.empty()) {
+        if (!kind) {
+            return false;
+        }
+        const bool named = !options_.methods.empty();
+        const std::string reason = reason_against(*kind, ray_scene_);
+        const std::string missed =
+            reason.empty() ? light_missed(*kind, ray_scene_, camera_, job_.size) : reason;
+        if (!reason.empty() && named) {
             throw std::runtime_error("--methods: " + curve.method + ": " + reason);
         }
-        if (!reason.empty()) {
-            spdlog::warn("{} is left out: {}", curve.method, reason);
+        const bool as_reference = *kind == ReferenceKind::path && reason.empty();
+        const bool left_out = !missed.empty() && !named && !as_reference;
+        if (!missed.empty()) {
+            spdlog::warn("{}{}: {}", curve.method, left_out ? " is left out" : "", missed);
         }
-        return !reason.empty();
+        return left_out;
     });
 }
 

@@ -88,6 +88,9 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
     const Camera camera = choose_camera(loaded.scene, options);
     const RayScene scene(loaded.scene, loaded.mesh);
     const auto method = make_reference_method(kind, scene, camera, size, options.seed);
+    if (const std::string missed = light_missed(kind, scene, camera, size); !missed.empty()) {
+        spdlog::warn("{}", missed);
+    }
     const Outcome outcome = solve(*method, options);
     write_picture(options.output, method->picture(), size, reflecting_pixels(scene, camera, size));
     if (!options.stats.empty()) {

@@ -3,6 +3,7 @@
 // made of `light_count` vertices of a light subpath and the rest of an eye subpath, in reverse.
 #include "reference/bidirectional.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/environment.h"
@@ -26,15 +27,19 @@ glm::dvec3 Bidirectional::radiance(const glm::dvec3& direction, PixelSampler& sa
     for (std::size_t t = 2; t <= eye.size(); ++t) {
         sum += met_light(eye, t);
         if (!eye[t - 1].lobe) {
-            break;
+            continue;
         }
         sum += next_event(eye, t, sampler);
         for (std::size_t s = 2; s <= light.size(); ++s) {
-            sum += joined(light, s, eye, t);
+            if (light[s - 1].lobe) {
+                sum += joined(light, s, eye, t);
+            }
         }
     }
     for (std::size_t s = 2; s <= light.size(); ++s) {
-        join_with_eye(light, s, splats);
+        if (light[s - 1].lobe) {
+            join_with_eye(light, s, splats);
+        }
     }
     return sum;
 }
@@ -43,13 +48,15 @@ glm::dvec3 Bidirectional::radiance(const glm::dvec3& direction, PixelSampler& sa
 Bidirectional::Densities Bidirectional::known(const Subpath& light, std::size_t light_count,
                                               const Subpath& eye, std::size_t eye_count) const {
     const std::size_t count = light_count + eye_count;
-    Densities d{std::vector<double>(count), std::vector<double>(count)};
+    Densities d{std::vector<double>(count), std::vector<double>(count), std::vector<bool>(count)};
     for (std::size_t i = 0; i < light_count; ++i) {
+        d.deflects[i] = light[i].deflects;
         d.light[i] = light[i].forward;
         d.eye[i] = i + 2 < light_count ? light[i].backward : 0.0;
     }
     for (std::size_t i = light_count; i < count; ++i) {
         const PathVertex& vertex = eye[count - 1 - i];
+        d.deflects[i] = vertex.deflects;
         d.eye[i] = vertex.forward;
         d.light[i] = i >= light_count + 2 ? vertex.backward : 0.0;
     }
@@ -63,7 +70,12 @@ double Bidirectional::weight(const Densities& d, std::size_t light_count) {
     if (edges == 1) {
         return 1.0;
     }
-    const auto share = [&](std::size_t s) { return s == 1 ? d.connect : 1.0; };
+    const auto share = [&](std::size_t s) {
+        if (s > 0 && (d.deflects[s - 1] || d.deflects[s])) {
+            return 0.0;  // they cannot be joined
+        }
+        return s == 1 ? d.connect : 1.0;
+    };
     double sum = share(light_count);
     double ratio = 1.0;
     for (std::size_t i = light_count; i < edges; ++i) {
@@ -79,21 +91,24 @@ double Bidirectional::weight(const Densities& d, std::size_t light_count) {
 }
 
 /// The sky is drawn by its cosine at the receiver in next-event estimation, evenly for light paths.
-double Bidirectional::connect_ratio(const PathVertex& light, const SurfacePoint& lit,
-                                    const Frame& frame, const glm::dvec3& to_light) const {
-    return light.kind == Kind::sky ? lights_.density(lit, frame, to_light, std::nullopt) /
-                                         lights_.sky_direction_density()
-                                   : 1.0;
+double Bidirectional::connect_ratio(const PathVertex& light, const PathVertex& lit,
+                                    const glm::dvec3& to_light) const {
+    return light.kind == Kind::sky && lit.lobe
+               ? lights_.density(lit.point, lit.lobe->frame(), to_light, std::nullopt) /
+                     lights_.sky_direction_density()
+               : 1.0;
 }
 
 /// s = 0: the eye path has met an emitter or the sky.
 glm::dvec3 Bidirectional::met_light(const Subpath& eye, std::size_t eye_count) const {
     const PathVertex& end = eye[eye_count - 1];
     const bool sky = end.kind == Kind::sky;
+    const bool seen = std::all_of(eye.begin() + 1, eye.begin() + static_cast<long>(eye_count) - 1,
+                                  [](const PathVertex& vertex) { return vertex.deflects; });
     const glm::dvec3 emitted =
-        !sky ? (eye_count > 2 ? scene_.emission(end.point) : scene_.shown_emission(end.point))
-        : eye_count > 2 ? sky_towards(scene_.scene(), -end.towards)
-                        : background_towards(scene_.scene(), -end.towards);
+        !sky   ? (seen ? scene_.shown_emission(end.point) : scene_.emission(end.point))
+        : seen ? background_towards(scene_.scene(), -end.towards)
+               : sky_towards(scene_.scene(), -end.towards);
     if (is_black(emitted)) {
         return emitted;
     }
@@ -102,7 +117,7 @@ glm::dvec3 Bidirectional::met_light(const Subpath& eye, std::size_t eye_count) c
         const PathVertex& lit = eye[eye_count - 2];
         d.light[0] = sky ? lights_.sky_direction_density() : lights_.area_density(end.point.patch);
         d.light[1] = subpaths_.emission_density(end, lit.point, end.towards);
-        d.connect = connect_ratio(end, lit.point, lit.lobe->frame(), -end.towards);
+        d.connect = connect_ratio(end, lit, -end.towards);
     }
     return end.throughput * emitted * weight(d, 0);
 }
@@ -133,7 +148,7 @@ glm::dvec3 Bidirectional::next_event(const Subpath& eye, std::size_t eye_count,
         d.light[2] = per_area(lit.lobe->reverse_density(light->direction), lit.point.position,
                               eye[eye_count - 2].point);
     }
-    d.connect = connect_ratio(end, lit.point, lit.lobe->frame(), light->direction);
+    d.connect = connect_ratio(end, lit, light->direction);
     return value * weight(d, 1);
 }
 
@@ -163,7 +178,7 @@ glm::dvec3 Bidirectional::joined(const Subpath& light, std::size_t light_count, 
         d.light[s + 1] = per_area(z.lobe->reverse_density(-direction), z.point.position,
                                   eye[eye_count - 2].point);
     }
-    d.connect = connect_ratio(light[0], light[1].point, light[1].lobe->frame(), light[1].towards);
+    d.connect = connect_ratio(light[0], light[1], light[1].towards);
     return value * weight(d, s);
 }
 
@@ -192,8 +207,11 @@ void Bidirectional::join_with_eye(const Subpath& light, std::size_t light_count,
     Densities d = known(light, s, eye, 1);
     d.eye[s - 1] = per_area(camera_.density(-to_eye), camera_.origin(), y.point);
     d.eye[s - 2] = vertex_density(light[s - 2], seen.density(y.towards), y.point.position);
-    const Frame& frame = s == 2 ? seen.frame() : light[1].lobe->frame();
-    d.connect = connect_ratio(light[0], light[1].point, frame, light[1].towards);
+    PathVertex lit = light[1];
+    if (s == 2) {
+        lit.lobe = seen;
+    }
+    d.connect = connect_ratio(light[0], lit, light[1].towards);
     splats.push_back({film->pixel, value * weight(d, s) * camera_.pixel_share()});
 }
 

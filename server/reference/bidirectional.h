@@ -12,7 +12,8 @@ namespace raybundle {
 /// Bidirectional path tracing (Lafortune, Willems 1993; Veach 1997, ch. 10): every vertex of a path
 /// from the eye is joined with every vertex of a path from a light. All ways to make the same path
 /// are weighted by the balance heuristic. Ends at lights are chosen anew for each eye vertex, as
-/// next-event estimation does; emitters that the eye sees are left to eye paths alone.
+/// next-event estimation does; emitters that the eye sees are left to eye paths alone. Subpaths go
+/// on behind mirrors and glass, whose vertices are joined with none.
 class Bidirectional {
   public:
     Bidirectional(const RayScene& scene, const LightSampling& lights, const CameraRays& camera)
@@ -28,7 +29,8 @@ class Bidirectional {
     /// drawing each.
     struct Densities {
         std::vector<double> light, eye;
-        double connect = 1.0;  ///< of x[0] in next-event estimation, over that of light paths
+        std::vector<bool> deflects;  ///< mirrors and glass, with which nothing can be joined
+        double connect = 1.0;        ///< of x[0] in next-event estimation, over that of light paths
     };
 
     [[nodiscard]] glm::dvec3 met_light(const Subpath& eye, std::size_t eye_count) const;
@@ -41,8 +43,8 @@ class Bidirectional {
 
     [[nodiscard]] Densities known(const Subpath& light, std::size_t light_count, const Subpath& eye,
                                   std::size_t eye_count) const;
-    [[nodiscard]] double connect_ratio(const PathVertex& light, const SurfacePoint& lit,
-                                       const Frame& frame, const glm::dvec3& to_light) const;
+    [[nodiscard]] double connect_ratio(const PathVertex& light, const PathVertex& lit,
+                                       const glm::dvec3& to_light) const;
     static double weight(const Densities& densities, std::size_t light_count);
 
     const RayScene& scene_;

@@ -56,6 +56,11 @@ double solid_angle_of(const PlacedLight& light) {
 
 }  // namespace
 
+std::optional<SurfacePoint> first_hit(const RayScene& scene, const EmittedParticle& particle) {
+    return particle.emitter ? scene.trace_from(*particle.emitter, particle.direction)
+                            : scene.trace(particle.origin, particle.direction);
+}
+
 LightSampling::LightSampling(const RayScene& scene)
     : scene_(scene), density_per_area_(scene.mesh().patch_count(), 0.0), sky_(scene.scene()) {
     std::vector<double> powers;

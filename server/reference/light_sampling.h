@@ -44,6 +44,9 @@ struct EmittedParticle {
     glm::dvec3 power{0.0};
 };
 
+/// What a particle meets first; nothing: the sky.
+std::optional<SurfacePoint> first_hit(const RayScene& scene, const EmittedParticle& particle);
+
 /// Random choice of light sources. Emitting patches are chosen by their power, with a defensive
 /// share of 10 % by area so that no dim one is starved, and a point on them uniformly; the uniform
 /// sky by the flux it could send into the scene. Punctual lights, chosen by their flux, get a share

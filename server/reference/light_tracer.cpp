@@ -5,6 +5,7 @@
 
 #include "reference/roulette.h"
 #include "reference/scattering.h"
+#include "reference/specular_walk.h"
 #include "scene/environment.h"
 
 namespace raybundle {
@@ -19,8 +20,10 @@ glm::dvec3 LightTracer::radiance(const glm::dvec3& direction, PixelSampler& samp
     if (!lights_.empty()) {
         follow_particle(sampler, splats);
     }
-    const std::optional<SurfacePoint> hit = scene_.trace(camera_.origin(), direction);
-    return hit ? scene_.shown_emission(*hit) : background_towards(scene_.scene(), direction);
+    const SpecularWalk seen = walk_specular(scene_, scene_.trace(camera_.origin(), direction),
+                                            direction, Carried::radiance, sampler);
+    return seen.weight * (seen.hit ? scene_.shown_emission(*seen.hit)
+                                   : background_towards(scene_.scene(), seen.direction));
 }
 
 void LightTracer::follow_particle(PixelSampler& sampler, std::vector<Splat>& splats) const {
@@ -31,13 +34,12 @@ void LightTracer::follow_particle(PixelSampler& sampler, std::vector<Splat>& spl
         return;
     }
     glm::dvec3 power = particle.power;
-    glm::dvec3 direction = particle.direction;
-    std::optional<SurfacePoint> hit = particle.emitter
-                                          ? scene_.trace_from(*particle.emitter, direction)
-                                          : scene_.trace(particle.origin, direction);
-    for (int bounce = 0; bounce < max_bounces && hit && !hit->absorbs(); ++bounce) {
-        show(*hit, -direction, power, splats);
-        const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
+    SpecularWalk way = walk_specular(scene_, first_hit(scene_, particle), particle.direction,
+                                     Carried::power, sampler);
+    for (int bounce = 0; bounce < max_bounces && way.hit && !way.hit->absorbs(); ++bounce) {
+        power *= way.weight;
+        show(*way.hit, -way.direction, power, splats);
+        const Scattering scattering(scene_, *way.hit, NormalKind::geometric, -way.direction);
         const glm::dvec2 u = sampler.next_pair();
         const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         if (!next) {
@@ -47,8 +49,8 @@ void LightTracer::follow_particle(PixelSampler& sampler, std::vector<Splat>& spl
         if (!survives(power, particle.power, sampler.next())) {
             return;
         }
-        direction = next->direction;
-        hit = scene_.trace_from(*hit, direction);
+        way = walk_specular(scene_, scene_.trace_from(*way.hit, next->direction), next->direction,
+                            Carried::power, sampler);
     }
 }
 

@@ -33,8 +33,8 @@ double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& 
 }
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
-    const SpecularWalk seen =
-        walk_specular(scene_, scene_.trace(origin, direction), direction, sampler);
+    const SpecularWalk seen = walk_specular(scene_, scene_.trace(origin, direction), direction,
+                                            Carried::radiance, sampler);
     if (!seen.hit) {
         return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
@@ -94,7 +94,7 @@ glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
             throughput /= chance;
         }
         const SpecularWalk met = walk_specular(scene_, scene_.trace_from(point, next->direction),
-                                               next->direction, sampler);
+                                               next->direction, Carried::radiance, sampler);
         throughput *= met.weight;
         const glm::dvec3 emission = emitted(met.hit, met.direction);
         if (emission != glm::dvec3(0.0)) {

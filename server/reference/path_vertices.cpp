@@ -50,11 +50,9 @@ Subpath SubpathSampler::from_eye(const glm::dvec3& direction, PixelSampler& samp
     }
     vertex.point = *hit;
     vertex.forward = per_area(camera_.density(direction), camera_.origin(), *hit);
-    if (!hit->absorbs()) {
-        vertex.lobe.emplace(scene_, *hit, NormalKind::shading, -direction);
-    }
+    find_reflection(vertex, NormalKind::shading);
     path.push_back(vertex);
-    extend(path, direction, sampler, true);
+    extend(path, direction, Carried::radiance, sampler);
     return path;
 }
 
@@ -76,10 +74,8 @@ Subpath SubpathSampler::from_light(PixelSampler& sampler) const {
     if (particle.power == glm::dvec3(0.0)) {
         return path;
     }
-    const std::optional<SurfacePoint> hit =
-        particle.emitter ? scene_.trace_from(*particle.emitter, particle.direction)
-                         : scene_.trace(particle.origin, particle.direction);
-    if (!hit || hit->absorbs()) {
+    const std::optional<SurfacePoint> hit = first_hit(scene_, particle);
+    if (!hit) {
         return path;
     }
     PathVertex vertex;
@@ -87,9 +83,12 @@ Subpath SubpathSampler::from_light(PixelSampler& sampler) const {
     vertex.towards = -particle.direction;
     vertex.throughput = particle.power;
     vertex.forward = emission_density(light, *hit, particle.direction);
-    vertex.lobe.emplace(scene_, *hit, NormalKind::geometric, -particle.direction);
+    find_reflection(vertex, NormalKind::geometric);
+    if (!vertex.goes_on()) {
+        return path;
+    }
     path.push_back(vertex);
-    extend(path, particle.direction, sampler, false);
+    extend(path, particle.direction, Carried::power, sampler);
     return path;
 }
 
@@ -123,15 +122,50 @@ double SubpathSampler::emission_density(const PathVertex& light, const SurfacePo
     return per_area(cosine * glm::one_over_pi<double>(), light.point.position, lit);
 }
 
-/// Continues a subpath whose last vertex has just been found; with_sky: whether lines that meet
-/// nothing, and surfaces that absorb, become vertices.
-void SubpathSampler::extend(Subpath& path, glm::dvec3 direction, PixelSampler& sampler,
-                            bool with_sky) const {
+/// What the surface at a vertex does with light that comes from `towards` or goes there.
+void SubpathSampler::find_reflection(PathVertex& vertex, NormalKind normal) const {
+    vertex.deflects = is_deflecting(scene_, vertex.point);
+    if (!vertex.deflects && !vertex.point.absorbs()) {
+        vertex.lobe.emplace(scene_, vertex.point, normal, vertex.towards);
+    }
+}
+
+/// How a subpath goes on from a vertex.
+struct SubpathSampler::Onward {
+    SurfacePoint departure;
+    glm::dvec3 direction;
+    glm::dvec3 weight;  // of the throughput
+    double density;     // of the direction, per solid angle
+    double backward;    // that of the direction it came from, in reverse
+};
+
+std::optional<SubpathSampler::Onward> SubpathSampler::onward(const PathVertex& vertex,
+                                                             const glm::dvec3& direction,
+                                                             Carried carried,
+                                                             PixelSampler& sampler) const {
+    if (vertex.deflects) {
+        const auto ray = deflect(scene_, vertex.point, direction, carried, sampler);
+        return ray ? std::optional<Onward>({ray->departure, ray->direction, ray->weight,
+                                            ray->chance, ray->chance * ray->solid_angle_ratio})
+                   : std::nullopt;
+    }
+    const glm::dvec2 u = sampler.next_pair();
+    const std::optional<ScatterSample> next = vertex.lobe->sample(u, sampler.next());
+    return next ? std::optional<Onward>({vertex.point, next->direction, next->weight, next->density,
+                                         vertex.lobe->reverse_density(next->direction)})
+                : std::nullopt;
+}
+
+/// Continues a subpath whose last vertex has just been found. Those of radiance end with a vertex
+/// where they meet nothing, or a surface that absorbs; those of power have none there.
+void SubpathSampler::extend(Subpath& path, glm::dvec3 direction, Carried carried,
+                            PixelSampler& sampler) const {
     const glm::dvec3 start = path.back().throughput;
-    while (path.size() < max_vertices && path.back().lobe) {
+    bool seen_by_eye = carried == Carried::radiance;
+    while (path.size() < max_vertices && path.back().goes_on()) {
         const PathVertex& last = path.back();
-        const glm::dvec2 u = sampler.next_pair();
-        const std::optional<ScatterSample> next = last.lobe->sample(u, sampler.next());
+        seen_by_eye = seen_by_eye && last.deflects;
+        const std::optional<Onward> next = onward(last, direction, carried, sampler);
         if (!next) {
             return;
         }
@@ -143,19 +177,21 @@ void SubpathSampler::extend(Subpath& path, glm::dvec3 direction, PixelSampler& s
         }
         direction = next->direction;
         vertex.towards = -direction;
-        const std::optional<SurfacePoint> hit = scene_.trace_from(last.point, direction);
-        if (!with_sky && (!hit || hit->absorbs())) {
-            return;
-        }
+        const std::optional<SurfacePoint> hit = scene_.trace_from(next->departure, direction);
         vertex.kind = hit ? PathVertex::Kind::surface : PathVertex::Kind::sky;
         vertex.point = hit.value_or(SurfacePoint{});
         vertex.forward = vertex_density(vertex, next->density, last.point.position);
-        if (hit && !hit->absorbs()) {
-            vertex.lobe.emplace(scene_, *hit, NormalKind::geometric, -direction);
+        if (hit) {
+            find_reflection(vertex, seen_by_eye ? NormalKind::shading : NormalKind::geometric);
+        }
+        if (hit && last.deflects) {
+            vertex.throughput *= left_of_way(scene_, last.point.position, *hit);
+        }
+        if (carried == Carried::power && !vertex.goes_on()) {
+            return;
         }
         PathVertex& before = path[path.size() - 2];
-        before.backward =
-            vertex_density(before, last.lobe->reverse_density(direction), last.point.position);
+        before.backward = vertex_density(before, next->backward, last.point.position);
         path.push_back(vertex);
     }
 }

@@ -10,6 +10,7 @@
 #include "reference/random.h"
 #include "reference/ray_scene.h"
 #include "reference/scattering.h"
+#include "reference/specular_walk.h"
 
 namespace raybundle {
 
@@ -17,6 +18,8 @@ namespace raybundle {
 ///
 /// Densities are per area of the ray scene's own space, but per solid angle for the sky. Punctual
 /// lights are chosen with a probability, and no other vertex ever draws them: its density is 0.
+/// Behind a mirror or glass a density is the factor of the delta distribution; paths are weighed by
+/// ratios of such densities alone, in which the deltas of both ways cancel.
 struct PathVertex {
     enum class Kind { eye, emitter, surface, sky, point_light, directional_light };
 
@@ -28,6 +31,11 @@ struct PathVertex {
     double forward = 0.0;            ///< density with which its own subpath draws it
     double backward = 0.0;           ///< density with which the next vertex would draw it
     std::optional<Scattering> lobe;  ///< of a surface, for light to or from `towards`
+    /// Mirror or glass: no lobe, one direction for each of its ways. Nothing can be joined with it.
+    bool deflects = false;
+
+    /// Whether light goes on from it.
+    [[nodiscard]] bool goes_on() const { return lobe || deflects; }
 };
 
 using Subpath = std::vector<PathVertex>;
@@ -39,7 +47,8 @@ double vertex_density(const PathVertex& vertex, double density, const glm::dvec3
 double per_area(double density, const glm::dvec3& from, const SurfacePoint& to);
 
 /// Draws the subpaths of bidirectional path tracing. Surfaces take the shading normal at the vertex
-/// next to the eye and the geometric one elsewhere, as in path tracing.
+/// that the eye sees, be it behind mirrors and glass, and the geometric one elsewhere, as in path
+/// tracing.
 class SubpathSampler {
   public:
     SubpathSampler(const RayScene& scene, const LightSampling& lights, const CameraRays& camera)
@@ -60,7 +69,13 @@ class SubpathSampler {
                                           const glm::dvec3& direction) const;
 
   private:
-    void extend(Subpath& path, glm::dvec3 direction, PixelSampler& sampler, bool with_sky) const;
+    struct Onward;
+
+    void extend(Subpath& path, glm::dvec3 direction, Carried carried, PixelSampler& sampler) const;
+    [[nodiscard]] std::optional<Onward> onward(const PathVertex& vertex,
+                                               const glm::dvec3& direction, Carried carried,
+                                               PixelSampler& sampler) const;
+    void find_reflection(PathVertex& vertex, NormalKind normal) const;
 
     const RayScene& scene_;
     const LightSampling& lights_;

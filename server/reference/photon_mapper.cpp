@@ -15,18 +15,19 @@ constexpr int max_gatherings = 8;     // in a corner, one from the other
 
 glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& origin,
                                   const glm::dvec3& direction, PixelSampler& sampler) const {
-    const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
-    if (!hit) {
-        return background_towards(scene_.scene(), direction);
+    const SpecularWalk seen = walk_specular(scene_, scene_.trace(origin, direction), direction,
+                                            Carried::radiance, sampler);
+    if (!seen.hit) {
+        return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
-    const glm::dvec3 emission = scene_.shown_emission(*hit);
-    if (hit->absorbs()) {
-        return emission;
+    glm::dvec3 sum = scene_.shown_emission(*seen.hit);
+    if (!seen.hit->absorbs()) {
+        const Scattering scattering(scene_, *seen.hit, NormalKind::shading, -seen.direction);
+        sum += is_sharp(scattering, settings_)
+                   ? by_sharp(maps, *seen.hit, scattering, sampler)
+                   : by_maps(maps, *seen.hit, scattering, max_gatherings, sampler);
     }
-    const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
-    return emission + (is_sharp(scattering, settings_)
-                           ? by_sharp(maps, *hit, scattering, sampler)
-                           : by_maps(maps, *hit, scattering, max_gatherings, sampler));
+    return seen.weight * sum;
 }
 
 /// Light chosen by LightSampling, by the balance heuristic with met_light().
@@ -48,16 +49,22 @@ glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering&
     return value / light->combined_density(scattering.density(light->direction));
 }
 
+/// What a direction drawn at a point meets behind mirrors and glass.
+SpecularWalk PhotonMapper::met_by(const SurfacePoint& point, const ScatterSample& drawn,
+                                  PixelSampler& sampler) const {
+    return walk_specular(scene_, scene_.trace_from(point, drawn.direction), drawn.direction,
+                         Carried::radiance, sampler);
+}
+
 /// Emission of what a direction drawn at a point has met.
 glm::dvec3 PhotonMapper::met_light(const SurfacePoint& point, const Scattering& scattering,
-                                   const ScatterSample& drawn,
-                                   const std::optional<SurfacePoint>& hit) const {
+                                   const ScatterSample& drawn, const SpecularWalk& met) const {
     const glm::dvec3 emission =
-        hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), drawn.direction);
-    if (emission == glm::dvec3(0.0)) {
-        return emission;
+        met.hit ? scene_.emission(*met.hit) : sky_towards(scene_.scene(), met.direction);
+    if (emission == glm::dvec3(0.0) || met.passed) {
+        return emission;  // behind mirrors and glass next_event() finds none
     }
-    const double other = lights_.density(point, scattering.frame(), drawn.direction, hit);
+    const double other = lights_.density(point, scattering.frame(), drawn.direction, met.hit);
     return emission * (drawn.density / (drawn.density + other));
 }
 
@@ -77,13 +84,14 @@ glm::dvec3 PhotonMapper::by_sharp(const PhotonMaps& maps, SurfacePoint point, Sc
         if (bounce >= certain_bounces && !survives(throughput, glm::dvec3(1.0), sampler.next())) {
             break;
         }
-        const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
-        sum += throughput * met_light(point, scattering, *next, hit);
-        if (!hit || hit->absorbs()) {
+        const SpecularWalk met = met_by(point, *next, sampler);
+        throughput *= met.weight;
+        sum += throughput * met_light(point, scattering, *next, met);
+        if (!met.hit || met.hit->absorbs()) {
             break;
         }
-        point = *hit;
-        scattering = Scattering(scene_, point, NormalKind::geometric, -next->direction);
+        point = *met.hit;
+        scattering = Scattering(scene_, point, NormalKind::geometric, -met.direction);
         if (!is_sharp(scattering, settings_)) {
             return sum + throughput * by_maps(maps, point, scattering, max_gatherings, sampler);
         }
@@ -116,16 +124,17 @@ glm::dvec3 PhotonMapper::gathered(const PhotonMaps& maps, SurfacePoint point, Sc
         if (bounce >= certain_bounces && !survives(throughput, glm::dvec3(1.0), sampler.next())) {
             break;
         }
-        const std::optional<SurfacePoint> hit = scene_.trace_from(point, next->direction);
-        if (bounce == 0) {
-            direct = throughput * met_light(point, scattering, *next, hit);
+        const SpecularWalk met = met_by(point, *next, sampler);
+        throughput *= met.weight;
+        if (bounce == 0 && !met.passed) {
+            direct = throughput * met_light(point, scattering, *next, met);
         }
-        if (!hit || hit->absorbs()) {
+        if (!met.hit || met.hit->absorbs()) {
             break;
         }
-        const double distance = glm::distance(point.position, hit->position);
-        point = *hit;
-        scattering = Scattering(scene_, point, NormalKind::geometric, -next->direction);
+        const double distance = glm::distance(point.position, met.hit->position);
+        point = *met.hit;
+        scattering = Scattering(scene_, point, NormalKind::geometric, -met.direction);
         if (!is_sharp(scattering, settings_)) {
             const bool near = distance < radius_ && gatherings > 0;
             return direct +

@@ -7,13 +7,15 @@
 #include "reference/photon_tracer.h"
 #include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/specular_walk.h"
 
 namespace raybundle {
 
 /// Photon mapping (Jensen 2001, ch. 9). Where the eye, or a ray from an S surface, meets a D
 /// surface: direct light as in path tracing, LS+D by the caustic map, and the rest by final
 /// gathering, rays whose ends look into the global map. Rays shorter than the estimate's radius end
-/// in another gathering, since the map is blurred there (ch. 9.2). S surfaces are path-traced.
+/// in another gathering, since the map is blurred there (ch. 9.2). S surfaces, mirrors and glass
+/// among them, are path-traced.
 ///
 /// Biased: density estimation blurs, and loses light at edges. The bias falls with the number of
 /// photons per map, the variance with the number of maps too.
@@ -33,8 +35,9 @@ class PhotonMapper {
     [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
                                         PixelSampler& sampler) const;
     [[nodiscard]] glm::dvec3 met_light(const SurfacePoint& point, const Scattering& scattering,
-                                       const ScatterSample& drawn,
-                                       const std::optional<SurfacePoint>& hit) const;
+                                       const ScatterSample& drawn, const SpecularWalk& met) const;
+    [[nodiscard]] SpecularWalk met_by(const SurfacePoint& point, const ScatterSample& drawn,
+                                      PixelSampler& sampler) const;
     [[nodiscard]] glm::dvec3 by_sharp(const PhotonMaps& maps, SurfacePoint point,
                                       Scattering scattering, PixelSampler& sampler) const;
     [[nodiscard]] glm::dvec3 by_maps(const PhotonMaps& maps, const SurfacePoint& point,

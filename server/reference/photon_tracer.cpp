@@ -9,6 +9,7 @@
 
 #include "reference/random.h"
 #include "reference/roulette.h"
+#include "reference/specular_walk.h"
 
 namespace raybundle {
 namespace {
@@ -31,19 +32,18 @@ void follow(const RayScene& scene, const LightSampling& lights, const PhotonSett
     }
     const double share = 1.0 / settings.emitted;
     glm::dvec3 power = particle.power;
-    glm::dvec3 direction = particle.direction;
-    std::optional<SurfacePoint> hit = particle.emitter
-                                          ? scene.trace_from(*particle.emitter, direction)
-                                          : scene.trace(particle.origin, direction);
+    SpecularWalk way = walk_specular(scene, first_hit(scene, particle), particle.direction,
+                                     Carried::power, sampler);
     bool by_sharp_alone = true;
-    for (int bounce = 0; bounce < max_bounces && hit && !hit->absorbs(); ++bounce) {
-        const Scattering scattering(scene, *hit, NormalKind::geometric, -direction);
+    for (int bounce = 0; bounce < max_bounces && way.hit && !way.hit->absorbs(); ++bounce) {
+        power *= way.weight;
+        const Scattering scattering(scene, *way.hit, NormalKind::geometric, -way.direction);
         const bool sharp = is_sharp(scattering, settings);
         if (!sharp) {
-            const Photon photon{glm::vec3(hit->position), glm::vec3(hit->normal),
-                                glm::vec3(-direction), glm::vec3(power * share)};
+            const Photon photon{glm::vec3(way.hit->position), glm::vec3(way.hit->normal),
+                                glm::vec3(-way.direction), glm::vec3(power * share)};
             photons.global.push_back(photon);
-            if (by_sharp_alone && bounce > 0) {
+            if (by_sharp_alone && (bounce > 0 || way.passed)) {
                 photons.caustic.push_back(photon);
             }
             by_sharp_alone = false;
@@ -57,8 +57,8 @@ void follow(const RayScene& scene, const LightSampling& lights, const PhotonSett
         if (!survives(power, particle.power, sampler.next())) {
             return;
         }
-        direction = next->direction;
-        hit = scene.trace_from(*hit, direction);
+        way = walk_specular(scene, scene.trace_from(*way.hit, next->direction), next->direction,
+                            Carried::power, sampler);
     }
 }
 

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/ray_caster.h"
 
+#include "reference/specular_walk.h"
 #include "scene/environment.h"
 
 namespace raybundle {
 
 glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                PixelSampler& sampler) const {
-    const std::optional<SurfacePoint> hit = scene_.trace(origin, direction);
-    if (!hit) {
-        return background_towards(scene_.scene(), direction);
+    const SpecularWalk seen = walk_specular(scene_, scene_.trace(origin, direction), direction,
+                                            Carried::radiance, sampler);
+    if (!seen.hit) {
+        return seen.weight * background_towards(scene_.scene(), seen.direction);
     }
-    if (hit->absorbs() || lights_.empty()) {
-        return scene_.shown_emission(*hit);
+    glm::dvec3 sum = scene_.shown_emission(*seen.hit);
+    if (!seen.hit->absorbs() && !lights_.empty()) {
+        const Scattering scattering(scene_, *seen.hit, NormalKind::shading, -seen.direction);
+        sum += sampled(*seen.hit, scattering, sampler);
+        if (!scattering.is_lambert()) {
+            sum += met(*seen.hit, scattering, sampler);
+        }
     }
-    const Scattering scattering(scene_, *hit, NormalKind::shading, -direction);
-    glm::dvec3 sum = scene_.shown_emission(*hit) + sampled(*hit, scattering, sampler);
-    if (!scattering.is_lambert()) {
-        sum += met(*hit, scattering, sampler);
-    }
-    return sum;
+    return seen.weight * sum;
 }
 
 /// Reflection of light from a point chosen on the lights.

@@ -12,6 +12,7 @@
 #include "reference/ray_caster.h"
 #include "reference/single_ray_picture.h"
 #include "reference/solution_picture.h"
+#include "reference/specular_walk.h"
 #include "scene/specular_surface.h"
 
 namespace raybundle {
@@ -174,13 +175,32 @@ std::string reason_against(ReferenceKind kind, const RayScene& scene) {
     if (kind == ReferenceKind::path) {
         return {};
     }
-    if (has_glass(scene.scene())) {
-        return "of the comparison methods only 'path' knows glass, which " + scene.scene().name +
-               " has";
+    if (kind == ReferenceKind::single_ray && has_glass(scene.scene())) {
+        return "single rays keep light on patches and show what is on them, not what is behind "
+               "glass, which " +
+               scene.scene().name + " has";
     }
     if (scene.transmitting()) {
         return "the scene transmits light diffusely, which of the methods on the CPU only path "
                "follows";
+    }
+    return {};
+}
+
+std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera& camera,
+                         glm::uvec2 size) {
+    if (kind == ReferenceKind::light) {
+        for (const auto& hit : pixel_centres(scene, CameraRays(scene, camera, size))) {
+            if (hit && is_deflecting(scene, *hit)) {
+                return "particles from lights do not find what the eye sees in mirrors and through "
+                       "glass";
+            }
+        }
+    }
+    const bool from_eye = kind == ReferenceKind::path || kind == ReferenceKind::metropolis;
+    if (from_eye && has_glass(scene.scene()) && !scene.scene().punctual_lights.empty()) {
+        return "paths from the eye do not find the light of punctual lights by way of glass; "
+               "'bidirectional' does where it is not seen through glass again, 'photon-map' does";
     }
     return {};
 }

@@ -46,9 +46,13 @@ class ReferenceMethod {
     [[nodiscard]] virtual std::size_t bytes() const = 0;  ///< without the scene
 };
 
-/// Why a method cannot follow all light of a scene; empty where it can. Only `path` knows glass and
-/// diffuse transmission.
+/// Why a method cannot follow a scene's light at all; empty where it can. Only `path` knows diffuse
+/// transmission, and single rays no glass.
 std::string reason_against(ReferenceKind kind, const RayScene& scene);
+
+/// Which light a method does not find in a picture, though it shows the rest; empty: it finds all.
+std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera& camera,
+                         glm::uvec2 size);
 
 /// The picture's own part of a method's input, and what it is made from; the ray scene must outlive
 /// the method. Throws std::runtime_error where there is a reason_against() it.

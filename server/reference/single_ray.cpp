@@ -78,9 +78,7 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
     if (!particle.distant) {
         source = particle.emitter ? particle.emitter->position : particle.origin;
     }
-    std::optional<SurfacePoint> hit = particle.emitter
-                                          ? scene_.trace_from(*particle.emitter, direction)
-                                          : scene_.trace(particle.origin, direction);
+    std::optional<SurfacePoint> hit = first_hit(scene_, particle);
     std::uint64_t rays = 1;
     for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
         const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);

@@ -56,45 +56,81 @@ SpecularSurface specular_at(const RayScene& scene, const SurfacePoint& point) {
     return ideal ? specular_surface(material, scene.base_colour(point)) : SpecularSurface{};
 }
 
-glm::dvec3 reflected(const glm::dvec3& direction, const glm::dvec3& normal,
-                     const glm::dvec3& geometric_normal) {
+/// Into the mirrored direction about the smooth normal, or where that leads behind the surface
+/// about the geometric one. Returns the normal that it took.
+glm::dvec3 reflect_about(Deflection& ray, const glm::dvec3& direction, const glm::dvec3& normal) {
+    const glm::dvec3& geometric = ray.departure.normal;
     const glm::dvec3 smooth = glm::reflect(direction, normal);
-    return glm::dot(smooth, geometric_normal) > 0.0 ? smooth
-                                                    : glm::reflect(direction, geometric_normal);
+    const bool in_front = glm::dot(smooth, geometric) > 0.0;
+    ray.direction = in_front ? smooth : glm::reflect(direction, geometric);
+    return in_front ? normal : geometric;
 }
 
-/// One surface; changes direction and weight.
-std::optional<SurfacePoint> deflect(const RayScene& scene, SurfacePoint point, SpecularWalk& walk,
-                                    const SpecularSurface& surface, Sampler& sampler) {
+/// Of the etendue of rays about the geometric normal, after over before. The direction turns about
+/// `normal`, which keeps the etendue about that one.
+double etendue_ratio(const glm::dvec3& before, const glm::dvec3& after, const glm::dvec3& normal,
+                     const glm::dvec3& geometric_normal) {
+    return std::abs(glm::dot(after, geometric_normal) * glm::dot(before, normal) /
+                    (glm::dot(before, geometric_normal) * glm::dot(after, normal)));
+}
+
+/// Chooses one of both ways at glass; returns the normal about which the ray turns.
+glm::dvec3 choose_way(Deflection& ray, const SpecularSurface& glass, bool front,
+                      const glm::dvec3& direction, const glm::dvec3& normal, Sampler& sampler) {
+    const Ways ways = ways_at(glass, front, direction, normal);
+    const double reflected = mean_of(ways.reflected);
+    const double chance = reflected / (reflected + mean_of(ways.passed));
+    if (sampler.next() < chance) {
+        ray.chance = chance;
+        ray.weight = ways.reflected / chance;
+        return reflect_about(ray, direction, normal);
+    }
+    ray.chance = 1.0 - chance;
+    ray.weight = ways.passed / ray.chance;
+    ray.direction = ways.behind;
+    if (glass.kind == SpecularKind::glass) {
+        const double index = front ? glass.ior : 1.0 / glass.ior;
+        ray.solid_angle_ratio =
+            std::abs(glm::dot(direction, normal) / (index * index * glm::dot(ways.behind, normal)));
+    }
+    return normal;
+}
+
+}  // namespace
+
+bool is_deflecting(const RayScene& scene, const SurfacePoint& point) {
+    return specular_at(scene, point).kind != SpecularKind::none;
+}
+
+std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& point,
+                                  const glm::dvec3& direction, Carried carried, Sampler& sampler) {
+    const SpecularSurface surface = specular_at(scene, point);
+    if (surface.kind == SpecularKind::none) {
+        return std::nullopt;
+    }
     glm::dvec3 normal = scene.shading_normal(point);
-    if (glm::dot(normal, walk.direction) >= 0.0) {
+    if (glm::dot(normal, direction) >= 0.0) {
         normal = point.normal;
     }
+    Deflection ray;
+    ray.departure = point;
     if (surface.kind == SpecularKind::mirror) {
-        const auto cosine = static_cast<float>(-glm::dot(walk.direction, normal));
-        walk.weight *= glm::dvec3(mirror_reflectance(surface, cosine));
-        walk.direction = reflected(walk.direction, normal, point.normal);
-        return scene.trace_from(point, walk.direction);
-    }
-    const bool front = point.patch == point.triangle;
-    const Ways ways = ways_at(surface, front, walk.direction, normal);
-    const double chance =
-        mean_of(ways.reflected) / (mean_of(ways.reflected) + mean_of(ways.passed));
-    if (sampler.next() < chance) {
-        walk.weight *= ways.reflected / chance;
-        walk.direction = reflected(walk.direction, normal, point.normal);
+        const auto cosine = static_cast<float>(-glm::dot(direction, normal));
+        ray.weight = glm::dvec3(mirror_reflectance(surface, cosine));
+        normal = reflect_about(ray, direction, normal);
     } else {
-        walk.weight *= ways.passed / (1.0 - chance);
-        walk.direction = ways.behind;
+        const bool front = point.patch == point.triangle;
+        normal = choose_way(ray, surface, front, direction, normal, sampler);
     }
-    if (glm::dot(walk.direction, point.normal) < 0.0) {
-        point.normal = -point.normal;  // rays start behind the surface
+    if (carried == Carried::power) {
+        ray.weight *= etendue_ratio(direction, ray.direction, normal, point.normal);
     }
-    return scene.trace_from(point, walk.direction);
+    if (glm::dot(ray.direction, point.normal) < 0.0) {
+        ray.departure.normal = -point.normal;  // rays start behind the surface
+    }
+    return ray;
 }
 
-/// Share of the light that is left of a way to this point; one that ends at the back of a surface
-/// of glass was inside of it.
 glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const SurfacePoint& to) {
     const Material& material = scene.material(to);
     if (!is_glass(material) || to.patch == to.triangle) {
@@ -106,14 +142,13 @@ glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const Surf
     return glm::exp(-glm::dvec3(inside.absorption) * metres);
 }
 
-}  // namespace
-
 SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoint>& hit,
-                           const glm::dvec3& direction, Sampler& sampler) {
+                           const glm::dvec3& direction, Carried carried, Sampler& sampler) {
     SpecularWalk walk{hit, direction};
     for (int i = 0; walk.hit; ++i) {
-        const SpecularSurface surface = specular_at(scene, *walk.hit);
-        if (surface.kind == SpecularKind::none) {
+        const std::optional<Deflection> ray =
+            deflect(scene, *walk.hit, walk.direction, carried, sampler);
+        if (!ray) {
             break;
         }
         if (i == most_surfaces) {
@@ -121,11 +156,12 @@ SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoi
             walk.hit.reset();
             break;
         }
-        const SurfacePoint from = *walk.hit;
-        walk.hit = deflect(scene, from, walk, surface, sampler);
         walk.passed = true;
+        walk.direction = ray->direction;
+        walk.weight *= ray->weight;
+        walk.hit = scene.trace_from(ray->departure, ray->direction);
         if (walk.hit) {
-            walk.weight *= left_of_way(scene, from.position, *walk.hit);
+            walk.weight *= left_of_way(scene, ray->departure.position, *walk.hit);
         }
     }
     return walk;
