@@ -96,18 +96,27 @@ void AccuracyMeasurement::leave_out_unable() {
         }
         const bool named = !options_.methods.empty();
         const std::string reason = reason_against(*kind, ray_scene_);
-        const std::string missed =
-            reason.empty() ? light_missed(*kind, ray_scene_, camera_, job_.size) : reason;
         if (!reason.empty() && named) {
             throw std::runtime_error("--methods: " + curve.method + ": " + reason);
         }
-        const bool as_reference = *kind == ReferenceKind::path && reason.empty();
-        const bool left_out = !missed.empty() && !named && !as_reference;
-        if (!missed.empty()) {
-            spdlog::warn("{}{}: {}", curve.method, left_out ? " is left out" : "", missed);
+        // What paths from the eye miss is missing in the reference, too.
+        const std::string missed = *kind == ReferenceKind::light
+                                       ? light_missed(*kind, ray_scene_, camera_, job_.size)
+                                       : "";
+        const bool left_out = !reason.empty() || (!missed.empty() && !named);
+        if (!reason.empty() || !missed.empty()) {
+            spdlog::warn("{}{}: {}", curve.method, left_out ? " is left out" : "",
+                         reason.empty() ? missed : reason);
         }
         return left_out;
     });
+    const std::string missed = light_missed(ReferenceKind::path, ray_scene_, camera_, job_.size);
+    if (!missed.empty() && options_.reference.empty()) {
+        spdlog::warn(
+            "the reference is path traced: {}. Methods that find that light look wrong "
+            "beside it.",
+            missed);
+    }
 }
 
 void AccuracyMeasurement::run() {

@@ -13,8 +13,9 @@
 namespace raybundle {
 
 /// Light tracing (Arvo 1986; Dutré, Lafortune, Willems 1993): particles walk from the lights by the
-/// BRDF, and each surface they reach that the eye sees brightens the pixel where it is seen. What
-/// the eye sees of emitters and the sky is found by rays from the eye.
+/// BRDF and by mirrors and glass, and each surface they reach that the eye sees brightens the pixel
+/// where it is seen. What the eye sees of emitters and the sky is found by rays from the eye, by
+/// way of mirrors and glass too; other surfaces behind those are not found.
 class LightTracer {
   public:
     LightTracer(const RayScene& scene, const LightSampling& lights, const CameraRays& camera)

@@ -17,6 +17,8 @@ namespace raybundle {
 /// in another gathering, since the map is blurred there (ch. 9.2). S surfaces, mirrors and glass
 /// among them, are path-traced.
 ///
+/// Light of punctual lights that comes to S surfaces by way of glass is found by neither.
+///
 /// Biased: density estimation blurs, and loses light at edges. The bias falls with the number of
 /// photons per map, the variance with the number of maps too.
 class PhotonMapper {

@@ -11,8 +11,9 @@
 namespace raybundle {
 
 /// Local rendering (appendix A, "DirectLight"): emitted light and its first reflection, light path
-/// classes LE, LDE and LGE. Lambert surfaces sample points of the emitters and directions of the
-/// sky; glossy ones their lobe as well, both weighted by the balance heuristic.
+/// classes LE, LDE and LGE, seen in ideal mirrors and through glass too; neither throws light.
+/// Lambert surfaces sample points of the emitters and directions of the sky; glossy ones their lobe
+/// as well, both weighted by the balance heuristic.
 class RayCaster {
   public:
     RayCaster(const RayScene& scene, const LightSampling& lights)

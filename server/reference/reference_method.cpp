@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/reference_method.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -169,6 +170,12 @@ class SingleRayMethod : public ReferenceMethod {
     SingleRayPicture view_;
 };
 
+bool shows_deflecting(const RayScene& scene, const CameraRays& camera) {
+    const auto centres = pixel_centres(scene, camera);
+    return std::any_of(centres.begin(), centres.end(),
+                       [&scene](const auto& hit) { return hit && is_deflecting(scene, *hit); });
+}
+
 }  // namespace
 
 std::string reason_against(ReferenceKind kind, const RayScene& scene) {
@@ -189,20 +196,26 @@ std::string reason_against(ReferenceKind kind, const RayScene& scene) {
 
 std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera& camera,
                          glm::uvec2 size) {
-    if (kind == ReferenceKind::light) {
-        for (const auto& hit : pixel_centres(scene, CameraRays(scene, camera, size))) {
-            if (hit && is_deflecting(scene, *hit)) {
-                return "particles from lights do not find what the eye sees in mirrors and through "
-                       "glass";
-            }
-        }
+    if (kind == ReferenceKind::light && shows_deflecting(scene, CameraRays(scene, camera, size))) {
+        return "particles from lights do not find what the eye sees in mirrors and through glass";
     }
-    const bool from_eye = kind == ReferenceKind::path || kind == ReferenceKind::metropolis;
-    if (from_eye && has_glass(scene.scene()) && !scene.scene().punctual_lights.empty()) {
-        return "paths from the eye do not find the light of punctual lights by way of glass; "
-               "'bidirectional' does where it is not seen through glass again, 'photon-map' does";
+    if (!has_glass(scene.scene()) || scene.scene().punctual_lights.empty()) {
+        return {};
     }
-    return {};
+    switch (kind) {
+        case ReferenceKind::path:
+        case ReferenceKind::metropolis:
+            return "paths from the eye do not find the light of punctual lights by way of glass; "
+                   "bidirectional paths and photon maps do";
+        case ReferenceKind::bidirectional:
+            return "paths do not find what punctual lights light by way of glass and the eye sees "
+                   "through glass again; photon maps do";
+        case ReferenceKind::photon_map:
+            return "photons are kept on dull surfaces only: on glossy ones the light of punctual "
+                   "lights by way of glass is missing";
+        default:
+            return {};
+    }
 }
 
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,

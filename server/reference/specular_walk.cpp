@@ -67,7 +67,7 @@ glm::dvec3 reflect_about(Deflection& ray, const glm::dvec3& direction, const glm
 }
 
 /// Of the etendue of rays about the geometric normal, after over before. The direction turns about
-/// `normal`, which keeps the etendue about that one.
+/// `normal`, which keeps the etendue about that one, squared indices of refraction included.
 double etendue_ratio(const glm::dvec3& before, const glm::dvec3& after, const glm::dvec3& normal,
                      const glm::dvec3& geometric_normal) {
     return std::abs(glm::dot(after, geometric_normal) * glm::dot(before, normal) /
@@ -79,7 +79,8 @@ glm::dvec3 choose_way(Deflection& ray, const SpecularSurface& glass, bool front,
                       const glm::dvec3& direction, const glm::dvec3& normal, Sampler& sampler) {
     const Ways ways = ways_at(glass, front, direction, normal);
     const double reflected = mean_of(ways.reflected);
-    const double chance = reflected / (reflected + mean_of(ways.passed));
+    const double both = reflected + mean_of(ways.passed);
+    const double chance = both > 0.0 ? reflected / both : 1.0;
     if (sampler.next() < chance) {
         ray.chance = chance;
         ray.weight = ways.reflected / chance;
@@ -89,9 +90,9 @@ glm::dvec3 choose_way(Deflection& ray, const SpecularSurface& glass, bool front,
     ray.weight = ways.passed / ray.chance;
     ray.direction = ways.behind;
     if (glass.kind == SpecularKind::glass) {
-        const double index = front ? glass.ior : 1.0 / glass.ior;
-        ray.solid_angle_ratio =
-            std::abs(glm::dot(direction, normal) / (index * index * glm::dot(ways.behind, normal)));
+        ray.index = front ? glass.ior : 1.0 / glass.ior;
+        ray.solid_angle_ratio = std::abs(glm::dot(direction, normal) /
+                                         (ray.index * ray.index * glm::dot(ways.behind, normal)));
     }
     return normal;
 }
@@ -123,7 +124,9 @@ std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& poi
         normal = choose_way(ray, surface, front, direction, normal, sampler);
     }
     if (carried == Carried::power) {
-        ray.weight *= etendue_ratio(direction, ray.direction, normal, point.normal);
+        // As radiance is not scaled by the index of refraction, power inside of glass is.
+        ray.weight *=
+            etendue_ratio(direction, ray.direction, normal, point.normal) / (ray.index * ray.index);
     }
     if (glm::dot(ray.direction, point.normal) < 0.0) {
         ray.departure.normal = -point.normal;  // rays start behind the surface
@@ -138,6 +141,9 @@ glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const Surf
     }
     const SpecularSurface inside =
         specular_surface(material, mean_base_colour(scene.scene(), material));
+    if (inside.kind != SpecularKind::glass) {
+        return glm::dvec3(1.0);
+    }
     const double metres = glm::distance(from, to.position) * std::sqrt(scene.square_metres());
     return glm::exp(-glm::dvec3(inside.absorption) * metres);
 }

@@ -10,7 +10,8 @@
 namespace raybundle {
 
 /// What is carried along a ray: radiance, against the way of the light, by paths from the eye; or
-/// power, with the light. At smooth normals they differ (Veach 1997, ch. 5.3).
+/// power, with the light. At smooth normals they differ (Veach 1997, ch. 5.3). Inside of glass both
+/// are without the squared index of refraction, which cancels for whatever begins and ends in air.
 enum class Carried { radiance, power };
 
 /// One deflection at a mirror or at glass.
@@ -19,6 +20,7 @@ struct Deflection {
     glm::dvec3 direction{0.0};       ///< unit, in which it goes on
     glm::dvec3 weight{1.0};          ///< of what is carried, over `chance`
     double chance = 1.0;             ///< of this way; the same for a ray that comes back
+    double index = 1.0;              ///< of refraction, after over before
     double solid_angle_ratio = 1.0;  ///< of a narrow cone of rays, after over before
 };
 

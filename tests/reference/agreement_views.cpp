@@ -138,6 +138,15 @@ View leaning_view() {
     return view;
 }
 
+/// A dull block cast in clear glass, close up.
+View immersed_view() {
+    View view{enclosure(0.6F), camera_at({1.0F, 1.5F, 0.6F}, {2.0F, 1.2F, 2.0F}, 0.4F)};
+    SceneBuilder& b = view.builder;
+    b.add_box({1.4F, 0.6F, 1.4F}, {2.6F, 1.8F, 2.6F}, false, 1, add_material(b, glass(1.0F)));
+    b.add_box({1.7F, 0.9F, 1.7F}, {2.3F, 1.5F, 2.3F}, false, 1, b.add_material({0.3F, 0.7F, 0.6F}));
+    return view;
+}
+
 }  // namespace
 
 Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov) {
@@ -160,6 +169,8 @@ View agreement_view(int index) {
             return caustic_view();
         case 7:
             return leaning_view();
+        case 8:
+            return immersed_view();
         default:
             return screened_view(static_cast<std::size_t>(index - 1));
     }
