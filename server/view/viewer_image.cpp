@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/viewer_image.h"
 
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
@@ -12,7 +11,6 @@ namespace raybundle {
 
 namespace {
 
-constexpr float near_share = 1e-4F;         // of the scene's diameter
 constexpr float crease_share = 1.25e-3F;    // of the diameter: a pixel of an 800-pixel window
 constexpr float moving_kept_weight = 0.9F;  // of a reprojected value per camera change
 
@@ -231,8 +229,7 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     old_ = {parameters_.clip_from_world, glm::uvec2(parameters_.size), glm::vec3(parameters_.eye),
             parameters_.weights.x, glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
-    parameters_ =
-        make_view_parameters(camera_, scene_.origin(), full_size_, near_share * scene_.diameter());
+    parameters_ = make_view_parameters(camera_, scene_.origin(), full_size_, near_distance());
     parameters_.size = picture_size(size_);
     parameters_.display = display;
     scene_.set_background(parameters_);
@@ -336,71 +333,11 @@ void ViewerImage::bind_pixels() const {
     }
 }
 
-void ViewerImage::interpolate_vertices() {
-    if (continued_) {
-        continued_->shade();
-    }
-    store_.bind();
-    bind_pixels();
-    programs_.vertex_irradiance.set("vertex_count", scene_.vertex_count());
-    programs_.vertex_irradiance.dispatch(scene_.vertex_count());
-}
-
-float ViewerImage::display_factor(float exposure) {
-    return mid_grey * std::exp2(exposure);
-}
-
-void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_size,
-                          const ColourScale& scale) {
-    interpolate_vertices();
-    const float factor = mode == DisplayMode::photo
-                             ? display_factor(exposure) * scene_.radiance_unit()
-                             : scale.maximum;
-    parameters_.display = {scene_.radiance_unit(), factor, confidence_weight, scale.isolines};
-    upload_view();
-    frame_size = glm::clamp(frame_size, glm::uvec2(1), size_);
-    const auto index = static_cast<std::size_t>(mode);
-    const ShaderProgram& program =
-        frame_size == size_ ? programs_.compose[index] : programs_.compose_scaled[index];
-    program.set("triangle_count", scene_.triangle_count());
-    program.set("frame_width", frame_size.x);
-    program.set("frame_height", frame_size.y);
-    program.dispatch(pixel_count(frame_size));
-    frame_bytes_ = pixel_count(frame_size) * sizeof(std::uint32_t);
-    const bool smoothed = frame_size == size_ && edges_->complete();
-    frame_readback_->request(
-        smoothed ? edges_->average(programs_.edges, frame_, mode == DisplayMode::photo) : frame_,
-        frame_bytes_);
-}
-
-void ViewerImage::request_depths(std::uint32_t columns) {
-    const glm::uvec2 points = DepthGrid::points_for(columns, size_);
-    if (!depth_grid_ || depth_grid_->points() != points) {
-        depth_grid_.emplace(points);
-    }
-    depth_grid_->request(programs_.depths, depths_, size_, near_share * scene_.diameter());
-}
-
 void ViewerImage::refresh_continued(const Buffer& ends, const Camera& camera, float kept_weight) {
     ends_ = &ends;
     camera_ = camera;
     refresh_geometry(kept_weight);
     clear_increments();
-}
-
-void ViewerImage::shade_continued(const Buffer& radiance) {
-    interpolate_vertices();
-    parameters_.display = {1.0F, 1.0F, confidence_weight, 0.0F};
-    upload_view();
-    radiance.bind_storage(BINDING_FRAME);
-    programs_.compose_linear.set("triangle_count", scene_.triangle_count());
-    programs_.compose_linear.set("frame_width", size_.x);
-    programs_.compose_linear.set("frame_height", size_.y);
-    programs_.compose_linear.dispatch(pixel_count(size_));
-}
-
-std::span<const std::uint8_t> ViewerImage::take() {
-    return frame_readback_->take_as<std::uint8_t>();
 }
 
 std::size_t ViewerImage::bytes() const {

@@ -192,6 +192,7 @@ class ViewerImage : public BundleReceiver {
     /// Samples that a pixel needs to outweigh the object-space value.
     static constexpr float confidence_weight = 6.0F;
     static constexpr float mid_grey = 0.18F;
+    static constexpr float near_share = 1e-4F;  // of the scene's diameter
 
     static std::size_t pixel_count(glm::uvec2 size) { return std::size_t{size.x} * size.y; }
 
@@ -225,6 +226,7 @@ class ViewerImage : public BundleReceiver {
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
+    [[nodiscard]] float near_distance() const { return near_share * scene_.diameter(); }
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 
     const GpuScene& scene_;
