@@ -7,13 +7,17 @@
 namespace raybundle {
 namespace {
 
-constexpr unsigned finest_grid = 4;
+constexpr unsigned finest_grid = 8;
 constexpr std::size_t most_pixels = std::size_t{1}
                                     << 21U;  // drawn, of all pictures but larger ones
 constexpr std::uint64_t first_look = 64;     // iterations
 /// Finer pixels are due when this share of the noise is less than what the pixels do not resolve.
 /// That is estimated too low where light changes within them along edges.
 constexpr double due_share = 0.2;
+/// The finest ones, four times as many again, take most of the time from then on, so they are due
+/// only where noise is not the larger part by much. Cornell box, 128x128, 20 s: 1.0 % of error,
+/// 1.4 % where they were due as the coarser ones are.
+constexpr double due_share_of_finest = 0.7;
 /// Paths of a pixel for each iteration, at most, beside those of the first rounds: a few percent of
 /// the time. Fewer where the squared error is known well.
 constexpr double most_rounds = 0.03;  // of 8 paths
@@ -67,7 +71,8 @@ void FinalPicture::prepare() {
     if (may_refine() && iterations_ == next_look_) {
         next_look_ *= 2;
         measure();
-        if (statistics_.known && statistics_.discretisation > due_share * statistics_.noise) {
+        const double share = 2 * grid_ == finest_grid ? due_share_of_finest : due_share;
+        if (statistics_.known && statistics_.discretisation > share * statistics_.noise) {
             image_.refine(2);
             grid_ *= 2;
             image_.show_means_over(grid_);
