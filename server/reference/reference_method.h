@@ -50,7 +50,8 @@ class ReferenceMethod {
 /// transmission, and single rays no glass.
 std::string reason_against(ReferenceKind kind, const RayScene& scene);
 
-/// Which light a method does not find in a picture, though it shows the rest; empty: it finds all.
+/// Which light a method does not find in a picture, though it shows the rest of the light path
+/// classes that it is for; empty: it finds all of them.
 std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera& camera,
                          glm::uvec2 size);
 

@@ -78,7 +78,7 @@ Material mirror() {
     return material;
 }
 
-/// All ways that light takes by mirrors and glass, seen through them and beside them.
+/// Light by way of a mirror, a pane and a tinted body, seen through them and beside them.
 View glass_view() {
     View view{enclosure(0.6F), camera_at({0.3F, 1.6F, 0.3F}, {2.2F, 1.1F, 2.6F}, 1.1F)};
     SceneBuilder& b = view.builder;
@@ -148,14 +148,6 @@ View immersed_view() {
 }
 
 }  // namespace
-
-Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov) {
-    Camera camera;
-    camera.eye = glm::vec3(odd_rotation() * glm::vec4(eye, 1.0F));
-    camera.target = glm::vec3(odd_rotation() * glm::vec4(target, 1.0F));
-    camera.vertical_fov = fov;
-    return camera;
-}
 
 View agreement_view(int index) {
     switch (index) {

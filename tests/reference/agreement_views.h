@@ -12,9 +12,6 @@ struct View {
     int effort = 1;  ///< factor of the samples that it needs
 };
 
-/// A camera in the space before odd_rotation().
-Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov);
-
 /// 0: a furnished room; 1 to 3: light by a glossy floor alone, of each of glossy_materials();
 /// 4: punctual lights, sky and sun; 5: a mirror, a pane and a body of glass in a room; 6: caustics
 /// of a body of glass and a mirror; 7: the same of surfaces whose normals lean;

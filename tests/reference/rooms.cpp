@@ -42,6 +42,14 @@ Estimate estimate(std::uint32_t count, const std::function<double(std::uint32_t)
 
 }  // namespace
 
+Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov) {
+    Camera camera;
+    camera.eye = glm::vec3(odd_rotation() * glm::vec4(eye, 1.0F));
+    camera.target = glm::vec3(odd_rotation() * glm::vec4(target, 1.0F));
+    camera.vertical_fov = fov;
+    return camera;
+}
+
 SceneBuilder furnace_room(float albedo, float emission) {
     SceneBuilder b;
     b.set_transform(odd_rotation());

@@ -17,6 +17,9 @@ inline glm::mat4 odd_rotation() {
     return glm::rotate(glm::mat4(1.0F), 0.7F, glm::normalize(glm::vec3(0.3F, 1.0F, 0.5F)));
 }
 
+/// A camera in the space before odd_rotation().
+Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov);
+
 /// An L-shaped room that emits `emission` cd/m² everywhere: radiance emission/(1 - albedo).
 SceneBuilder furnace_room(float albedo, float emission);
 

@@ -6,18 +6,6 @@
 #include <cmath>
 
 namespace raybundle {
-namespace {
-
-Camera camera_at(const glm::vec3& eye, const glm::vec3& target, float fov) {
-    Camera camera;
-    camera.eye = glm::vec3(odd_rotation() * glm::vec4(eye, 1.0F));
-    camera.target = glm::vec3(odd_rotation() * glm::vec4(target, 1.0F));
-    camera.vertical_fov = fov;
-    return camera;
-}
-
-}  // namespace
-
 WalkScene constant_scene() {
     SceneBuilder b;
     b.set_transform(odd_rotation());
