@@ -9,7 +9,8 @@ uniform bool balanced;  // a sky sends flux of its own: no balance
 uniform bool constant_radiance;
 uniform bool shoots_only;  // nothing but perspective bundles: no line that meets nothing is ever looked at
 
-/// Share of outgoing flux that reaches a patch.
+/// Share of outgoing flux that reaches a patch: of what was shot, not of what there is to shoot, since few shots
+/// are far from that.
 vec3 arriving_share() {
     vec3 sent = balance.outgoing.rgb;
     vec3 k = vec3(1.0);
@@ -23,14 +24,17 @@ vec3 arriving_share() {
 /// iteration is the overall level, which forgets its dark start like albedo^n and magnifies noise by
 /// 1/(1 - albedo). But the level follows from energy conservation: with k the share of outgoing flux
 /// that reaches a patch, s X = k (Phi_e + s R)  for incident flux X and reflected flux R.
-/// 1 - k is what leaves the scene or meets backs, exactly 0 in a closed one.
+/// 1 - k is what leaves the scene or meets backs, exactly 0 in a closed one. Where little arrives the
+/// iteration forgets its start by itself, while what is known of k is mostly noise: the whole level would
+/// follow that.
 vec3 balanced_scale(FluxSums total) {
     vec3 k = arriving_share();
     vec3 scale = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
         float missing = total.incident[c] - k[c] * total.reflected[c];
         if (missing > 0.0 && total.emitted[c] > 0.0) {
-            scale[c] = clamp(k[c] * total.emitted[c] / missing, 0.02, 50.0);
+            float exact = clamp(k[c] * total.emitted[c] / missing, 0.02, 50.0);
+            scale[c] = pow(exact, smoothstep(0.3, 0.6, k[c]));
         }
     }
     return scale;

@@ -20,9 +20,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
-layout(std430, binding = BINDING_FLUX) readonly buffer FluxBuffer { FluxSums flux[]; };
 uniform uint patch_count;
-uniform uint block_count;
 uniform float shooter_density;  // p_j / A_j of a perspective bundle
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
@@ -49,10 +47,9 @@ vec3 finite_or_none(vec3 light) {
 void note_escaped_flux() {
     vec3 shot = 3.14159265359 * (counters.shooter_radiance.rgb + bundle.constant.rgb) / shooter_density;
     float share = float(counters.escaped) * 5.9604645e-8;
-    FluxSums total = flux[block_count];
-    balance.escaped.rgb += finite_or_none(weight * share * shot);
-    balance.outgoing.rgb += weight * (total.emitted.rgb + total.reflected.rgb);
-    balance.outgoing.w += weight;
+    shot = finite_or_none(weight * shot);
+    balance.escaped.rgb += share * shot;
+    balance.outgoing += vec4(shot, weight);
     counters.escaped = 0;
 }
 

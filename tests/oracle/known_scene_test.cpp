@@ -3,6 +3,8 @@
 // more iterations, in ../heavy/known_scene_statistics_test.cpp. Seeds are fixed.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "hard_rooms.h"
 #include "methods.h"
 
@@ -61,6 +63,40 @@ INSTANTIATE_TEST_SUITE_P(
                     Quick{"sphere", sphere, three_strategies(), 1024, 0.005},
                     Quick{"sphere", sphere, single_ray(), 2048, 0.005}),
     quick_name);
+
+/// A white plate of 1 m² hangs 1 m above a shining black field of 16 x 16 m: of all light that is
+/// sent 1 in 250 arrives anywhere. What the field receives below the plate is what the plate
+/// reflects times the form factor of facing unit squares (Howell, C-11); the light that escapes
+/// says next to nothing about it.
+TEST(OpenField, PlateAboveItReflectsWhatItReceives) {
+    constexpr double factor = 0.199825;  // of squares 1 m apart
+    constexpr float albedo = 0.9F;
+    SceneBuilder b;
+    const auto white = b.add_material(glm::vec3(albedo));
+    const auto field = b.add_material(glm::vec3(0.0F), glm::vec3(100.0F));
+    b.add_quad({0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 4, 4, white);
+    const std::size_t below = b.mesh.patch_count();
+    b.add_quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 4, 4, field);
+    const std::size_t rest = b.mesh.patch_count();
+    b.add_quad({-8, 0, -8}, {0, 0, 16}, {8, 0, 0}, 16, 8, field);
+    b.add_quad({1, 0, -8}, {0, 0, 16}, {7, 0, 0}, 16, 7, field);
+    b.add_quad({0, 0, -8}, {0, 0, 8}, {1, 0, 0}, 8, 1, field);
+    b.add_quad({0, 0, 1}, {0, 0, 7}, {1, 0, 0}, 7, 1, field);
+    // Black surfaces take part in the choice of shooters.
+    b.add_quad({-12, -1, -12}, {24, 0, 0}, {0, 0, 24}, 4, 4, b.add_material(glm::vec3(0.0F)));
+    OracleSettings settings;
+    settings.iterations = 4096;
+    settings.resolution = {128, 240};
+    // Few of the perspective bundles set out from the plate.
+    for (const auto& [method, bound] : {std::pair{combined(), 0.04}, {perspective(), 0.15}}) {
+        const auto found = irradiance_by(method, b, settings);
+        const double received = area_mean(b.mesh, found, 0, below);
+        const double reflected = area_mean(b.mesh, found, below, rest);
+        EXPECT_NEAR(received, 0.985 * 100.0 * glm::pi<double>(), 0.01 * received) << method.name;
+        EXPECT_NEAR(reflected / (static_cast<double>(albedo) * received * factor), 1.0, bound)
+            << method.name;
+    }
+}
 
 class DensityOfOneStrategy : public testing::TestWithParam<Method> {};
 
