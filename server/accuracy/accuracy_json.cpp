@@ -14,7 +14,7 @@ Json number(double value) {
 }
 
 Json json_of(const ReferenceReport& reference) {
-    return {{"method", "path"},
+    return {{"method", "path-reuse"},
             {"pixelFilter", filter_name(reference.filter)},
             {"file", reference.file},
             {"samples", reference.samples},

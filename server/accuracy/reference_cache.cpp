@@ -118,7 +118,7 @@ void save_reference(const std::string& exr, const ReferenceKey& key,
     write_exr(exr, static_cast<int>(key.size.x), static_cast<int>(key.size.y), pixels);
     const ReferenceNoise noise = reference.noise.value_or(ReferenceNoise{});
     const Json json = {{"of", json_of(key)},
-                       {"method", "path"},
+                       {"method", "path-reuse"},
                        {"relativeError", noise.relative_rmse},
                        {"mrse", noise.mrse},
                        {"samples", reference.samples},

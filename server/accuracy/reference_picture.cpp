@@ -41,7 +41,7 @@ ReferenceMaker::ReferenceMaker(const RayScene& scene, const LightSampling& light
                                const CameraRays& camera, const std::vector<bool>& measured,
                                PixelFilter filter, std::uint64_t seed,
                                std::optional<ReferencePicture> earlier)
-    : tracer_(scene, lights),
+    : paths_(scene, lights),
       camera_(camera),
       measured_(measured),
       // Samples on top of earlier ones must not repeat them.
@@ -52,10 +52,7 @@ ReferenceMaker::ReferenceMaker(const RayScene& scene, const LightSampling& light
 
 void ReferenceMaker::add_pass() {
     const Clock::time_point start = Clock::now();
-    image_.add_pass(camera_, [this](const glm::dvec3& origin, const glm::dvec3& direction,
-                                    PixelSampler& sampler) {
-        return tracer_.radiance(origin, direction, sampler);
-    });
+    paths_.add_pass(image_, camera_);
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
 }
 

@@ -9,7 +9,7 @@
 
 #include "reference/image_estimate.h"
 #include "reference/light_sampling.h"
-#include "reference/path_tracer.h"
+#include "reference/path_reuse.h"
 #include "reference/ray_scene.h"
 
 namespace raybundle {
@@ -59,7 +59,7 @@ class ReferenceMaker {
     /// Weight of the earlier picture, by the variances.
     [[nodiscard]] double earlier_weight(const ReferenceNoise& own) const;
 
-    PathTracer tracer_;
+    PathReuse paths_;
     CameraRays camera_;
     std::vector<bool> measured_;
     std::uint64_t seed_;

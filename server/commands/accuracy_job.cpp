@@ -24,11 +24,12 @@ std::vector<std::string> split(const std::string& list) {
     return names;
 }
 
-/// All that solve the whole transport, unless the user names some.
+/// All that solve the whole transport but the reference's own, unless the user names some.
 std::vector<std::string> chosen_methods(const Options& options) {
     if (options.methods.empty()) {
         std::vector<std::string> names = method_names();
         std::erase(names, "ray-cast");
+        std::erase(names, "path-reuse");
         return names;
     }
     std::vector<std::string> names = split(options.methods);

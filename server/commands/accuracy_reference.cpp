@@ -37,7 +37,8 @@ class Refinement {
             if (noise * reference_margin <= best || !has_time()) {
                 return finished(now, best);
             }
-            refine_to(best > 0.0 ? safety * best / reference_margin : 0.5 * noise);
+            // What a noisy reference says of the best picture may be far too little.
+            refine_to(std::max(safety * best / reference_margin, 0.5 * noise));
         }
     }
 

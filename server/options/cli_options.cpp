@@ -45,6 +45,7 @@ const MethodRow method_table[] = {
     {"parallel-plane", StrategyProbabilities{0.0F, 1.0F, 0.0F}},
     {"perspective", StrategyProbabilities{0.0F, 0.0F, 1.0F}},
     {"path", ReferenceKind::path},
+    {"path-reuse", ReferenceKind::path_reuse},
     {"single-ray", ReferenceKind::single_ray},
     {"ray-cast", ReferenceKind::ray_cast},
     {"light", ReferenceKind::light},
@@ -158,8 +159,8 @@ void add_render(CLI::App& app, Options& o) {
     app.add_option("--method", o.method,
                    "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
                    "CPU, as references, "
-                   "path, single-ray, ray-cast (direct light alone), light, bidirectional, "
-                   "metropolis, photon-map")
+                   "path, path-reuse (path tracing, shared by neighbouring pixels), single-ray, "
+                   "ray-cast (direct light alone), light, bidirectional, metropolis, photon-map")
         ->capture_default_str();
     app.add_option(
            "--bias-for-noise", o.bias_for_noise,

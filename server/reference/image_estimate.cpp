@@ -73,7 +73,35 @@ void ImageEstimate::add_splatting_pass(const CameraRays& camera,
     ++passes_;
 }
 
-ImageEstimate::PixelRay ImageEstimate::next_ray(std::size_t pixel, const CameraRays& camera) const {
+void ImageEstimate::add_tiled_pass(const CameraRays& camera, std::uint32_t side,
+                                   const TileEstimator& estimator) {
+    dependent_ = side * side;
+    const glm::uvec2 tiles = (size_ + side - 1U) / side;
+    std::atomic<std::uint64_t> dropped{0};
+    tbb::parallel_for(0U, tiles.x * tiles.y, [&](std::uint32_t tile) {
+        const glm::uvec2 first = side * glm::uvec2(tile % tiles.x, tile / tiles.x);
+        const glm::uvec2 end = glm::min(first + side, size_);
+        std::vector<std::size_t> pixels;
+        std::vector<PixelRay> rays;
+        for (std::uint32_t y = first.y; y < end.y; ++y) {
+            for (std::uint32_t x = first.x; x < end.x; ++x) {
+                pixels.push_back(std::size_t{y} * size_.x + x);
+                rays.push_back(next_ray(pixels.back(), camera));
+            }
+        }
+        std::vector<glm::dvec3> radiance(rays.size(), glm::dvec3(0.0));
+        estimator(camera.origin(), rays, radiance);
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            if (!add(pixels[i], radiance[i])) {
+                ++dropped;
+            }
+        }
+    });
+    ++passes_;
+    non_finite_ += dropped;
+}
+
+PixelRay ImageEstimate::next_ray(std::size_t pixel, const CameraRays& camera) const {
     const auto batch = static_cast<std::uint32_t>(passes_ % batches);
     const auto shown = pixels_.empty() ? static_cast<std::uint32_t>(pixel) : pixels_[pixel];
     PixelSampler sampler(seed_, shown, batch, static_cast<std::uint32_t>(passes_ / batches));
@@ -136,7 +164,7 @@ ImageError ImageEstimate::error(const std::vector<bool>& measured) const {
             sum.add(mean(pixel), e * e);
         }
     }
-    return sum.independent_error(batches - 1);
+    return sum.independent_error((batches - 1.0) / dependent_);
 }
 
 double VarianceSum::relative() const {

@@ -53,6 +53,16 @@ using SplattingEstimator =
     std::function<glm::dvec3(const glm::dvec3& origin, const glm::dvec3& direction,
                              PixelSampler& sampler, std::vector<Splat>& splats)>;
 
+/// A sample's ray from the eye and the numbers for the rest of its path.
+struct PixelRay {
+    glm::dvec3 direction;  ///< unit
+    PixelSampler sampler;
+};
+
+/// An estimator of some pixels near each other at once: sets the radiance of each ray.
+using TileEstimator = std::function<void(const glm::dvec3& origin, std::span<PixelRay> rays,
+                                         std::span<glm::dvec3> radiance)>;
+
 /// What a pixel measures: the mean over its area, or its centre alone, as the viewers' geometry
 /// buffers do.
 enum class PixelFilter { box, centre };
@@ -75,6 +85,11 @@ class ImageEstimate {
     /// The same; splats are added in order of the pixels that they come from.
     void add_splatting_pass(const CameraRays& camera, const SplattingEstimator& estimator);
 
+    /// The same for square tiles of pixels at a time, `side` pixels wide but at the picture's right
+    /// and lower edges, whose estimates may depend on each other. For whole pictures only.
+    void add_tiled_pass(const CameraRays& camera, std::uint32_t side,
+                        const TileEstimator& estimator);
+
     [[nodiscard]] const glm::uvec2& size() const { return size_; }
     [[nodiscard]] std::uint64_t passes() const { return passes_; }
     [[nodiscard]] std::uint64_t non_finite() const { return non_finite_; }  ///< samples dropped
@@ -89,11 +104,6 @@ class ImageEstimate {
     [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
 
   private:
-    struct PixelRay {
-        glm::dvec3 direction;
-        PixelSampler sampler;
-    };
-
     [[nodiscard]] PixelRay next_ray(std::size_t pixel, const CameraRays& camera) const;
     /// False where the value is not finite and was dropped.
     bool add(std::size_t pixel, const glm::dvec3& value);
@@ -108,6 +118,7 @@ class ImageEstimate {
     PixelFilter filter_;
     std::uint64_t passes_ = 0;
     std::uint64_t non_finite_ = 0;
+    std::uint32_t dependent_ = 1;   // pixels whose samples may depend on each other
     std::vector<glm::dvec3> sums_;  // [pixel * batches + batch]
 };
 

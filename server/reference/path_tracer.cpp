@@ -17,35 +17,41 @@ PathTracer::PathTracer(const RayScene& scene, const LightSampling& lights,
     }
 }
 
-/// Chance with which a walk survives its reflection at a point; throughput: with that reflection.
-double PathTracer::survival_chance(const SurfacePoint& point, const Scattering& scattering,
-                                   const glm::dvec3& throughput) const {
+/// Chance with which a path survives the reflection that its throughput includes already.
+double PathTracer::survival_chance(const PathEnd& end) const {
     switch (settings_.survival) {
         case Survival::albedo:
-            return largest_channel(
-                tables_->albedo(scene_.mesh().triangle_material[point.triangle], scattering));
+            return largest_channel(tables_->albedo(
+                scene_.mesh().triangle_material[end.point.triangle], end.scattering));
         case Survival::fixed:
             return settings_.survival_probability;
         case Survival::throughput:
             break;
     }
-    return std::min(largest_channel(throughput), 1.0);
+    return std::min(largest_channel(end.throughput), 1.0);
 }
+
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
-    const SpecularWalk seen = walk_specular(scene_, scene_.trace(origin, direction), direction,
+    const Seen seen = see(origin, direction, sampler);
+    return seen.end ? seen.emitted + reflected(*seen.end, sampler) : seen.emitted;
+}
+
+Seen PathTracer::see(const glm::dvec3& origin, const glm::dvec3& direction,
+                     Sampler& sampler) const {
+    const SpecularWalk walk = walk_specular(scene_, scene_.trace(origin, direction), direction,
                                             Carried::radiance, sampler);
-    if (!seen.hit) {
-        return seen.weight * background_towards(scene_.scene(), seen.direction);
+    if (!walk.hit) {
+        return {walk.weight * background_towards(scene_.scene(), walk.direction), {}};
     }
-    const glm::dvec3 sum = scene_.shown_emission(*seen.hit);
-    if (seen.hit->absorbs()) {
-        return seen.weight * sum;
+    Seen seen{walk.weight * scene_.shown_emission(*walk.hit), {}};
+    if (!walk.hit->absorbs()) {
+        PathEnd end{*walk.hit, Scattering(scene_, *walk.hit, NormalKind::shading, -walk.direction),
+                    walk.weight, 0, walk.passed};
+        end.throughput *= choose_side(end.point, end.scattering, sampler);
+        seen.end = end;
     }
-    SurfacePoint point = *seen.hit;
-    Scattering scattering(scene_, point, NormalKind::shading, -seen.direction);
-    const double factor = choose_side(point, scattering, sampler);
-    return seen.weight * (sum + factor * reflected(point, scattering, sampler));
+    return seen;
 }
 
 double PathTracer::choose_side(SurfacePoint& point, Scattering& scattering,
@@ -66,7 +72,7 @@ double PathTracer::choose_side(SurfacePoint& point, Scattering& scattering,
 }
 
 glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) const {
-    return glm::pi<double>() * reflected(point, Scattering::white(point), sampler);
+    return glm::pi<double>() * reflected({point, Scattering::white(point)}, sampler);
 }
 
 glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit,
@@ -74,45 +80,49 @@ glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit,
     return hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), direction);
 }
 
-glm::dvec3 PathTracer::reflected(SurfacePoint point, Scattering scattering,
-                                 Sampler& sampler) const {
+glm::dvec3 PathTracer::reflected(PathEnd end, Sampler& sampler) const {
     glm::dvec3 sum(0.0);
-    glm::dvec3 throughput(1.0);
-    for (int bounce = 0; bounce < settings_.max_bounces; ++bounce) {
-        sum += throughput * next_event(point, scattering, sampler);
-        const glm::dvec2 u = sampler.next_pair();
-        const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
-        if (!next) {
-            break;
-        }
-        throughput *= next->weight;
-        if (bounce >= settings_.certain_bounces) {
-            const double chance = survival_chance(point, scattering, throughput);
-            if (sampler.next() >= chance) {
-                break;
-            }
-            throughput /= chance;
-        }
-        const SpecularWalk met = walk_specular(scene_, scene_.trace_from(point, next->direction),
-                                               next->direction, Carried::radiance, sampler);
-        throughput *= met.weight;
-        const glm::dvec3 emission = emitted(met.hit, met.direction);
-        if (emission != glm::dvec3(0.0)) {
-            // No light is sampled by way of glass or ideal mirrors.
-            const bool sampled = settings_.next_event && !met.passed;
-            const double other =
-                sampled ? lights_.density(point, scattering.frame(), next->direction, met.hit)
-                        : 0.0;
-            sum += throughput * emission * (next->density / (next->density + other));
-        }
-        if (!met.hit || met.hit->absorbs()) {
-            break;
-        }
-        point = *met.hit;
-        scattering = Scattering(scene_, point, NormalKind::geometric, -met.direction);
-        throughput *= choose_side(point, scattering, sampler);
+    while (end.bounces < settings_.max_bounces && advance(end, sum, sampler)) {
     }
     return sum;
+}
+
+bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const {
+    sum += end.throughput * next_event(end.point, end.scattering, sampler);
+    const glm::dvec2 u = sampler.next_pair();
+    const std::optional<ScatterSample> next = end.scattering.sample(u, sampler.next());
+    if (!next) {
+        return false;
+    }
+    end.throughput *= next->weight;
+    if (end.bounces >= settings_.certain_bounces) {
+        const double chance = survival_chance(end);
+        if (sampler.next() >= chance) {
+            return false;
+        }
+        end.throughput /= chance;
+    }
+    const SpecularWalk met = walk_specular(scene_, scene_.trace_from(end.point, next->direction),
+                                           next->direction, Carried::radiance, sampler);
+    end.throughput *= met.weight;
+    const glm::dvec3 emission = emitted(met.hit, met.direction);
+    if (emission != glm::dvec3(0.0)) {
+        // No light is sampled by way of glass or ideal mirrors.
+        const bool sampled = settings_.next_event && !met.passed;
+        const double other =
+            sampled ? lights_.density(end.point, end.scattering.frame(), next->direction, met.hit)
+                    : 0.0;
+        sum += end.throughput * emission * (next->density / (next->density + other));
+    }
+    if (!met.hit || met.hit->absorbs()) {
+        return false;
+    }
+    end.point = *met.hit;
+    end.scattering = Scattering(scene_, end.point, NormalKind::geometric, -met.direction);
+    end.passed = met.passed;
+    ++end.bounces;
+    end.throughput *= choose_side(end.point, end.scattering, sampler);
+    return true;
 }
 
 glm::dvec3 PathTracer::next_event(const SurfacePoint& point, const Scattering& scattering,

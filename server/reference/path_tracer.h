@@ -21,6 +21,21 @@ struct PathSettings {
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };
 
+/// A path at a surface, on its way from the eye to the lights.
+struct PathEnd {
+    SurfacePoint point;
+    Scattering scattering;       ///< there, towards where the path came from
+    glm::dvec3 throughput{1.0};  ///< of what it reflects that way
+    int bounces = 0;             ///< before this one
+    bool passed = false;         ///< a mirror or glass since the surface before
+};
+
+/// What a ray from the eye shows.
+struct Seen {
+    glm::dvec3 emitted{0.0};     ///< radiance without what is reflected, cd/m²
+    std::optional<PathEnd> end;  ///< where the surface reflects
+};
+
 /// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation, which glass blocks: light that
 /// comes through glass or from ideal mirrors is met by the paths themselves, that of punctual
 /// lights behind glass not at all. Light that a path meets by itself and light that is sampled are
@@ -38,17 +53,25 @@ class PathTracer {
     /// The same for irradiance: light that arrives at a surface point, lx, cosine included.
     [[nodiscard]] glm::dvec3 irradiance(const SurfacePoint& point, Sampler& sampler) const;
 
+    // The steps that radiance() is made of.
+
+    /// Follows a ray from the eye to the first surface that is neither mirror nor glass.
+    [[nodiscard]] Seen see(const glm::dvec3& origin, const glm::dvec3& direction,
+                           Sampler& sampler) const;
+    /// Goes on to the next surface. Adds to `sum` the light that the surface left behind reflects
+    /// without any other surface, times the throughput, cd/m². False where the path has ended.
+    bool advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const;
+    /// What the path reflects at its end and all surfaces to come, times its throughput, cd/m².
+    [[nodiscard]] glm::dvec3 reflected(PathEnd end, Sampler& sampler) const;
+
   private:
-    [[nodiscard]] glm::dvec3 reflected(SurfacePoint point, Scattering scattering,
-                                       Sampler& sampler) const;
     [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
                                         Sampler& sampler) const;
     /// Where the surface transmits light diffusely, chooses whose light is followed: that of its
     /// own side, or that of the other one. Returns what to multiply it by.
     [[nodiscard]] double choose_side(SurfacePoint& point, Scattering& scattering,
                                      Sampler& sampler) const;
-    [[nodiscard]] double survival_chance(const SurfacePoint& point, const Scattering& scattering,
-                                         const glm::dvec3& throughput) const;
+    [[nodiscard]] double survival_chance(const PathEnd& end) const;
     /// Of what a ray of that direction has met, without punctual lights.
     [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit,
                                      const glm::dvec3& direction) const;

@@ -4,7 +4,7 @@
 namespace raybundle {
 namespace {
 
-std::uint32_t reversed_bits(std::uint32_t x) {
+constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x >> 1U & 0x55555555U) | (x & 0x55555555U) << 1U;
     x = (x >> 2U & 0x33333333U) | (x & 0x33333333U) << 2U;
     x = (x >> 4U & 0x0f0f0f0fU) | (x & 0x0f0f0f0fU) << 4U;
@@ -29,7 +29,7 @@ struct SobolTable {
     std::uint32_t word[4][256];
 };
 
-SobolTable make_sobol_table() {
+constexpr SobolTable make_sobol_table() {
     SobolTable table{};
     std::uint32_t direction = 0x80000000U;  // of index bit 0
     std::uint32_t directions[32];
@@ -50,7 +50,7 @@ SobolTable make_sobol_table() {
 }
 
 std::uint32_t reversed_second_sobol(std::uint32_t index) {
-    static const SobolTable table = make_sobol_table();
+    static constexpr SobolTable table = make_sobol_table();
     return table.word[0][index & 255U] ^ table.word[1][index >> 8U & 255U] ^
            table.word[2][index >> 16U & 255U] ^ table.word[3][index >> 24U];
 }
@@ -91,17 +91,25 @@ PixelSampler::PixelSampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_
                            std::uint32_t index)
     : key_(mixed_bits(mixed_bits(mixed_bits(seed) + pixel) + batch)), index_(index) {}
 
-glm::dvec2 PixelSampler::next_pair() {
-    const std::uint64_t first = mixed_bits(key_ + dimension_);
-    const std::uint64_t second = mixed_bits(first);
-    ++dimension_;
+PixelSampler::Place PixelSampler::next_place() {
+    const std::uint64_t hash = mixed_bits(key_ + dimension_++);
     // A scrambled order of the points decorrelates this pair from the others.
-    const std::uint32_t shuffled =
-        reversed_bits(laine_karras(reversed_bits(index_), static_cast<std::uint32_t>(first)));
+    return {mixed_bits(hash),
+            reversed_bits(laine_karras(reversed_bits(index_), static_cast<std::uint32_t>(hash)))};
+}
+
+double PixelSampler::next() {
+    const Place place = next_place();
     // The first dimension of Sobol' is the index bit-reversed: reversed once more it is the index.
-    const std::uint32_t x = laine_karras(shuffled, static_cast<std::uint32_t>(second));
-    const std::uint32_t y =
-        laine_karras(reversed_second_sobol(shuffled), static_cast<std::uint32_t>(second >> 32U));
+    const std::uint32_t x = laine_karras(place.index, static_cast<std::uint32_t>(place.hash));
+    return unit_interval(reversed_bits(x));
+}
+
+glm::dvec2 PixelSampler::next_pair() {
+    const Place place = next_place();
+    const std::uint32_t x = laine_karras(place.index, static_cast<std::uint32_t>(place.hash));
+    const std::uint32_t y = laine_karras(reversed_second_sobol(place.index),
+                                         static_cast<std::uint32_t>(place.hash >> 32U));
     return {unit_interval(reversed_bits(x)), unit_interval(reversed_bits(y))};
 }
 

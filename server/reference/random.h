@@ -60,10 +60,18 @@ class PixelSampler final : public Sampler {
   public:
     PixelSampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t batch, std::uint32_t index);
 
-    double next() override { return next_pair().x; }
+    double next() override;  ///< the first of a pair
     glm::dvec2 next_pair() override;
 
   private:
+    /// Hashes for the next dimensions and the number of this sample among their points.
+    struct Place {
+        std::uint64_t hash;
+        std::uint32_t index;
+    };
+
+    Place next_place();
+
     std::uint64_t key_;
     std::uint32_t index_;
     std::uint32_t dimension_ = 0;

@@ -204,21 +204,17 @@ bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, flo
 }
 
 bool RayScene::mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const {
-    const glm::vec3 origin = departure(a);
-    return !occluded(origin, departure(b) - origin, 1.0F);
+    return unobstructed(departure(a), departure(b));
 }
 
 bool RayScene::sees_point(const SurfacePoint& from, const glm::dvec3& point) const {
-    const glm::vec3 origin = departure(from);
-    return !occluded(origin, glm::vec3(point) - origin, 1.0F);
+    return unobstructed(departure(from), glm::vec3(point));
 }
 
 bool RayScene::sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const {
     return !occluded(departure(from), glm::vec3(direction), infinity);
 }
 
-/// Where rays from a surface point start: in front of it, and as far from the triangle's edges, so
-/// that a wall that begins there is in front of the ray and not behind or on its start.
 glm::vec3 RayScene::departure(const SurfacePoint& point) const {
     const glm::uvec3& t = mesh_.triangles[point.triangle];
     const glm::dvec3 a(positions_[t.x]);

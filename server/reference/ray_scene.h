@@ -50,6 +50,13 @@ class RayScene {
     /// First surface from a surface point; direction on the side of its normal.
     [[nodiscard]] std::optional<SurfacePoint> trace_from(const SurfacePoint& from,
                                                          const glm::dvec3& direction) const;
+    /// Where rays from a surface point start: in front of it, and as far from the triangle's edges,
+    /// so that a wall that begins there is in front of the ray and not behind or on its start.
+    [[nodiscard]] glm::vec3 departure(const SurfacePoint& point) const;
+    /// Whether nothing lies between two points where rays start.
+    [[nodiscard]] bool unobstructed(const glm::vec3& a, const glm::vec3& b) const {
+        return !occluded(a, b - a, 1.0F);
+    }
     /// Whether nothing lies between two surface points, each in front of the other.
     [[nodiscard]] bool mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const;
     /// Whether nothing lies between a surface point and a point in space in front of it.
@@ -118,7 +125,6 @@ class RayScene {
                                                        const glm::vec3& origin,
                                                        const glm::vec3& direction,
                                                        float distance) const;
-    [[nodiscard]] glm::vec3 departure(const SurfacePoint& point) const;
     [[nodiscard]] glm::dvec2 mesh_uv(const SurfacePoint& point) const;
 
     const Scene& scene_;

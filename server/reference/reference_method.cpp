@@ -8,6 +8,7 @@
 #include "reference/bidirectional.h"
 #include "reference/light_tracer.h"
 #include "reference/metropolis.h"
+#include "reference/path_reuse.h"
 #include "reference/path_tracer.h"
 #include "reference/photon_mapper.h"
 #include "reference/ray_caster.h"
@@ -79,6 +80,31 @@ class SplattingMethod : public ReferenceMethod {
     LightSampling lights_;
     CameraRays camera_;
     Estimator estimator_;
+    std::vector<bool> reflecting_;
+    ImageEstimate image_;
+};
+
+class PathReuseMethod : public ReferenceMethod {
+  public:
+    PathReuseMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
+                    std::uint64_t seed)
+        : lights_(scene),
+          paths_(scene, lights_),
+          camera_(scene, camera, size),
+          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          image_(size, seed) {}
+
+    void iterate() override { paths_.add_pass(image_, camera_); }
+    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
+    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
+    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
+    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
+    [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
+
+  private:
+    LightSampling lights_;
+    PathReuse paths_;
+    CameraRays camera_;
     std::vector<bool> reflecting_;
     ImageEstimate image_;
 };
@@ -179,7 +205,7 @@ bool shows_deflecting(const RayScene& scene, const CameraRays& camera) {
 }  // namespace
 
 std::string reason_against(ReferenceKind kind, const RayScene& scene) {
-    if (kind == ReferenceKind::path) {
+    if (kind == ReferenceKind::path || kind == ReferenceKind::path_reuse) {
         return {};
     }
     if (kind == ReferenceKind::single_ray && has_glass(scene.scene())) {
@@ -189,7 +215,7 @@ std::string reason_against(ReferenceKind kind, const RayScene& scene) {
     }
     if (scene.transmitting()) {
         return "the scene transmits light diffusely, which of the methods on the CPU only path "
-               "follows";
+               "and path-reuse follow";
     }
     return {};
 }
@@ -204,6 +230,7 @@ std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera
     }
     switch (kind) {
         case ReferenceKind::path:
+        case ReferenceKind::path_reuse:
         case ReferenceKind::metropolis:
             return "paths from the eye do not find the light of punctual lights by way of glass; "
                    "bidirectional paths and photon maps do";
@@ -225,6 +252,8 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
         throw std::runtime_error(reason);
     }
     switch (kind) {
+        case ReferenceKind::path_reuse:
+            return std::make_unique<PathReuseMethod>(scene, camera, size, seed);
         case ReferenceKind::single_ray:
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);
         case ReferenceKind::ray_cast:

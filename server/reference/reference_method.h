@@ -16,6 +16,7 @@ namespace raybundle {
 /// The comparison methods of `render --method`.
 enum class ReferenceKind {
     path,
+    path_reuse,
     single_ray,
     ray_cast,
     light,

@@ -76,8 +76,8 @@ TEST_P(Render, NeedsNoGlContextAndRepeatsItsBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Render,
-                         testing::Values("path", "single-ray", "ray-cast", "light", "bidirectional",
-                                         "metropolis", "photon-map"));
+                         testing::Values("path", "path-reuse", "single-ray", "ray-cast", "light",
+                                         "bidirectional", "metropolis", "photon-map"));
 
 class RenderFailure : public Render {};
 

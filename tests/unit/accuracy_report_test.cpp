@@ -61,7 +61,7 @@ TEST(AccuracyJson, HasWhatScriptsDependOn) {
     EXPECT_EQ(json["device"], "a GPU");
     EXPECT_EQ(json["size"], (nlohmann::ordered_json{2, 1}));
     EXPECT_EQ(json["patches"], 12);
-    EXPECT_EQ(json["reference"]["method"], "path");
+    EXPECT_EQ(json["reference"]["method"], "path-reuse");
     EXPECT_EQ(json["reference"]["seconds"], 3.5);
     EXPECT_EQ(json["reference"]["relativeError"], 0.005);
     EXPECT_TRUE(json["references"][1]["relativeError"].is_null());

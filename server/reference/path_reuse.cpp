@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/path_reuse.h"
+
+#include <cmath>
+#include <optional>
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t tile_side = 5;  // pixels
+
+/// One pixel's way to an offered point.
+struct Join {
+    glm::dvec3 reflected{0.0};  // f_r cos / squared distance, with the cosine of the offered point
+    double density = 0.0;       // with which the pixel's own path goes there, per area
+};
+
+Join join(const PathEnd& from, const SurfacePoint& to) {
+    const glm::dvec3 way = to.position - from.point.position;
+    const double squared_distance = glm::dot(way, way);
+    if (!(squared_distance > 0.0)) {
+        return {};
+    }
+    const glm::dvec3 direction = way / std::sqrt(squared_distance);
+    const double cosine = -glm::dot(direction, to.normal);
+    if (!(cosine > 0.0)) {
+        return {};
+    }
+    const double solid_angle = cosine / squared_distance;  // per area
+    return {from.scattering.evaluate(direction) * solid_angle,
+            from.scattering.density(direction) * solid_angle};
+}
+
+}  // namespace
+
+void PathReuse::add_pass(ImageEstimate& image, const CameraRays& camera) const {
+    image.add_tiled_pass(camera, tile_side,
+                         [this](const glm::dvec3& origin, std::span<PixelRay> rays,
+                                std::span<glm::dvec3> values) { radiance(origin, rays, values); });
+}
+
+void PathReuse::radiance(const glm::dvec3& origin, std::span<PixelRay> rays,
+                         std::span<glm::dvec3> radiance) const {
+    std::vector<View> views;
+    std::vector<Offer> offers;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        Sampler& sampler = rays[i].sampler;
+        const Seen seen = tracer_.see(origin, rays[i].direction, sampler);
+        radiance[i] = seen.emitted;
+        if (!seen.end) {
+            continue;
+        }
+        views.push_back({i, *seen.end, scene_.departure(seen.end->point)});
+        PathEnd end = *seen.end;
+        if (!tracer_.advance(end, radiance[i], sampler)) {
+            continue;
+        }
+        if (!end.scattering.is_lambert() || end.passed || transmits(scene_.material(end.point))) {
+            radiance[i] += tracer_.reflected(end, sampler);
+            continue;
+        }
+        end.throughput = glm::dvec3(1.0);
+        const Offer offer{i, end.point, tracer_.reflected(end, sampler)};
+        if (offer.radiance != glm::dvec3(0.0)) {
+            offers.push_back(offer);
+        }
+    }
+    for (const Offer& offer : offers) {
+        share(offer, views, radiance);
+    }
+}
+
+void PathReuse::share(const Offer& offer, std::span<const View> views,
+                      std::span<glm::dvec3> radiance) const {
+    const glm::vec3 arrival = scene_.departure(offer.point);
+    std::vector<Join> joins;
+    double density = 0.0;
+    for (const View& view : views) {
+        Join way = join(view.end, offer.point);
+        const bool open = way.density > 0.0 && (view.pixel == offer.pixel ||
+                                                scene_.unobstructed(view.departure, arrival));
+        joins.push_back(open ? way : Join{});
+        density += joins.back().density;
+    }
+    if (!(density > 0.0)) {
+        return;
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        radiance[views[i].pixel] +=
+            views[i].end.throughput * joins[i].reflected * offer.radiance / density;
+    }
+}
+
+}  // namespace raybundle
