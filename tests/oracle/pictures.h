@@ -8,29 +8,28 @@
 #include <vector>
 
 #include "reference/camera_rays.h"
-#include "reference/path_tracer.h"
+#include "reference/path_reuse.h"
+#include "reference/solution_picture.h"
 
 namespace raybundle {
 
-/// Path tracing through the centres of pixels, where the solver looks too.
+/// Path tracing through the centres of pixels, where the solver looks too; -1 where they show the
+/// sky. Neighbouring pixels share their paths.
 inline std::vector<glm::dvec3> path_traced_centres(const Scene& scene, const PatchMesh& mesh,
                                                    const Camera& view, glm::uvec2 size,
                                                    std::uint32_t paths) {
     const RayScene rays(scene, mesh);
     const LightSampling lights(rays);
-    const PathTracer tracer(rays, lights);
+    const PathReuse tracer(rays, lights);
     const CameraRays camera(rays, view, size);
-    std::vector<glm::dvec3> picture;
-    for (std::uint32_t pixel = 0; pixel < size.x * size.y; ++pixel) {
-        const glm::dvec3 direction = camera.direction(camera.corner(pixel) + 0.5);
-        const bool sky = !rays.trace(camera.origin(), direction);
-        glm::dvec3 sum(0.0);
-        const std::uint32_t count = sky ? 1 : paths;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            PixelSampler sampler(1, pixel, 0, i);
-            sum += tracer.radiance(camera.origin(), direction, sampler);
-        }
-        picture.push_back(sky ? glm::dvec3(-1.0) : sum / static_cast<double>(count));
+    ImageEstimate image(size, 1, PixelFilter::centre);
+    for (std::uint32_t i = 0; i < paths; ++i) {
+        tracer.add_pass(image, camera);
+    }
+    std::vector<glm::dvec3> picture = image.means();
+    const auto centres = pixel_centres(rays, camera);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        picture[i] = centres[i] ? picture[i] : glm::dvec3(-1.0);
     }
     return picture;
 }
