@@ -14,7 +14,7 @@ Json number(double value) {
 }
 
 Json json_of(const ReferenceReport& reference) {
-    return {{"method", "path-reuse"},
+    return {{"method", reference.method.empty() ? Json(nullptr) : Json(reference.method)},
             {"pixelFilter", filter_name(reference.filter)},
             {"file", reference.file},
             {"samples", reference.samples},

@@ -13,6 +13,7 @@ namespace raybundle {
 /// A reference as the report tells of it.
 struct ReferenceReport {
     PixelFilter filter = PixelFilter::centre;
+    std::string method;  ///< empty: a file from elsewhere
     std::string file;
     std::optional<ReferenceNoise> noise;  ///< nothing: a file from elsewhere
     std::uint64_t samples = 0;

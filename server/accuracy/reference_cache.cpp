@@ -60,6 +60,7 @@ ReferencePicture read_with_sidecar(const std::string& exr, const ReferenceKey& k
     ReferencePicture result = read_picture(exr, key.size);
     try {
         result.filter = key.filter;
+        result.method = sidecar.value("method", "");
         result.noise = {sidecar.at("relativeError").get<double>(),
                         sidecar.at("mrse").get<double>()};
         result.samples = sidecar.at("samples").get<std::uint64_t>();
@@ -118,7 +119,7 @@ void save_reference(const std::string& exr, const ReferenceKey& key,
     write_exr(exr, static_cast<int>(key.size.x), static_cast<int>(key.size.y), pixels);
     const ReferenceNoise noise = reference.noise.value_or(ReferenceNoise{});
     const Json json = {{"of", json_of(key)},
-                       {"method", "path-reuse"},
+                       {"method", reference.method},
                        {"relativeError", noise.relative_rmse},
                        {"mrse", noise.mrse},
                        {"samples", reference.samples},

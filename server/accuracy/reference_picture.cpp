@@ -14,6 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* own_method = "path-reuse";
 constexpr double mrse_floor = 0.01;  // of the mean, as in compare_images()
 
 double squared(double value) {
@@ -110,9 +111,16 @@ ReferencePicture ReferenceMaker::result() const {
     if (image_.passes() < ImageEstimate::batches && earlier_) {
         return *earlier_;
     }
-    ReferencePicture result{filter_, image_.means(), own_noise(), image_.passes(), seed_, seconds_};
+    ReferencePicture result{filter_,         own_method, image_.means(), own_noise(),
+                            image_.passes(), seed_,      seconds_};
     if (!earlier_) {
         return result;
+    }
+    const std::string& before = earlier_->method;
+    if (before.find(own_method) != std::string::npos) {
+        result.method = before;
+    } else {
+        result.method = before.empty() ? "" : before + ", " + own_method;
     }
     const double w = earlier_weight(*result.noise);
     for (std::size_t i = 0; i < result.radiance.size(); ++i) {

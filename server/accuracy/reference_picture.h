@@ -23,6 +23,7 @@ struct ReferenceNoise {
 /// A finished picture to measure others against.
 struct ReferencePicture {
     PixelFilter filter = PixelFilter::centre;
+    std::string method;                ///< as `--method` names it; empty where that is not known
     std::vector<glm::dvec3> radiance;  ///< cd/m², row 0 at the top
     /// Nothing where it is not known, as of a file from elsewhere.
     std::optional<ReferenceNoise> noise;
@@ -38,8 +39,8 @@ std::string filter_name(PixelFilter filter);
 /// sky, and their neighbours.
 std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera);
 
-/// A reference in the making: path tracing, on top of an earlier one where there is one. Scene and
-/// lights must outlive it.
+/// A reference in the making: path tracing that shares paths, on top of an earlier one where there
+/// is one. Scene and lights must outlive it.
 class ReferenceMaker {
   public:
     /// earlier: of the same scene, camera, size and filter, its noise known.

@@ -289,8 +289,9 @@ AccuracyReport AccuracyMeasurement::report(const std::string& device) const {
     // In the report's own folder a name is enough, and stays right where that is moved.
     const fs::path file = reference_file_;
     const bool beside = file == fs::path(own_reference_file());
-    report.references.push_back({reference_.filter, (beside ? file.filename() : file).string(),
-                                 reference_.noise, reference_.samples, reference_.seconds});
+    report.references.push_back({reference_.filter, reference_.method,
+                                 (beside ? file.filename() : file).string(), reference_.noise,
+                                 reference_.samples, reference_.seconds});
     report.curves = curves();
     add_pictures(report);
     return report;

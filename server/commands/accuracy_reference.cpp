@@ -37,8 +37,9 @@ class Refinement {
             if (noise * reference_margin <= best || !has_time()) {
                 return finished(now, best);
             }
+            goal_ = best > 0.0 ? safety * best / reference_margin : 0.5 * noise;
             // What a noisy reference says of the best picture may be far too little.
-            refine_to(std::max(safety * best / reference_margin, 0.5 * noise));
+            refine_to(std::max(goal_, 0.5 * noise));
         }
     }
 
@@ -55,7 +56,6 @@ class Refinement {
 
     /// Whole rounds of the batches; the noise is looked at whenever there is an eighth more.
     void refine_to(double target) {
-        target_ = target;
         while (has_time() && maker_.noise() > target) {
             const std::uint64_t rounds = std::max<std::uint64_t>(passes_ / 8 / 8, 1);
             add_passes(rounds * ImageEstimate::batches);
@@ -66,8 +66,8 @@ class Refinement {
     void report() {
         const double spent = clock_.seconds();
         double left = job_.seconds - spent;
-        if (noise_ > 0.0 && target_ > 0.0) {
-            left = std::min(left, spent * (std::pow(noise_ / target_, 1.0 / foreseen_rate) - 1.0));
+        if (noise_ > 0.0 && goal_ > 0.0) {
+            left = std::min(left, spent * (std::pow(noise_ / goal_, 1.0 / foreseen_rate) - 1.0));
         }
         progress_.show(spent / std::max(spent + left, 1e-9), left,
                        fmt::format("{} samples, noise {:.2f} %", passes_, 100.0 * noise_));
@@ -96,7 +96,7 @@ class Refinement {
     Stopwatch clock_;
     std::uint64_t passes_ = 0;
     double noise_ = 0.0;
-    double target_ = 0.0;
+    double goal_ = 0.0;  // noise as it is wanted in the end
 };
 
 }  // namespace

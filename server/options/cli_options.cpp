@@ -188,7 +188,7 @@ void add_accuracy(CLI::App& app, Options& o) {
     app.add_option("--seconds", o.seconds, "Solving time of each run (default: 10)")
         ->check(CLI::Range(0.1, 86400.0));
     app.add_option("--methods", o.methods,
-                   "Methods of render, between commas (default: all but ray-cast)");
+                   "Methods of render, between commas (default: all but ray-cast and path-reuse)");
     app.add_option("--repeats", o.repeats, "Runs of each method, with seeds one apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));

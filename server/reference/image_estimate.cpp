@@ -75,8 +75,8 @@ void ImageEstimate::add_splatting_pass(const CameraRays& camera,
 
 void ImageEstimate::add_tiled_pass(const CameraRays& camera, std::uint32_t side,
                                    const TileEstimator& estimator) {
-    dependent_ = side * side;
-    const glm::uvec2 tiles = (size_ + side - 1U) / side;
+    tile_side_ = side;
+    const glm::uvec2 tiles = this->tiles();
     std::atomic<std::uint64_t> dropped{0};
     tbb::parallel_for(0U, tiles.x * tiles.y, [&](std::uint32_t tile) {
         const glm::uvec2 first = side * glm::uvec2(tile % tiles.x, tile / tiles.x);
@@ -157,14 +157,24 @@ ImageError ImageEstimate::error(const std::vector<bool>& measured) const {
     if (passes_ < batches) {
         return {};
     }
-    VarianceSum sum;
+    struct Tile {
+        double squares = 0.0, variance = 0.0;
+    };
+    std::vector<Tile> of_tiles(std::size_t{tiles().x} * tiles().y);
     for (std::size_t pixel = 0; pixel < sums_.size() / batches; ++pixel) {
         if (measured.empty() || measured[pixel]) {
+            const glm::dvec3 m = mean(pixel);
             const glm::dvec3 e = standard_error(pixel);
-            sum.add(mean(pixel), e * e);
+            Tile& tile = of_tiles[tile_of(pixel)];
+            tile.squares += glm::dot(m, m);
+            tile.variance += glm::dot(e, e);
         }
     }
-    return sum.independent_error((batches - 1.0) / dependent_);
+    VarianceSum sum;
+    for (const Tile& tile : of_tiles) {
+        sum.add(tile.squares, tile.variance);
+    }
+    return sum.independent_error(batches - 1);
 }
 
 double VarianceSum::relative() const {

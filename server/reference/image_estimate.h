@@ -23,10 +23,13 @@ struct ImageError {
 class VarianceSum {
   public:
     void add(const glm::dvec3& mean, const glm::dvec3& variance) {
-        squares_ += glm::dot(mean, mean);
-        const double sum = variance.r + variance.g + variance.b;
-        variances_ += sum;
-        squared_variances_ += sum * sum;
+        add(glm::dot(mean, mean), variance.r + variance.g + variance.b);
+    }
+    /// Of pixels that depend on each other: sums over them.
+    void add(double squares, double variance) {
+        squares_ += squares;
+        variances_ += variance;
+        squared_variances_ += variance * variance;
     }
     /// sqrt(sum of variances / sum of squares); 0 where nothing varies.
     [[nodiscard]] double relative() const;
@@ -105,6 +108,11 @@ class ImageEstimate {
 
   private:
     [[nodiscard]] PixelRay next_ray(std::size_t pixel, const CameraRays& camera) const;
+    [[nodiscard]] glm::uvec2 tiles() const { return (size_ + tile_side_ - 1U) / tile_side_; }
+    [[nodiscard]] std::size_t tile_of(std::size_t pixel) const {
+        const std::size_t row = pixel / size_.x / tile_side_;
+        return row * tiles().x + pixel % size_.x / tile_side_;
+    }
     /// False where the value is not finite and was dropped.
     bool add(std::size_t pixel, const glm::dvec3& value);
 
@@ -118,7 +126,7 @@ class ImageEstimate {
     PixelFilter filter_;
     std::uint64_t passes_ = 0;
     std::uint64_t non_finite_ = 0;
-    std::uint32_t dependent_ = 1;   // pixels whose samples may depend on each other
+    std::uint32_t tile_side_ = 1;   // of pixels whose samples may depend on each other
     std::vector<glm::dvec3> sums_;  // [pixel * batches + batch]
 };
 

@@ -2,12 +2,15 @@
 #include "reference/path_reuse.h"
 
 #include <cmath>
-#include <optional>
+#include <vector>
 
 namespace raybundle {
 namespace {
 
 constexpr std::uint32_t tile_side = 5;  // pixels
+// Whether a path arrives at its second surface must not be a matter of roulette: no density knows
+// of that.
+static_assert(PathSettings{}.certain_bounces > 0);
 
 /// One pixel's way to an offered point.
 struct Join {
@@ -86,8 +89,10 @@ void PathReuse::share(const Offer& offer, std::span<const View> views,
         return;
     }
     for (std::size_t i = 0; i < views.size(); ++i) {
-        radiance[views[i].pixel] +=
-            views[i].end.throughput * joins[i].reflected * offer.radiance / density;
+        if (joins[i].density > 0.0) {
+            radiance[views[i].pixel] +=
+                views[i].end.throughput * joins[i].reflected * offer.radiance / density;
+        }
     }
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "reference/image_estimate.h"
@@ -17,8 +16,8 @@ namespace raybundle {
 /// pixels that might have gone there. As unbiased as path tracing, but the errors of the pixels
 /// that share paths are not independent of each other.
 ///
-/// Second surfaces that reflect differently to different points, or are seen by way of mirrors or
-/// glass, serve their own pixel alone.
+/// Second surfaces that reflect differently to different points, transmit light or are reached by
+/// way of mirrors or glass serve their own pixel alone.
 class PathReuse {
   public:
     /// Scene and lights must outlive it.

@@ -32,7 +32,7 @@ vec3 balanced_scale(FluxSums total) {
     vec3 scale = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
         float missing = total.incident[c] - k[c] * total.reflected[c];
-        if (missing > 0.0 && total.emitted[c] > 0.0) {
+        if (missing > 0.0 && total.emitted[c] > 0.0 && balance.outgoing[c] > 0.0) {
             float exact = clamp(k[c] * total.emitted[c] / missing, 0.02, 50.0);
             scale[c] = pow(exact, smoothstep(0.3, 0.6, k[c]));
         }

@@ -203,7 +203,8 @@ float Solver::iterate_step() const {
         return 1.0F;
     }
     // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
-    // unless the energy balance sets it. Only perspective bundles tell it what flux escapes.
+    // unless the energy balance sets it, or most light escapes and it fades fast. Only perspective
+    // bundles tell what flux escapes.
     const bool balanced = !scene_.has_sky() && probabilities_.perspective > 0.0F;
     const float exponent = balanced ? 0.8F : 0.66F;
     constexpr float smallest = 1.0F / 2048.0F;

@@ -47,6 +47,56 @@ std::vector<glm::dvec3> path_traced(const LoadedScene& loaded, std::uint32_t pat
                                paths);
 }
 
+class SharedPaths : public testing::TestWithParam<const char*> {};
+
+/// What the pictures here are compared with: neighbours that share their paths show what each pixel
+/// does by itself. The product of the differences from two independent pictures has no noise of
+/// either, but the shared picture's own: 0.9 %. Its mean is off by 0.3 % at most, and with twelve
+/// times as many samples by 0.08 %.
+TEST_P(SharedPaths, ShowWhatPathsOfSinglePixelsDo) {
+    const LoadedScene loaded = load_effect(GetParam());
+    const RayScene rays(loaded.scene, loaded.mesh);
+    const LightSampling lights(rays);
+    const CameraRays camera(rays, loaded.scene.cameras.front(), size);
+    const PathTracer tracer(rays, lights);
+    const auto single = [&](std::uint64_t seed) {
+        ImageEstimate image(size, seed);
+        for (int i = 0; i < 512; ++i) {
+            image.add_pass(camera, [&](const glm::dvec3& origin, const glm::dvec3& direction,
+                                       PixelSampler& sampler) {
+                return tracer.radiance(origin, direction, sampler);
+            });
+        }
+        return image.means();
+    };
+    ImageEstimate shared(size, 3);
+    for (int i = 0; i < 512; ++i) {
+        PathReuse(rays, lights).add_pass(shared, camera);
+    }
+    const auto a = single(1);
+    const auto b = single(2);
+    double product = 0.0;
+    double total = 0.0;
+    glm::dvec3 difference(0.0);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const glm::dvec3 found = shared.mean(i);
+        product += glm::dot(found - a[i], found - b[i]);
+        total += glm::dot(found, found);
+        difference += found - 0.5 * (a[i] + b[i]);
+        sum += found;
+    }
+    EXPECT_LT(product / total, 0.015 * 0.015);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(difference[c], 0.0, 0.005 * sum[c]) << c;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, SharedPaths,
+                         testing::Values("diffuse_transmission", "normal_map", "roughness_texture",
+                                         "clear_coat"),
+                         [](const auto& test) { return std::string(test.param); });
+
 TEST(SurfaceEffects, NormalMapIsAsByPathTracing) {
     LoadedScene loaded = load_effect("normal_map");
     const auto picture = solved(loaded, 384);

@@ -37,7 +37,7 @@ struct MethodCase {
 
 constexpr MethodCase path_case{"path", ReferenceKind::path, 256};
 constexpr MethodCase methods[] = {{"light", ReferenceKind::light, 2048},
-                                  {"path_reuse", ReferenceKind::path_reuse, 128},
+                                  {"path_reuse", ReferenceKind::path_reuse, 256},
                                   {"bidirectional", ReferenceKind::bidirectional, 96},
                                   {"metropolis", ReferenceKind::metropolis, 512},
                                   {"photon_map", ReferenceKind::photon_map, 6, 0.04}};

@@ -44,9 +44,9 @@ AccuracyReport report() {
     result.patches = 12;
     result.seconds = 4.0;
     result.seed = 7;
-    result.references = {
-        {PixelFilter::centre, "out/reference.exr", ReferenceNoise{0.005, 1e-4}, 64, 3.5},
-        {PixelFilter::box, "out/reference_area.exr", std::nullopt, 0, 0.0}};
+    result.references = {{PixelFilter::centre, "path-reuse", "out/reference.exr",
+                          ReferenceNoise{0.005, 1e-4}, 64, 3.5},
+                         {PixelFilter::box, "", "out/reference_area.exr", std::nullopt, 0, 0.0}};
     result.curves = {curve("combined", "", true), curve("path", "", false),
                      curve("edges halved", "patch size", true)};
     const std::vector<std::uint8_t> rgba = {1, 2, 3, 255, 4, 5, 6, 255};
@@ -65,6 +65,7 @@ TEST(AccuracyJson, HasWhatScriptsDependOn) {
     EXPECT_EQ(json["reference"]["seconds"], 3.5);
     EXPECT_EQ(json["reference"]["relativeError"], 0.005);
     EXPECT_TRUE(json["references"][1]["relativeError"].is_null());
+    EXPECT_TRUE(json["references"][1]["method"].is_null());
     ASSERT_EQ(json["curves"].size(), 3U);
     const auto& first = json["curves"][0];
     EXPECT_EQ(first["method"], "combined");
