@@ -20,93 +20,79 @@
 namespace raybundle {
 namespace {
 
-/// Methods that estimate each pixel for itself.
-template <typename Estimator>
-class PixelMethod : public ReferenceMethod {
+/// Methods whose picture is the mean of samples of its pixels.
+class SampledMethod : public ReferenceMethod {
   public:
-    PixelMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size, std::uint64_t seed)
+    SampledMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
         : lights_(scene),
-          estimator_(scene, lights_),
-          camera_(scene, camera, size),
-          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          camera_(scene, view, size),
+          reflecting_(reflecting_pixels(scene, view, size)),
           image_(size, seed) {}
 
-    void iterate() override {
-        image_.add_pass(camera_, [this](const glm::dvec3& origin, const glm::dvec3& direction,
-                                        PixelSampler& sampler) {
-            return estimator_.radiance(origin, direction, sampler);
-        });
-    }
     [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
     [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
     [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
     [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
 
+  protected:
+    [[nodiscard]] const LightSampling& lights() const { return lights_; }
+    [[nodiscard]] const CameraRays& camera() const { return camera_; }
+    ImageEstimate& image() { return image_; }
+
   private:
     LightSampling lights_;
-    Estimator estimator_;
     CameraRays camera_;
     std::vector<bool> reflecting_;
     ImageEstimate image_;
+};
+
+/// Methods that estimate each pixel for itself.
+template <typename Estimator>
+class PixelMethod : public SampledMethod {
+  public:
+    PixelMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
+        : SampledMethod(scene, view, size, seed), estimator_(scene, lights()) {}
+
+    void iterate() override {
+        image().add_pass(camera(), [this](const glm::dvec3& origin, const glm::dvec3& direction,
+                                          PixelSampler& sampler) {
+            return estimator_.radiance(origin, direction, sampler);
+        });
+    }
+
+  private:
+    Estimator estimator_;
 };
 
 /// Methods whose samples add to other pixels too.
 template <typename Estimator>
-class SplattingMethod : public ReferenceMethod {
+class SplattingMethod : public SampledMethod {
   public:
-    SplattingMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
-                    std::uint64_t seed)
-        : lights_(scene),
-          camera_(scene, camera, size),
-          estimator_(scene, lights_, camera_),
-          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
-          image_(size, seed) {}
+    SplattingMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
+        : SampledMethod(scene, view, size, seed), estimator_(scene, lights(), camera()) {}
 
     void iterate() override {
-        image_.add_splatting_pass(
-            camera_, [this](const glm::dvec3&, const glm::dvec3& direction, PixelSampler& sampler,
-                            std::vector<Splat>& splats) {
+        image().add_splatting_pass(
+            camera(), [this](const glm::dvec3&, const glm::dvec3& direction, PixelSampler& sampler,
+                             std::vector<Splat>& splats) {
                 return estimator_.radiance(direction, sampler, splats);
             });
     }
-    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
-    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
-    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
-    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
-    [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
 
   private:
-    LightSampling lights_;
-    CameraRays camera_;
     Estimator estimator_;
-    std::vector<bool> reflecting_;
-    ImageEstimate image_;
 };
 
-class PathReuseMethod : public ReferenceMethod {
+class PathReuseMethod : public SampledMethod {
   public:
-    PathReuseMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size,
-                    std::uint64_t seed)
-        : lights_(scene),
-          paths_(scene, lights_),
-          camera_(scene, camera, size),
-          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
-          image_(size, seed) {}
+    PathReuseMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
+        : SampledMethod(scene, view, size, seed), paths_(scene, lights()) {}
 
-    void iterate() override { paths_.add_pass(image_, camera_); }
-    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
-    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
-    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
-    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
-    [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
+    void iterate() override { paths_.add_pass(image(), camera()); }
 
   private:
-    LightSampling lights_;
     PathReuse paths_;
-    CameraRays camera_;
-    std::vector<bool> reflecting_;
-    ImageEstimate image_;
 };
 
 class MetropolisMethod : public ReferenceMethod {
@@ -132,41 +118,30 @@ class MetropolisMethod : public ReferenceMethod {
     Metropolis metropolis_;
 };
 
-class PhotonMethod : public ReferenceMethod {
+class PhotonMethod : public SampledMethod {
   public:
-    PhotonMethod(const RayScene& scene, const Camera& camera, glm::uvec2 size, std::uint64_t seed)
-        : scene_(scene),
+    PhotonMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
+        : SampledMethod(scene, view, size, seed),
+          scene_(scene),
           seed_(seed),
-          lights_(scene),
-          mapper_(scene, lights_, settings_),
-          camera_(scene, camera, size),
-          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
-          image_(size, seed) {}
+          mapper_(scene, lights(), settings_) {}
 
     void iterate() override {
         const PhotonMaps maps =
-            trace_photons(scene_, lights_, settings_, mixed_bits(seed_), image_.passes());
-        image_.add_pass(camera_, [&](const glm::dvec3& origin, const glm::dvec3& direction,
-                                     PixelSampler& sampler) {
+            trace_photons(scene_, lights(), settings_, mixed_bits(seed_), image().passes());
+        image().add_pass(camera(), [&](const glm::dvec3& origin, const glm::dvec3& direction,
+                                       PixelSampler& sampler) {
             return mapper_.radiance(maps, origin, direction, sampler);
         });
         map_bytes_ = (maps.global.size() + maps.caustic.size()) * sizeof(Photon);
     }
-    [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
-    [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
-    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
-    [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
-    [[nodiscard]] std::size_t bytes() const override { return image_.bytes() + map_bytes_; }
+    [[nodiscard]] std::size_t bytes() const override { return SampledMethod::bytes() + map_bytes_; }
 
   private:
     const RayScene& scene_;
     std::uint64_t seed_;
     PhotonSettings settings_;
-    LightSampling lights_;
     PhotonMapper mapper_;
-    CameraRays camera_;
-    std::vector<bool> reflecting_;
-    ImageEstimate image_;
     std::size_t map_bytes_ = 0;  // of the latest maps
 };
 

@@ -69,9 +69,10 @@ TEST_P(SharedPaths, ShowWhatPathsOfSinglePixelsDo) {
         }
         return image.means();
     };
+    const PathReuse sharing(rays, lights);
     ImageEstimate shared(size, 3);
     for (int i = 0; i < 512; ++i) {
-        PathReuse(rays, lights).add_pass(shared, camera);
+        sharing.add_pass(shared, camera);
     }
     const auto a = single(1);
     const auto b = single(2);
