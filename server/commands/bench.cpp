@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-constexpr glm::uvec2 picture_size(800, 800);
+constexpr glm::uvec2 viewer_size(800, 800);
 constexpr glm::uvec2 small_picture(512, 512);
 constexpr glm::uvec2 large_picture(1920, 1080);
 constexpr std::size_t many_patches = 240'000;
@@ -156,7 +156,7 @@ class SceneBench {
         s.adapt_probabilities = false;
         Solver solver(loaded_.scene, mesh, s);
         const ViewPrograms programs(solver.scene());
-        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        ViewerImage image(solver.scene(), solver.store(), programs, viewer_size);
         image.set_camera(loaded_.scene.cameras.front());
         std::vector<BundleReceiver*> receivers;
         if (viewed) {
@@ -174,7 +174,7 @@ class SceneBench {
     void walkthrough() {
         Solver solver(loaded_.scene, loaded_.mesh, settings({}));
         const ViewPrograms programs(solver.scene());
-        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        ViewerImage image(solver.scene(), solver.store(), programs, viewer_size);
         Camera camera = loaded_.scene.cameras.front();
         image.set_camera(camera);
         BundleReceiver* const receivers[] = {&image};
@@ -270,7 +270,7 @@ class SceneBench {
         const auto index = static_cast<std::uint32_t>(found - objects.begin());
         Solver solver(loaded_.scene, loaded_.mesh, settings({}));
         const ViewPrograms programs(solver.scene());
-        ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+        ViewerImage image(solver.scene(), solver.store(), programs, viewer_size);
         image.set_camera(loaded_.scene.cameras.front());
         BundleReceiver* const receivers[] = {&image};
         for (int i = 0; i < 32; ++i) {

@@ -14,7 +14,8 @@ namespace raybundle {
 namespace {
 
 constexpr glm::uvec2 contact_size(320, 240);
-constexpr TrialLength length = {.size = contact_size, .first_iterations = 16, .iterations = 368};
+constexpr TrialLength picture_trial = {
+    .size = contact_size, .first_iterations = 16, .iterations = 368};
 
 /// Two pictures beside each other.
 std::vector<glm::dvec3> side_by_side(const std::vector<glm::dvec3>& left,
@@ -44,8 +45,8 @@ EffectCost write_contact_sheet(const Options& options, const LoadedScene& loaded
                          "' that can be taken out");
     }
     const EglContext context = create_egl_context({options.gpu, false});
-    const TrialOutcome with = run_trial(all, length, options.seed);
-    const TrialOutcome without = run_trial(rest, length, options.seed);
+    const TrialOutcome with = run_trial(all, picture_trial, options.seed);
+    const TrialOutcome without = run_trial(rest, picture_trial, options.seed);
     const double factor =
         automatic_display_factor(with.picture, std::vector<bool>(with.picture.size(), true));
     write_png(options.contact_sheet, 2 * static_cast<int>(contact_size.x),

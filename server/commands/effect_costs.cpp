@@ -9,7 +9,7 @@
 namespace raybundle {
 namespace {
 
-constexpr TrialLength length = {.size = {320, 240}, .first_iterations = 8, .iterations = 24};
+constexpr TrialLength cost_trial = {.size = {320, 240}, .first_iterations = 8, .iterations = 24};
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void measure_effects(const Options& options, const Scene& scene, const PatchMesh
                      EffectsPlan& plan, const std::stop_token& stop) {
     const EglContext context = create_egl_context({options.gpu, false});
     const auto cost = [&](const EffectTrial& trial) {
-        return run_trial(trial, length, options.seed).ms;
+        return run_trial(trial, cost_trial, options.seed).ms;
     };
     EffectTrial all{scene, mesh};
     all.caustics = is_active(plan, "caustics");

@@ -2,7 +2,7 @@
 #include "oracle/glossy_oracles.h"
 
 #include <array>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "oracle/oracle_solve.h"
 #include "scene/brdf.h"
@@ -12,7 +12,7 @@ namespace raybundle {
 
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// A rectangle in a horizontal plane: corner and extent in x and z.
 struct Rectangle {

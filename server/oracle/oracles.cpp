@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "oracle/glossy_oracles.h"
@@ -18,7 +19,7 @@ namespace raybundle {
 
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 constexpr float furnace_emission = 100.0F;
 constexpr float disc_receiver = 0.05F;  // half its side over the height of the disc

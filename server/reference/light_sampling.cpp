@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scene/environment.h"
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 /// Where both exist, the sky and the emitters each get at least this share of the samples: power
 /// alone says nothing about which of them a point can see.
 constexpr double least_share = 0.25;

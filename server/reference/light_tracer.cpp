@@ -9,12 +9,6 @@
 #include "scene/environment.h"
 
 namespace raybundle {
-namespace {
-
-constexpr int max_bounces = 1 << 16;  // far beyond what Russian roulette lets live
-
-}  // namespace
-
 glm::dvec3 LightTracer::radiance(const glm::dvec3& direction, PixelSampler& sampler,
                                  std::vector<Splat>& splats) const {
     if (!lights_.empty()) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "reference/roulette.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"
 

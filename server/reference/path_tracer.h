@@ -8,15 +8,16 @@
 #include "reference/light_sampling.h"
 #include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/roulette.h"
 #include "reference/russian_roulette.h"
 #include "reference/scattering.h"
 
 namespace raybundle {
 
 struct PathSettings {
-    int max_bounces = 1 << 16;  ///< far beyond what Russian roulette lets live
-    int certain_bounces = 3;    ///< before Russian roulette begins
-    bool next_event = true;     ///< false: paths meet the light by themselves
+    int max_bounces = raybundle::max_bounces;
+    int certain_bounces = 3;  ///< before Russian roulette begins
+    bool next_event = true;   ///< false: paths meet the light by themselves
     Survival survival = Survival::throughput;
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };

@@ -7,9 +7,8 @@
 namespace raybundle {
 namespace {
 
-constexpr int max_bounces = 1 << 16;  // far beyond what Russian roulette lets live
-constexpr int certain_bounces = 3;    // before Russian roulette begins
-constexpr int max_gatherings = 8;     // in a corner, one from the other
+constexpr int certain_bounces = 3;  // before Russian roulette begins
+constexpr int max_gatherings = 8;   // in a corner, one from the other
 
 }  // namespace
 

@@ -15,7 +15,6 @@ namespace raybundle {
 namespace {
 
 constexpr std::uint32_t particles_per_task = 1024;
-constexpr int max_bounces = 1 << 16;  // far beyond what Russian roulette lets live
 
 struct Photons {
     std::vector<Photon> global, caustic;

@@ -6,6 +6,8 @@
 
 namespace raybundle {
 
+inline constexpr int max_bounces = 1 << 16;  ///< of a path; far beyond what roulette lets live
+
 inline double largest_channel(const glm::dvec3& rgb) {
     return std::max({rgb.r, rgb.g, rgb.b});
 }

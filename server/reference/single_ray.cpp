@@ -6,32 +6,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
+#include "reference/roulette.h"
 #include "reference/scattering.h"
 
 namespace raybundle {
-namespace {
-
-constexpr int max_rays = 1 << 16;  // of a particle; far beyond what Russian roulette lets live
-
-double largest(const glm::dvec3& rgb) {
-    return std::max({rgb.r, rgb.g, rgb.b});
-}
-
-/// Russian roulette that keeps the largest channel of the power: whether the particle goes on.
-bool survives(glm::dvec3& power, const glm::dvec3& weight, double u) {
-    const double before = largest(power);
-    power *= weight;
-    const double chance = largest(power) / before;
-    if (!(chance > 0.0)) {
-        return false;
-    }
-    power /= std::min(chance, 1.0);
-    return u < chance;
-}
-
-}  // namespace
-
 SingleRay::SingleRay(const RayScene& scene, const LightSampling& lights, std::uint64_t seed)
     : scene_(scene),
       lights_(lights),
@@ -70,7 +50,7 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
     const glm::dvec2 at = sampler.next_pair();
     const EmittedParticle particle = lights_.emit(choice, at, sampler.next_pair());
     glm::dvec3 power = particle.power;
-    if (!(largest(power) > 0.0)) {
+    if (!(largest_channel(power) > 0.0)) {
         return 0;
     }
     glm::dvec3 direction = particle.direction;
@@ -80,7 +60,7 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
     }
     std::optional<SurfacePoint> hit = first_hit(scene_, particle);
     std::uint64_t rays = 1;
-    for (; rays < max_rays && hit && !hit->absorbs(); ++rays) {
+    for (; rays < max_bounces && hit && !hit->absorbs(); ++rays) {
         const Scattering scattering(scene_, *hit, NormalKind::geometric, -direction);
         const auto inverse_distance =
             static_cast<float>(source ? 1.0 / glm::distance(*source, hit->position) : 0.0);
@@ -91,7 +71,11 @@ std::uint64_t SingleRay::follow_particle(std::uint32_t batch, PixelSampler& samp
         const glm::dvec2 u = sampler.next_pair();
         const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         const double roulette = sampler.next();
-        if (!next || !survives(power, next->weight, roulette)) {
+        if (!next) {
+            break;
+        }
+        const glm::dvec3 before = std::exchange(power, power * next->weight);
+        if (!survives(power, before, roulette)) {
             break;
         }
         direction = next->direction;
@@ -107,7 +91,7 @@ void SingleRay::receive(const SurfacePoint& point, const Scattering& scattering,
     power_[index(point.patch, batch)] += power;
     if (!scattering.is_lambert()) {
         const std::uint32_t material = scene_.mesh().triangle_material[point.triangle];
-        const double importance = largest(power) * tables_.importance(material, scattering);
+        const double importance = largest_channel(power) * tables_.importance(material, scattering);
         incoming_[index(point.patch, batch)].add(light, importance, sampler.next());
     }
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 #include <vector>
 
 #include "scene/environment.h"
@@ -11,7 +11,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr int rows = 64;  // of equal height on the unit sphere, hence of equal area
 constexpr int columns = 128;
 constexpr int samples = 4;  // of a cell along each side

@@ -12,7 +12,6 @@
 namespace raybundle {
 namespace {
 
-constexpr float pi = glm::pi<float>();
 constexpr float dielectric_f0 = 0.04F;  // index of refraction 1.5
 
 /// Cosines below this count as this: f_r is then finite, and it reflects nothing worth the name.
@@ -77,7 +76,7 @@ GgxFactors ggx_factors(float alpha, const glm::vec3& w_in, const glm::vec3& w_ou
     const float length2 = sine2 + along * along;
     // D = a^2 / (pi (sin^2 + a^2 cos^2)^2): no cancellation near the mirrored direction.
     const float spread = (sine2 + a2 * along * along) / length2;
-    const float distribution = a2 / (pi * spread * spread);
+    const float distribution = a2 / (glm::pi<float>() * spread * spread);
     const float smith = cos_in * std::sqrt(a2 + (1.0F - a2) * cos_out * cos_out) +
                         cos_out * std::sqrt(a2 + (1.0F - a2) * cos_in * cos_in);
     const float grazing = std::max(0.0F, 1.0F - 0.5F * std::sqrt(length2));
@@ -110,7 +109,8 @@ glm::vec3 max_phong(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_
         return glm::vec3(0.0F);
     }
     const float power = std::exp(n * std::log1p(-gap));
-    return brdf.f0 * (power * (n + 2.0F) / (2.0F * pi * std::max({w_in.z, w_out.z, min_cosine})));
+    return brdf.f0 * (power * (n + 2.0F) /
+                      (2.0F * glm::pi<float>() * std::max({w_in.z, w_out.z, min_cosine})));
 }
 
 /// What a dielectric surface reflects.
@@ -294,7 +294,7 @@ glm::vec3 evaluate(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_o
     if (!(w_in.z > 0.0F && w_out.z > 0.0F)) {
         return glm::vec3(0.0F);
     }
-    const glm::vec3 diffuse = brdf.lambert * (passed * brdf.lobe.inverse_mean / pi);
+    const glm::vec3 diffuse = brdf.lambert * (passed * brdf.lobe.inverse_mean / glm::pi<float>());
     switch (brdf.lobe.kind) {
         case LobeKind::ggx:
             return diffuse + ggx(brdf, w_in, w_out);

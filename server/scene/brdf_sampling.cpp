@@ -9,8 +9,6 @@
 namespace raybundle {
 namespace {
 
-constexpr float pi = glm::pi<float>();
-
 /// Where both parts reflect, neither is sampled more rarely than this: an estimate of the shares
 /// that is off must not starve a part.
 constexpr float min_share = 0.1F;
@@ -70,7 +68,7 @@ float ggx_density(float alpha, const glm::vec3& w_in, const glm::vec3& w_out) {
     const float sine2 = half.x * half.x + half.y * half.y;
     const float spread = (sine2 + a2 * half.z * half.z) / length2;
     const float smith = w_out.z + std::sqrt(a2 + (1.0F - a2) * w_out.z * w_out.z);
-    return a2 / (pi * spread * spread * 2.0F * smith);
+    return a2 / (glm::pi<float>() * spread * spread * 2.0F * smith);
 }
 
 /// cos^n round the mirrored w_out.
@@ -92,7 +90,8 @@ float phong_density(float exponent, const glm::vec3& w_in, const glm::vec3& w_ou
     const glm::vec3 apart(w_in.x + w_out.x, w_in.y + w_out.y, w_in.z - w_out.z);
     const float gap = 0.5F * glm::dot(apart, apart);
     return gap >= 1.0F ? 0.0F
-                       : (exponent + 1.0F) / (2.0F * pi) * std::exp(exponent * std::log1p(-gap));
+                       : (exponent + 1.0F) / (2.0F * glm::pi<float>()) *
+                             std::exp(exponent * std::log1p(-gap));
 }
 
 }  // namespace
@@ -123,7 +122,7 @@ BrdfSample sample(const Brdf& brdf, const glm::vec3& w_out, const glm::vec2& u, 
     if (!(w_out.z > 0.0F)) {
         return {};
     }
-    const float phi = 2.0F * pi * u.y;
+    const float phi = 2.0F * glm::pi<float>() * u.y;
     const glm::vec2 disc = std::sqrt(u.x) * glm::vec2(std::cos(phi), std::sin(phi));
     const float coat = coat_share(brdf, w_out.z);
     const float lobe = coat + (1.0F - coat) * lobe_share(brdf, w_out.z);
@@ -138,7 +137,7 @@ float pdf(const Brdf& brdf, const glm::vec3& w_in, const glm::vec3& w_out) {
         return 0.0F;
     }
     const float share = lobe_share(brdf, w_out.z);
-    const float cosine = (1.0F - share) * std::max(w_in.z, 0.0F) / pi;
+    const float cosine = (1.0F - share) * std::max(w_in.z, 0.0F) / glm::pi<float>();
     const float below =
         share > 0.0F ? cosine + share * lobe_density(brdf.lobe, w_in, w_out) : cosine;
     const float coat = coat_share(brdf, w_out.z);

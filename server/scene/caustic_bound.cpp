@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 #include <vector>
 
 #include "scene/specular_surface.h"
@@ -13,7 +13,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr std::size_t most_spheres = 16;  // as CausticLights aims at
 
 struct Sphere {

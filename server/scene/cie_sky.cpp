@@ -5,12 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr double extraterrestrial = 133.8e3;  // lx, of a surface that faces the sun
 
 /// One of the standard's types: gradation a, b; indicatrix c, d, e; share of the extraterrestrial

@@ -8,9 +8,6 @@
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t no_point = 0xffffffffU;
-constexpr std::uint32_t no_edge = 0xffffffffU;
-
 /// Part of the way from a to b. Both neighbours of an edge name its ends in the same order and get
 /// the same bits.
 EdgeRefinement::Corner between(const EdgeRefinement::Corner& a, const EdgeRefinement::Corner& b,
@@ -90,8 +87,8 @@ bool EdgeRefinement::mark_crossings(std::size_t triangle, const ContactLine& lin
     return true;
 }
 
-/// Appends the pieces of a triangle whose edges are split. numbers: of its edges, no_edge for those
-/// that a split has made.
+/// Appends the pieces of a triangle whose edges are split. numbers: of its edges,
+/// no_edge for those that a split has made.
 void EdgeRefinement::add_divided(const RefinedTriangle& triangle,
                                  const std::array<std::uint32_t, 3>& numbers, const Edges& edges,
                                  const Parts& parts, std::vector<RefinedTriangle>& result) const {

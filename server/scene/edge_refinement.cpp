@@ -10,8 +10,6 @@
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t no_point = 0xffffffffU;
-
 /// Numbers pairs of points in the order of their first use: an open-addressing hash table, as this
 /// is where tessellation spends its time.
 class EdgeTable {
@@ -23,7 +21,7 @@ class EdgeTable {
     std::pair<std::uint32_t, bool> number_of(std::uint32_t low, std::uint32_t high) {
         const std::uint64_t key = (std::uint64_t{low} << 32U) | high;
         for (std::size_t at = mix_bits(key) & mask_;; at = (at + 1) & mask_) {
-            if (slots_[at].number == no_point) {
+            if (slots_[at].number == EdgeRefinement::no_edge) {
                 slots_[at] = {key, count_};
                 return {count_++, true};
             }
@@ -36,7 +34,7 @@ class EdgeTable {
   private:
     struct Slot {
         std::uint64_t key = 0;
-        std::uint32_t number = no_point;
+        std::uint32_t number = EdgeRefinement::no_edge;
     };
     std::vector<Slot> slots_;
     std::size_t mask_;

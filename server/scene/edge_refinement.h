@@ -18,6 +18,9 @@ namespace raybundle {
 /// sides at the same point, so that no T-junction arises. Deterministic.
 class EdgeRefinement {
   public:
+    static constexpr std::uint32_t no_point = 0xffffffffU;
+    static constexpr std::uint32_t no_edge = 0xffffffffU;
+
     struct Corner {
         std::uint32_t point = 0;  ///< index into points()
         glm::vec3 normal{0.0F};   ///< object space, unit

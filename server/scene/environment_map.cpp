@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 /// Pixels this many times brighter than the mean may be part of a source.
 constexpr double bright = 30.0;
 /// Sources are at most this wide, radians: the shadows of wider ones are better found at random.

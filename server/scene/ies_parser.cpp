@@ -16,7 +16,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::size_t max_bytes = 16U << 20U;
+constexpr std::size_t max_file_bytes = 16U << 20U;
 constexpr std::size_t max_values = 1U << 20U;  // of candela
 constexpr double max_number = 1e9;
 
@@ -166,8 +166,8 @@ void check_angles(const Reader& reader, const IesProfile::Data& data) {
 
 IesProfile parse_ies(const std::string& file, std::string_view text) {
     Reader reader(file, text);
-    if (text.size() > max_bytes) {
-        reader.fail(fmt::format("{} bytes; the limit is {}", text.size(), max_bytes));
+    if (text.size() > max_file_bytes) {
+        reader.fail(fmt::format("{} bytes; the limit is {}", text.size(), max_file_bytes));
     }
     const int year = read_head(reader);
     IesProfile::Data data;
@@ -208,7 +208,7 @@ IesProfile read_ies(const std::string& path) {
     if (!in) {
         throw SceneError(path, "", "cannot be opened");
     }
-    std::string text(max_bytes + 1, '\0');
+    std::string text(max_file_bytes + 1, '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
     return parse_ies(path, text);

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 namespace raybundle {
 namespace {
 
 constexpr int lattice_points = 987;  // a Fibonacci number: the lattice is even
 constexpr double golden_ratio = 0.61803398874989485;
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 using Lattice = std::array<DiscPoint, lattice_points>;
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <limits>
+#include <numbers>
 
 #include "scene/environment.h"
 #include "scene/specular_surface.h"
@@ -15,7 +15,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr double golden = 0.61803398874989485;
 constexpr double emitter_points = 48.0;  // of all lamps together, shared out by their flux
 constexpr double least_points = 4.0;     // of a lamp

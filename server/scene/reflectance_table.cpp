@@ -10,7 +10,6 @@
 namespace raybundle {
 namespace {
 
-constexpr float pi = glm::pi<float>();
 float cosine_of(const SpecularLobe& lobe, int node) {
     return cosine_of_node(static_cast<float>(node), grazing_scale(lobe.alpha));
 }
@@ -89,13 +88,13 @@ float ReflectanceTable::integrate_importance(int index) const {
     const float transmission = node.transmission * coat_transmission(coat, w_in.z);
     const glm::vec3 mean = (brdf_.lambert * transmission + brdf_.f0 * node.scale +
                             brdf_.lobe.f90 * node.bias + coat_albedo(coat, w_in.z)) /
-                           pi;
+                           glm::pi<float>();
     double sum = 0.0;
     const auto add = [&](const glm::vec3& w, float weight) {
         if (w.z > 0.0F) {
             const float passed = transmission * at(w.z).transmission;
             const glm::vec3 df = glm::abs(evaluate(brdf_, w_in, w, passed) - mean);
-            float density = lobe_density(brdf_.lobe, w, w_in) + w.z / pi;
+            float density = lobe_density(brdf_.lobe, w, w_in) + w.z / glm::pi<float>();
             if (coat.strength > 0.0F) {
                 density += coat_density(coat, w, w_in);
             }

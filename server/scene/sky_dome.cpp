@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// Mean of a sky's relative luminance over the upper hemisphere.
 double mean_relative_luminance(const CieSky& sky, const glm::dvec3& sun) {

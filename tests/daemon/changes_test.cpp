@@ -12,8 +12,8 @@
 namespace raybundle {
 namespace {
 
-constexpr int bundles = 8;          // of one phase, at least; a second object asks for half more
-constexpr std::uint32_t first = 1;  // id of a burst's first request
+constexpr int bundles = 8;             // of one phase, at least; a second object asks for half more
+constexpr std::uint32_t first_id = 1;  // id of a burst's first request
 
 /// What the daemon has counted so far.
 struct Phases {
@@ -67,11 +67,11 @@ class ChangesTest : public testing::Test {
     Phases work_in(std::array<Json, 3> burst) {
         const Phases before = phases(daemon_.port());
         for (std::uint32_t i = 0; i < burst.size(); ++i) {
-            burst.at(i)["id"] = first + i;
+            burst.at(i)["id"] = first_id + i;
             viewer_.send(burst.at(i));
         }
         for (std::uint32_t i = 0; i < burst.size(); ++i) {
-            EXPECT_TRUE(viewer_.answer_to(first + i).contains("sceneChanged")) << i;
+            EXPECT_TRUE(viewer_.answer_to(first_id + i).contains("sceneChanged")) << i;
         }
         const Phases after = phases_at_rest(daemon_.port(), before.slices + bundles);
         return {after.begun - before.begun, after.slices - before.slices};

@@ -19,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kShortBox = 2;
-
 class DaemonTest : public testing::Test {
   protected:
     DaemonTest() {

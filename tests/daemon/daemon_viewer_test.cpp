@@ -132,7 +132,6 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
 TEST_F(ViewersTest, APictureInMotionMayBeSmallerAndIsFullAgainAtRest) {
     constexpr int kWidth = 1280;
     constexpr int kHeight = 960;
-    constexpr int kShortBox = 2;
     JsonViewer viewer(daemon_->port());
     const Json welcome = viewer.join("", kWidth, kHeight);
     const auto is_full = [kWidth](const Json& f) { return f["width"] == kWidth; };

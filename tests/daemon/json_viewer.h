@@ -12,6 +12,8 @@ namespace raybundle {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kShortBox = 2;  ///< id of the Cornell box' short box
+
 /// A client as the protocol describes it: JSON messages, and every frame acknowledged.
 class JsonViewer {
   public:

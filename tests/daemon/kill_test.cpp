@@ -14,7 +14,6 @@
 namespace raybundle {
 namespace {
 
-constexpr int kShortBox = 2;
 constexpr int kRounds = 15;
 
 /// What the viewer has been told is so.

@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kShortBox = 2;
 constexpr double kRoom = 5.5;  // of the Cornell box, metres
 
 Json point(double x, double y, double z) {

@@ -18,6 +18,11 @@ struct RawFrame {
     [[nodiscard]] int close_code() const;
 };
 
+/// Whether a text contains a part.
+inline bool has(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// TCP connection that speaks HTTP and WebSocket byte by byte, so that tests can also misbehave.
 class RawClient {
   public:

@@ -29,10 +29,6 @@ class ServerHttpTest : public testing::Test {
     Server server_{settings()};
 };
 
-bool has(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST_F(ServerHttpTest, ServesEveryClientFileWhole) {
     for (const EmbeddedFile& file : client_files()) {
         const std::string answer = request("GET /" + std::string(file.name));

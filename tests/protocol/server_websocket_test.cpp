@@ -19,10 +19,6 @@ constexpr std::string_view kHello =
     R"({"id":1,"hello":{"protocol":"1.0","name":"test","viewport":{"width":64,"height":48}}})";
 constexpr FrameDemand kDemand{true, false, 64.0 * 48.0};
 
-bool has(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
-
 class ServerWebSocketTest : public testing::Test {
   protected:
     void start(ServerSettings settings = {}) {

@@ -10,7 +10,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::string_view kHello = R"({"id":1,"hello":{"protocol":"1.0"}})";
+constexpr std::string_view kFirstHello = R"({"id":1,"hello":{"protocol":"1.0"}})";
 
 class SessionTest : public testing::Test {
   protected:
@@ -33,13 +33,13 @@ class SessionTest : public testing::Test {
 };
 
 TEST_F(SessionTest, HelloJoins) {
-    receive(kHello);
+    receive(kFirstHello);
     const auto events = inbox_.drain();
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].kind, ClientEvent::Kind::joined);
     EXPECT_EQ(events[0].viewer, 3U);
     EXPECT_EQ(sent(), "");
-    receive(kHello);
+    receive(kFirstHello);
     EXPECT_NE(sent().find("has been said already"), std::string::npos);
     session_.on_hello_timeout();
     EXPECT_FALSE(link_.closing());
@@ -66,7 +66,7 @@ TEST_F(SessionTest, AnotherMajorVersionIsRefusedWithBothVersions) {
     const std::string answer = sent();
     EXPECT_NE(answer.find("client speaks 2.3, server speaks 1.0"), std::string::npos) << answer;
     EXPECT_EQ(link_.close_due()->code, CloseCode::protocol_error);
-    receive(kHello);
+    receive(kFirstHello);
     EXPECT_TRUE(inbox_.drain().empty());
 }
 
@@ -88,10 +88,10 @@ TEST_F(SessionTest, NonsenseVersionsAreInvalid) {
 }
 
 TEST_F(SessionTest, PutsFragmentsTogether) {
-    session_.on_fragment(kHello.substr(0, 10), true, false, false, 0.0);
-    session_.on_fragment(kHello.substr(10, 1), false, false, false, 0.0);
+    session_.on_fragment(kFirstHello.substr(0, 10), true, false, false, 0.0);
+    session_.on_fragment(kFirstHello.substr(10, 1), false, false, false, 0.0);
     EXPECT_FALSE(session_.has_joined());
-    session_.on_fragment(kHello.substr(11), false, true, false, 0.0);
+    session_.on_fragment(kFirstHello.substr(11), false, true, false, 0.0);
     EXPECT_TRUE(session_.has_joined());
 }
 
@@ -111,7 +111,7 @@ TEST_F(SessionTest, DoesNotCollectMoreThanTheLimit) {
 }
 
 TEST_F(SessionTest, AnswersPingItself) {
-    receive(kHello);
+    receive(kFirstHello);
     inbox_.drain();
     receive(R"({"id":8,"ping":{}})");
     const std::string pong = sent();
@@ -121,7 +121,7 @@ TEST_F(SessionTest, AnswersPingItself) {
 }
 
 TEST_F(SessionTest, AFloodIsAnsweredAndDropped) {
-    receive(kHello);
+    receive(kFirstHello);
     inbox_.drain();
     for (int i = 0; i < 10; ++i) {
         receive(R"({"id":2,"probe":{"pixel":{}}})");
@@ -141,7 +141,7 @@ TEST_F(SessionTest, AFloodIsAnsweredAndDropped) {
 }
 
 TEST_F(SessionTest, LeavingIsReported) {
-    receive(kHello);
+    receive(kFirstHello);
     inbox_.drain();
     session_.on_closed();
     ASSERT_EQ(inbox_.drain().size(), 1U);

@@ -14,7 +14,6 @@
 namespace raybundle {
 namespace {
 
-constexpr double sigmas = 4.5;
 constexpr double sigmas_of_batches = 6.5;
 
 class GlossyRoom : public testing::TestWithParam<std::size_t> {

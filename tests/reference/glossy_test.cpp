@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <vector>
 
@@ -14,8 +15,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
-constexpr double sigmas = 4.5;
+using std::numbers::pi;
 
 Estimate estimate(std::uint32_t count, const std::function<double(PixelSampler&)>& sample) {
     double sum = 0.0;

@@ -14,7 +14,7 @@
 namespace raybundle {
 namespace {
 
-constexpr glm::uvec2 size(24, 16);
+constexpr glm::uvec2 picture_size(24, 16);
 
 Camera room_camera() {
     Camera camera;
@@ -26,10 +26,10 @@ Camera room_camera() {
 
 struct View {
     explicit View(const SceneBuilder& builder)
-        : tracing(builder), camera(tracing.scene, room_camera(), size) {}
+        : tracing(builder), camera(tracing.scene, room_camera(), picture_size) {}
 
     ImageEstimate render(int passes, std::uint64_t seed, int threads) const {
-        ImageEstimate image(size, seed);
+        ImageEstimate image(picture_size, seed);
         tbb::task_arena arena(threads);
         arena.execute([&] {
             for (int i = 0; i < passes; ++i) {
@@ -75,8 +75,8 @@ TEST(ImageEstimate, FurnaceIsAConstantPicture) {
     camera.eye = glm::vec3(odd_rotation() * glm::vec4(0.5F, 1.5F, 0.5F, 1.0F));
     camera.target = glm::vec3(odd_rotation() * glm::vec4(3.0F, 1.2F, 1.5F, 1.0F));
     const Tracing tracing(room);
-    const CameraRays rays(tracing.scene, camera, size);
-    ImageEstimate image(size, 3);
+    const CameraRays rays(tracing.scene, camera, picture_size);
+    ImageEstimate image(picture_size, 3);
     for (int i = 0; i < 256; ++i) {
         image.add_pass(rays, [&](const glm::dvec3& o, const glm::dvec3& d, PixelSampler& s) {
             return tracing.tracer.radiance(o, d, s);
@@ -87,7 +87,7 @@ TEST(ImageEstimate, FurnaceIsAConstantPicture) {
         EXPECT_NEAR(pixel.g, 200.0, 10.0);
         sum += pixel.g;
     }
-    EXPECT_NEAR(sum / (size.x * size.y), 200.0, 0.2);
+    EXPECT_NEAR(sum / (picture_size.x * picture_size.y), 200.0, 0.2);
     EXPECT_EQ(image.non_finite(), 0U);
 }
 
@@ -109,7 +109,7 @@ TEST(ImageEstimate, StandardErrorsAreCalibrated) {
         squares += deviation * deviation;
         expected += error * error;
     }
-    const double share = beyond / static_cast<double>(size.x * size.y);
+    const double share = beyond / static_cast<double>(picture_size.x * picture_size.y);
     EXPECT_GT(share, 0.0);
     EXPECT_LT(share, 0.10);
     EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.25);

@@ -23,7 +23,7 @@
 namespace raybundle {
 namespace {
 
-constexpr glm::uvec2 size(8, 8);
+constexpr glm::uvec2 view_size(8, 8);
 constexpr int seeds = 16;
 constexpr double pixel_sigmas = 7.5;
 constexpr double picture_sigmas = 5.5;
@@ -44,18 +44,18 @@ constexpr MethodCase methods[] = {{"light", ReferenceKind::light, 2048},
 
 using Picture = std::vector<glm::dvec3>;
 
-const std::vector<bool> all_pixels(std::size_t{size.x} * size.y, true);
+const std::vector<bool> all_pixels(std::size_t{view_size.x} * view_size.y, true);
 
 /// Pixels that show no mirror or glass at any of 64 x 64 points.
 std::vector<bool> without_mirrors(const RayScene& scene, const Camera& camera) {
     constexpr unsigned side = 64;
-    const CameraRays rays(scene, camera, size * side);
+    const CameraRays rays(scene, camera, view_size * side);
     std::vector<bool> result = all_pixels;
     for (std::size_t i = 0; i < all_pixels.size() * side * side; ++i) {
-        const glm::uvec2 at(i % (size.x * side), i / (size.x * side));
+        const glm::uvec2 at(i % (view_size.x * side), i / (view_size.x * side));
         const auto hit = scene.trace(rays.origin(), rays.direction(glm::dvec2(at) + 0.5));
         if (hit && is_deflecting(scene, *hit)) {
-            result[std::size_t{at.y} / side * size.x + at.x / side] = false;
+            result[std::size_t{at.y} / side * view_size.x + at.x / side] = false;
         }
     }
     return result;
@@ -63,7 +63,7 @@ std::vector<bool> without_mirrors(const RayScene& scene, const Camera& camera) {
 
 Picture render(ReferenceKind kind, const RayScene& scene, const Camera& camera, int iterations,
                std::uint64_t seed) {
-    const auto method = make_reference_method(kind, scene, camera, size, seed);
+    const auto method = make_reference_method(kind, scene, camera, view_size, seed);
     for (int i = 0; i < iterations; ++i) {
         method->iterate();
     }
@@ -153,7 +153,7 @@ TEST(LightMissed, BehindMirrorsAndOfPunctualLightsByWayOfGlass) {
     View view = agreement_view(5);
     const auto missed = [&view](ReferenceKind kind, const Camera& camera) {
         const RayScene scene(view.builder.scene, view.builder.mesh);
-        return light_missed(kind, scene, camera, size);
+        return light_missed(kind, scene, camera, view_size);
     };
     const Camera away = camera_at({0.3F, 1.6F, 0.3F}, {0.0F, 1.6F, 0.2F}, 0.5F);
     EXPECT_NE(missed(ReferenceKind::light, view.camera).find("mirrors"), std::string::npos);
@@ -182,8 +182,8 @@ TEST_P(FullMethod, FurnaceIsAConstantPicture) {
     const RayScene scene(room.scene, room.mesh);
     const Camera camera = camera_at({0.5F, 1.5F, 0.5F}, {3.0F, 1.2F, 1.5F}, 0.7F);
     const auto pictures = replicates(GetParam(), GetParam().iterations, scene, camera, 1);
-    for (std::size_t pixel = 0; pixel <= std::size_t{size.x} * size.y; ++pixel) {
-        const bool whole = pixel == std::size_t{size.x} * size.y;
+    for (std::size_t pixel = 0; pixel <= std::size_t{view_size.x} * view_size.y; ++pixel) {
+        const bool whole = pixel == std::size_t{view_size.x} * view_size.y;
         const Estimate e = estimate_of(pictures, pixel, 1);
         const double blur = 200.0 * GetParam().bias;
         EXPECT_NEAR(e.mean, 200.0,

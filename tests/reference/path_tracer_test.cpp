@@ -6,14 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "rooms.h"
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
-constexpr double sigmas = 4.5;
+using std::numbers::pi;
 
 void expect_estimate(const Estimate& estimate, double exact, double relative_error) {
     EXPECT_NEAR(estimate.mean, exact, sigmas * estimate.standard_error + 1e-9 * exact);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reference/photon_tracer.h"
 #include "rooms.h"
@@ -12,7 +13,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// Photons in the unit cube, normals up or down.
 std::vector<Photon> random_photons(int count) {

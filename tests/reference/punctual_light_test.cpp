@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "lit_room.h"
 #include "reference/single_ray.h"
@@ -15,7 +15,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 /// A floor of 10 m x 10 m at height 0, black, 2 triangles.
 SceneBuilder black_floor() {
     SceneBuilder b;

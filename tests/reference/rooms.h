@@ -12,6 +12,9 @@
 
 namespace raybundle {
 
+/// Standard errors that an estimate may be off: passed by chance once in 150 000.
+inline constexpr double sigmas = 4.5;
+
 /// Nothing axis-aligned passes by luck.
 inline glm::mat4 odd_rotation() {
     return glm::rotate(glm::mat4(1.0F), 0.7F, glm::normalize(glm::vec3(0.3F, 1.0F, 0.5F)));

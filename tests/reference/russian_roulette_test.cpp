@@ -5,14 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "rooms.h"
 #include "roulette_study.h"
 
 namespace raybundle {
 namespace {
 
-constexpr double sigmas = 4.5;  // passed by chance once in 150 000
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// Every policy is unbiased, with and without next-event estimation, also on coloured and glossy
 /// surfaces: mean irradiance of a furnished room against the policy by throughput.

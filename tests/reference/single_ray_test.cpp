@@ -9,14 +9,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "rooms.h"
 
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
-constexpr double sigmas = 6.5;
+using std::numbers::pi;
+constexpr double particle_sigmas = 6.5;
 
 struct Particles {
     explicit Particles(const SceneBuilder& builder, std::uint64_t seed = 1)
@@ -65,7 +66,7 @@ std::uint32_t patch_count(const SceneBuilder& builder) {
 }
 
 void expect_estimate(const Estimate& estimate, double exact, double relative_error) {
-    EXPECT_NEAR(estimate.mean, exact, sigmas * estimate.standard_error + 1e-9 * exact);
+    EXPECT_NEAR(estimate.mean, exact, particle_sigmas * estimate.standard_error + 1e-9 * exact);
     EXPECT_LT(estimate.standard_error, relative_error * exact);
 }
 
@@ -83,7 +84,7 @@ TEST_P(SingleRayFurnace, HasTheSameIrradianceEverywhere) {
     for (std::uint32_t patch = 0; patch < patch_count(room); ++patch) {
         const double deviation = p.solution.irradiance(patch).g - exact;
         const double error = p.solution.standard_error(patch).g;
-        EXPECT_LT(std::abs(deviation), sigmas * error);
+        EXPECT_LT(std::abs(deviation), particle_sigmas * error);
         squares += deviation * deviation / (error * error);
     }
     // 80 patches: the standard deviation of this mean is 0.22.
@@ -247,7 +248,7 @@ TEST(SingleRay, AgreesWithPathTracing) {
             mean_irradiance(p.tracing.scene, p.tracing.tracer, patch, patch + 1, 10'000, patch);
         const double particles = p.solution.irradiance(patch).g;
         const double error = std::hypot(path.standard_error, p.solution.standard_error(patch).g);
-        EXPECT_NEAR(particles, path.mean, sigmas * error) << patch;
+        EXPECT_NEAR(particles, path.mean, particle_sigmas * error) << patch;
         EXPECT_LT(error, 0.1 * path.mean + 0.05) << patch;
         if (error > 0.0) {
             squares += std::pow((particles - path.mean) / error, 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace raybundle::test {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr int rows = 24;  // of bins over the sphere, even in the cosine
 constexpr int columns = 48;
 

@@ -16,8 +16,6 @@
 namespace raybundle::test {
 namespace {
 
-constexpr float pi = glm::pi<float>();
-
 Material plastic(float roughness, float specular = 1.0F) {
     Material material;
     material.metallic = 0.0F;
@@ -154,7 +152,7 @@ TEST(Brdf, WithoutSpecularIsExactlyLambert) {
     RandomBrdfs random(4);
     for (int i = 0; i < 1000; ++i) {
         const glm::vec3 f = evaluate(brdf, random.direction(), random.direction());
-        ASSERT_EQ(f, glm::vec3(0.2F, 0.5F, 0.8F) * (1.0F / pi));
+        ASSERT_EQ(f, glm::vec3(0.2F, 0.5F, 0.8F) * (1.0F / glm::pi<float>()));
     }
     // A black max-Phong lobe is none either, and colours are kept below max_albedo.
     EXPECT_EQ(make_brdf(phong(glm::vec3(0.0F), 5.0F), glm::vec3(2.0F)),

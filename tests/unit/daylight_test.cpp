@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "gltf_builder.h"
 #include "scene/environment_map.h"
@@ -15,7 +15,7 @@
 namespace raybundle::test {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 SkyDome dome(int type, double elevation, double zenith, double sun = 0.0) {
     SkyDomeSettings settings;

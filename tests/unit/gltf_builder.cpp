@@ -202,6 +202,12 @@ bool has_notice(const Scene& scene, std::string_view text) {
     return false;
 }
 
+GltfBuilder one_triangle() {
+    GltfBuilder builder;
+    builder.add_node({{"mesh", builder.add_triangle_mesh(unit_triangle)}, {"name", "thing"}});
+    return builder;
+}
+
 std::array<glm::vec3, 3> world_corners(const Scene& scene, const Triangle& triangle) {
     const glm::mat4 world = scene.objects[triangle.object].world_from_object();
     std::array<glm::vec3, 3> corners{};

@@ -86,6 +86,11 @@ SceneError load_error(const GltfBuilder& builder);
 /// True if a notice contains the text.
 bool has_notice(const Scene& scene, std::string_view text);
 
+inline const std::vector<glm::vec3> unit_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+/// A scene of one node, "thing", that is the unit triangle.
+GltfBuilder one_triangle();
+
 /// The corner positions of a triangle in world space.
 std::array<glm::vec3, 3> world_corners(const Scene& scene, const Triangle& triangle);
 glm::vec3 world_normal(const Scene& scene, const Triangle& triangle);

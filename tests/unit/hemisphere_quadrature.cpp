@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 namespace raybundle::test {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 glm::dvec3 spherical(double cosine, double phi) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));

@@ -6,14 +6,14 @@
 
 #include <cmath>
 #include <functional>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "gltf_builder.h"
 
 namespace raybundle::test {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// A file of type C with these angles and candela(vertical, horizontal).
 std::string type_c(int vertical_step, int last_vertical, int horizontal_step, int last_horizontal,

@@ -12,7 +12,7 @@
 namespace raybundle::test {
 namespace {
 
-const std::vector<glm::vec3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<glm::vec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 /// The two triangles of a square as Draco data, with the position attribute's unique id.
 std::pair<std::vector<std::uint8_t>, std::uint32_t> draco_square() {
@@ -22,8 +22,8 @@ std::pair<std::vector<std::uint8_t>, std::uint32_t> draco_square() {
         soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     const std::size_t faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
     for (std::uint32_t f = 0; f < 2; ++f) {
-        soup.SetAttributeValuesForFace(position, draco::FaceIndex(f), &corners[faces[f][0]],
-                                       &corners[faces[f][1]], &corners[faces[f][2]]);
+        soup.SetAttributeValuesForFace(position, draco::FaceIndex(f), &square[faces[f][0]],
+                                       &square[faces[f][1]], &square[faces[f][2]]);
     }
     const auto mesh = soup.Finalize();
     draco::Encoder encoder;
@@ -82,7 +82,7 @@ TEST(SceneCompression, Meshopt) {
     GltfBuilder builder;
     std::size_t fallback_bytes = 0;
     std::vector<std::uint8_t> vertices(meshopt_encodeVertexBufferBound(4, sizeof(glm::vec3)));
-    vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), corners.data(), 4,
+    vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), square.data(), 4,
                                                sizeof(glm::vec3)));
     const int vertex_view =
         add_meshopt_view(builder, vertices, 4, sizeof(glm::vec3), "ATTRIBUTES", fallback_bytes);
@@ -120,7 +120,7 @@ TEST(SceneCompression, Webp) {
     output->close();
 
     GltfBuilder builder;
-    const int mesh = builder.add_triangle_mesh(corners);
+    const int mesh = builder.add_triangle_mesh(square);
     builder.json["meshes"][0]["primitives"][0]["material"] =
         builder.add_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     builder.json["meshes"][0]["primitives"][0]["mode"] = 6;

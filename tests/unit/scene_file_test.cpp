@@ -9,14 +9,6 @@
 namespace raybundle::test {
 namespace {
 
-const std::vector<glm::vec3> unit_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-
-GltfBuilder one_triangle() {
-    GltfBuilder builder;
-    builder.add_node({{"mesh", builder.add_triangle_mesh(unit_triangle)}, {"name", "thing"}});
-    return builder;
-}
-
 TEST(SceneFile, ReadsEmbeddedDataUri) {
     const Scene scene = one_triangle().load();
     ASSERT_EQ(scene.triangles.size(), 1U);

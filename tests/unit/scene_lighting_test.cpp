@@ -8,8 +8,6 @@
 namespace raybundle::test {
 namespace {
 
-const std::vector<glm::vec3> unit_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-
 /// Two triangles of one emitting material, in two nodes.
 GltfBuilder two_lamps(const Json& material) {
     GltfBuilder builder;

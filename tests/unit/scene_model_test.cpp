@@ -7,12 +7,6 @@
 namespace raybundle::test {
 namespace {
 
-GltfBuilder one_triangle() {
-    GltfBuilder builder;
-    builder.add_node({{"mesh", builder.add_triangle_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}});
-    return builder;
-}
-
 /// The same JSON with 1.0 in place of 1.
 Json with_fractions(Json json) {
     if (json.is_number_integer()) {

@@ -59,18 +59,18 @@ TEST(SceneReflectance, ExtrasOfOthersAreLeftAlone) {
     }
 }
 
-struct Fault {
+struct MaxPhongFault {
     const char* name;
     std::function<void(Json& max_phong)> inject;
     const char* json_path;  // below maxPhong
     const char* reason;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const MaxPhongFault& fault, std::ostream* out) {
     *out << fault.name;
 }
 
-class MaxPhongRejection : public testing::TestWithParam<Fault> {};
+class MaxPhongRejection : public testing::TestWithParam<MaxPhongFault> {};
 
 TEST_P(MaxPhongRejection, NamesThePlaceAndTheReason) {
     Json material = with_max_phong({0.1, 0.2, 0.3}, 10);
@@ -85,7 +85,7 @@ TEST_P(MaxPhongRejection, NamesThePlaceAndTheReason) {
     }
 }
 
-const Fault faults[] = {
+const MaxPhongFault max_phong_faults[] = {
     {"type", [](Json& j) { j = 3; }, "", "must be an object"},
     {"null", [](Json& j) { j = nullptr; }, "", "must be an object"},
     {"empty", [](Json& j) { j = Json::object(); }, ".specular", "is missing"},
@@ -105,7 +105,7 @@ const Fault faults[] = {
     {"exponent_high", [](Json& j) { j["exponent"] = 1e5; }, ".exponent", "not in [1, 1000]"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Faults, MaxPhongRejection, testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Faults, MaxPhongRejection, testing::ValuesIn(max_phong_faults),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SceneReflectance, SpecularColourIsChecked) {

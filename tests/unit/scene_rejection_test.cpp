@@ -14,7 +14,7 @@
 namespace raybundle::test {
 namespace {
 
-GltfBuilder one_triangle() {
+GltfBuilder indexed_triangle() {
     GltfBuilder builder;
     const int positions = builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     const int indices = builder.add_indices({0, 1, 2});
@@ -23,28 +23,28 @@ GltfBuilder one_triangle() {
     return builder;
 }
 
-struct Fault {
+struct SceneFault {
     const char* name;
     std::function<void(Json&)> inject;
     const char* json_path;
     const char* reason;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const SceneFault& fault, std::ostream* out) {
     *out << fault.name;
 }
 
-class SceneRejection : public testing::TestWithParam<Fault> {};
+class SceneRejection : public testing::TestWithParam<SceneFault> {};
 
 TEST_P(SceneRejection, NamesThePlaceAndTheReason) {
-    GltfBuilder builder = one_triangle();
+    GltfBuilder builder = indexed_triangle();
     GetParam().inject(builder.json);
     const SceneError error = load_error(builder);
     EXPECT_EQ(error.json_path(), GetParam().json_path);
     EXPECT_NE(error.reason().find(GetParam().reason), std::string::npos) << error.what();
 }
 
-const Fault faults[] = {
+const SceneFault scene_faults[] = {
     {"no_asset", [](Json& j) { j.erase("asset"); }, "asset", "is missing"},
     {"old_version", [](Json& j) { j["asset"]["version"] = "1.0"; }, "asset.version", "only 2.0"},
     {"newer_minimum", [](Json& j) { j["asset"]["minVersion"] = "2.1"; }, "asset.minVersion",
@@ -242,11 +242,11 @@ const Fault faults[] = {
      "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression", "cannot be decoded"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Faults, SceneRejection, testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Faults, SceneRejection, testing::ValuesIn(scene_faults),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SceneRejectionData, IndicesBeyondTheVertices) {
-    GltfBuilder builder = one_triangle();
+    GltfBuilder builder = indexed_triangle();
     builder.json["meshes"][0]["primitives"][0]["indices"] = builder.add_indices({0, 1, 3});
     const SceneError error = load_error(builder);
     EXPECT_EQ(error.json_path(), "meshes[0].primitives[0].indices");
@@ -266,14 +266,14 @@ TEST(SceneRejectionData, NonFinitePositions) {
 }
 
 TEST(SceneRejectionData, AttributesOfUnequalLength) {
-    GltfBuilder builder = one_triangle();
+    GltfBuilder builder = indexed_triangle();
     builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         builder.add_positions({{0, 0, 1}});
     EXPECT_EQ(load_error(builder).json_path(), "meshes[0].primitives[0].attributes.NORMAL");
 }
 
 TEST(SceneRejectionData, ImagesThatAreNone) {
-    GltfBuilder builder = one_triangle();
+    GltfBuilder builder = indexed_triangle();
     builder.add_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     builder.json["textures"] = {{{"source", 0}}};
     std::vector<std::uint8_t> bytes = png(4, 4, std::vector<std::uint8_t>(64, 9));
@@ -297,7 +297,7 @@ TEST(SceneRejectionData, ImagesThatAreNone) {
 
 TEST(SceneRejectionData, CutOffGlbNeverCrashes) {
     const TemporaryFolder folder;
-    const std::string whole = one_triangle().glb();
+    const std::string whole = indexed_triangle().glb();
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const std::string file = folder.write("cut.glb", whole.substr(0, length));
         (void)load_error(file);
@@ -306,7 +306,7 @@ TEST(SceneRejectionData, CutOffGlbNeverCrashes) {
 
 TEST(SceneRejectionData, DamagedGlbNeverCrashes) {
     const TemporaryFolder folder;
-    const std::string whole = one_triangle().glb();
+    const std::string whole = indexed_triangle().glb();
     for (std::size_t at = 0; at < whole.size(); ++at) {
         std::string damaged = whole;
         damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
