@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# clang-tidy over the tracked sources of a configured and built build/. A file is checked again only
-# when it, a header of the project that it includes, or .clang-tidy has changed.
+# clang-tidy over the tracked sources of a configured and built build/. Sources that are compiled
+# together (a unity build) are checked together, as one file that holds their text: the analyser leaves
+# out what it takes for headers. A source is checked again only when it, a file of the project that it
+# includes, or .clang-tidy has changed.
 # usage: deploy/tidy.sh [--deep]   --deep: all checks of .clang-tidy, and the static analyser follows calls
 # further, and the tests are checked too: four times as slow. Without it only the checks that have found
 # real defects here.
@@ -20,9 +22,11 @@ if [[ ${1:-} == --deep ]]; then
     checks="" # what .clang-tidy says
 fi
 stamps="$build_dir/tidy/$analyser_mode"
-export root stamps analyser_mode checks
+joined="$build_dir/tidy/joined" # sources put together, and how to compile them
+export root joined stamps analyser_mode checks
 
-# Lines "source<TAB>dependency..." of the project's own files, from ninja's dependency log.
+# Lines "source<TAB>dependency..." of the project's own files, from ninja's dependency log. The source
+# is one that CMake has made where it compiles some of them together.
 project_dependencies() {
     ninja -C "$build_dir" -t deps | awk -v root="$root/" -v build="$build_dir/" '
         function flush() { if (line != "") print line; line = "" }
@@ -32,28 +36,79 @@ project_dependencies() {
             if (file !~ /^\//) file = build file  # ccache may write paths so
             while (sub(/[^\/]+\/\.\.\//, "", file)) {}
             own = index(file, root) == 1 && index(file, build) != 1
-            if (first) { if (own) line = file; first = 0 }
+            if (first) { if (own || file ~ /\/Unity\/unity_[0-9]+_cxx\.cxx$/) line = file; first = 0 }
             else if (own && line != "") line = line "\t" file
         }
         END { flush() }'
 }
 
+# Where the text of a source is that CMake has made of others; others are where they are.
+text_of() {
+    if [[ $1 == */Unity/* ]]; then
+        local name=${1#"$build_dir"/}
+        printf '%s/%s\n' "$joined" "${name//\//_}"
+    else
+        printf '%s\n' "$1"
+    fi
+}
+
+# Writes that text, and with which commands it compiles.
+join_sources() {
+    rm -rf "$joined"
+    mkdir -p "$joined"
+    local unity text line script=""
+    while read -r unity; do
+        text=$(text_of "$unity")
+        while read -r line; do
+            [[ $line == '#include "'* ]] || continue
+            line=${line#*\"}
+            printf '#line 1 "%s"\n' "${line%\"}"
+            cat "${line%\"}"
+        done <"$unity" >"$text"
+        script+="s|\"file\": \"$unity\"|\"file\": \"$text\"|;s| $unity\"| $text\"|;"
+    done < <(find "$build_dir" -path '*/Unity/unity_*_cxx.cxx')
+    sed "$script" "$build_dir/compile_commands.json" >"$joined/compile_commands.json"
+}
+
+# Names places in joined text ($1) as those of the sources.
+original_places() {
+    awk -v joined="$1" '
+        BEGIN {
+            while ((getline line < joined) > 0) {
+                ++count
+                if (line ~ /^#line 1 "/) { split(line, part, "\""); file = part[2]; start = count }
+                name[count] = file; offset[count] = start
+            }
+        }
+        index($0, joined ":") == 1 && (substr($0, length(joined) + 2) + 0) in name {
+            rest = substr($0, length(joined) + 2); at = rest + 0; sub(/^[0-9]+/, "", rest)
+            $0 = name[at] ":" at - offset[at] rest
+        }
+        { print }'
+}
+
 # Checks one source; $1 is its stamp, $2 the source. The build's own warnings are GCC's, some of
 # which clang does not know.
 tidy_one() {
-    local log own="$checks"
-    [[ $2 != "$root"/tests/* ]] || own+=",-clang-analyzer-*" # 20 s a file, all in gtest's macros
-    if log=$(clang-tidy -p "$build_dir" --quiet --checks="${own#,}" \
+    local log own="$checks" text
+    text=$(text_of "$2")
+    case $2 in
+        "$root"/tests/* | "$build_dir"/tests/*)
+            own+=",-clang-analyzer-*" # 20 s a file, all in gtest's macros
+            ;;
+    esac
+    if log=$(clang-tidy -p "$joined" --quiet --checks="${own#,}" \
         --extra-arg=-Wno-unknown-warning-option \
-        --extra-arg={-Xclang,-analyzer-config,-Xclang,mode="$analyser_mode"} "$2" 2>&1); then
+        --extra-arg={-Xclang,-analyzer-config,-Xclang,mode="$analyser_mode"} "$text" 2>&1); then
         touch "$stamps/$1"
-        printf 'tidy: %s\n' "${2#"$PWD"/}"
+        printf 'tidy: %s\n' "${2#"$root"/}"
     else
-        printf '%s\n' "$log" "tidy: FAILED ${2#"$PWD"/}"
+        original_places "$text" <<<"$log"
+        printf '%s\n' "tidy: FAILED ${2#"$root"/}"
         return 1
     fi
 }
-export -f tidy_one
+export -f text_of original_places tidy_one
 
 cd "$root"
 mkdir -p "$stamps"
@@ -62,11 +117,22 @@ while IFS= read -r -d '' file; do
     tracked["$root/$file"]=1
 done < <(git -c safe.directory="$root" ls-files -z -- "${sources[@]}")
 
+# Whether one of the files is to be checked.
+any_tracked() {
+    local file
+    for file in "$@"; do
+        [[ -z ${tracked[$file]:-} ]] || return 0
+    done
+    return 1
+}
+
+join_sources
 work=()
 declare -A seen=()
 while IFS=$'\t' read -r -a files; do
     source_file=${files[0]}
-    [[ -n ${tracked[$source_file]:-} && -z ${seen[$source_file]:-} ]] || continue
+    [[ -z ${seen[$source_file]:-} ]] || continue
+    any_tracked "${files[@]}" || continue
     seen[$source_file]=1
     stamp=$(cat .clang-tidy "${files[@]}" | sha256sum | cut -c1-32)
     [[ -e $stamps/$stamp ]] || work+=("$stamp" "$source_file")

@@ -15,5 +15,6 @@ function(embed_files target symbol base)
         DEPENDS ${inputs} ${CMAKE_SOURCE_DIR}/deploy/cmake/WriteEmbedded.cmake
         COMMENT "Embedding ${symbol}"
         VERBATIM)
+    set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     target_sources(${target} PRIVATE ${output})
 endfunction()

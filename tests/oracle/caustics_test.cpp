@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 
 #include "oracle/scene_builder.h"
 #include "pictures.h"
@@ -17,7 +17,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 Material mirror_material() {
     Material material;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <memory>
+#include <numbers>
 
 #include "oracle/oracle_solve.h"
 #include "reference/camera_rays.h"
@@ -16,7 +16,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 /// Mean irradiance of a black plane that looks up, lx, under a sky.
 double plane_illuminance(const SkyDomeSettings& settings, std::uint64_t iterations) {

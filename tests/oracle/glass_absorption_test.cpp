@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "oracle/scene_builder.h"
 #include "scene/specular_surface.h"
@@ -13,7 +13,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr float wall_albedo = 0.8F;
 constexpr float receiver_z = 3.0F;
 

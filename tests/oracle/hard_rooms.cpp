@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numbers>
 #include <random>
 
 #include "oracle/oracle_solve.h"
@@ -10,7 +11,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 void add_plate(SceneBuilder& b, float from, float to, float height, bool up, std::uint32_t material,
                std::uint32_t cells) {

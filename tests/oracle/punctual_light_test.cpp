@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <memory>
+#include <numbers>
 
 #include "../reference/lit_room.h"
 #include "oracle/oracle_solve.h"
@@ -16,7 +16,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 double patch_area(const PatchMesh& mesh, std::size_t patch) {
     const glm::uvec3& t = mesh.triangles[patch];

@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 #include <vector>
 
 #include "oracle/scene_builder.h"
@@ -15,7 +15,7 @@
 namespace raybundle {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr float wall_albedo = 0.8F;
 
 Material specular_material(const glm::vec3& colour, float metallic, float transmission) {
