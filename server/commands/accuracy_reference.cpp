@@ -54,13 +54,22 @@ class Refinement {
         }
     }
 
-    /// Whole rounds of the batches; the noise is looked at whenever there is an eighth more.
+    /// Whole rounds of the batches; the noise is looked at when it should be low enough, and
+    /// whenever there is an eighth more.
     void refine_to(double target) {
         while (has_time() && maker_.noise() > target) {
-            const std::uint64_t rounds = std::max<std::uint64_t>(passes_ / 8 / 8, 1);
-            add_passes(rounds * ImageEstimate::batches);
+            const double wanted = samples_for(target) - static_cast<double>(passes_);
+            const double more = std::min(wanted, static_cast<double>(passes_) / 8.0);
+            const auto rounds = static_cast<std::uint64_t>(more / ImageEstimate::batches);
+            add_passes(std::max<std::uint64_t>(rounds, 1) * ImageEstimate::batches);
             noise_ = maker_.noise();
         }
+    }
+
+    /// Passes, foreseen, until the noise is so low.
+    [[nodiscard]] double samples_for(double target) const {
+        return static_cast<double>(passes_) *
+               std::pow(maker_.noise() / target, 1.0 / foreseen_rate);
     }
 
     void report() {

@@ -13,6 +13,15 @@
 
 namespace raybundle {
 
+/// Weight of a sample drawn with a density (above 0) that another technique draws with density
+/// `other`: the power heuristic with exponent 2 (Veach, Guibas 1995, "Optimally Combining Sampling
+/// Techniques"). Where one of the two is far better, as a light far away is sampled rather than
+/// met by chance, it leaves the other one's noise out.
+inline double power_heuristic(double density, double other) {
+    const double ratio = other / density;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
 /// Light from a point chosen on the emitters or from the sky.
 struct LightSample {
     glm::dvec3 direction{0.0};            ///< from the receiver, unit
@@ -26,10 +35,10 @@ struct LightSample {
 
     static constexpr int no_light = -1;
 
-    /// What the balance heuristic divides by; other: density, 1/sr, with which another technique
-    /// draws the direction. None meets a punctual light.
-    [[nodiscard]] double combined_density(double other) const {
-        return punctual == no_light ? density + other : density;
+    /// Of the sample where another technique draws the direction with a density of `other`, 1/sr.
+    /// None meets a punctual light.
+    [[nodiscard]] double weight(double other) const {
+        return punctual == no_light ? power_heuristic(density, other) : 1.0;
     }
 };
 

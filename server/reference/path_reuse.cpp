@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/path_reuse.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t tile_side = 5;  // pixels
+constexpr std::uint32_t tile_side = 8;  // pixels
+constexpr std::size_t most_views = std::size_t{tile_side} * tile_side;
 // Whether a path arrives at its second surface must not be a matter of roulette: no density knows
 // of that.
 static_assert(PathSettings{}.certain_bounces > 0);
@@ -75,23 +78,32 @@ void PathReuse::radiance(const glm::dvec3& origin, std::span<PixelRay> rays,
 
 void PathReuse::share(const Offer& offer, std::span<const View> views,
                       std::span<glm::dvec3> radiance) const {
-    const glm::vec3 arrival = scene_.departure(offer.point);
-    std::vector<Join> joins;
-    double density = 0.0;
-    for (const View& view : views) {
-        Join way = join(view.end, offer.point);
-        const bool open = way.density > 0.0 && (view.pixel == offer.pixel ||
-                                                scene_.unobstructed(view.departure, arrival));
-        joins.push_back(open ? way : Join{});
-        density += joins.back().density;
-    }
-    if (!(density > 0.0)) {
-        return;
-    }
+    std::array<Join, most_views> joins;
+    std::array<std::size_t, most_views> joined;  // views
+    std::array<glm::vec3, most_views> departures;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
-        if (joins[i].density > 0.0) {
-            radiance[views[i].pixel] +=
-                views[i].end.throughput * joins[i].reflected * offer.radiance / density;
+        const Join way = join(views[i].end, offer.point);
+        if (way.density > 0.0) {
+            joins[count] = way;
+            joined[count] = i;
+            departures[count++] = views[i].departure;
+        }
+    }
+    std::array<bool, most_views> open;
+    scene_.find_unobstructed(scene_.departure(offer.point), std::span(departures).first(count),
+                             open);
+    double density = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        // The pixel's own path has been there.
+        open[i] = open[i] || views[joined[i]].pixel == offer.pixel;
+        density += open[i] ? joins[i].density : 0.0;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (open[i]) {
+            const View& view = views[joined[i]];
+            radiance[view.pixel] +=
+                view.end.throughput * joins[i].reflected * offer.radiance / density;
         }
     }
 }

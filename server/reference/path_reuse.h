@@ -22,13 +22,10 @@ class PathReuse {
   public:
     /// Scene and lights must outlive it.
     PathReuse(const RayScene& scene, const LightSampling& lights)
-        : scene_(scene), tracer_(scene, lights) {}
+        : scene_(scene), tracer_(scene, lights, settings) {}
 
     /// Adds one sample to every pixel of a whole picture.
     void add_pass(ImageEstimate& image, const CameraRays& camera) const;
-    /// Estimates of the radiance that arrives at a point in space against each ray, cd/m².
-    void radiance(const glm::dvec3& origin, std::span<PixelRay> rays,
-                  std::span<glm::dvec3> radiance) const;
 
   private:
     /// What a pixel shows.
@@ -45,8 +42,15 @@ class PathReuse {
         glm::dvec3 radiance;  ///< that it reflects to everywhere, cd/m²
     };
 
+    /// Estimates of the radiance that arrives at a point in space against each ray, cd/m²; at most
+    /// as many as a tile has.
+    void radiance(const glm::dvec3& origin, std::span<PixelRay> rays,
+                  std::span<glm::dvec3> radiance) const;
     void share(const Offer& offer, std::span<const View> views,
                std::span<glm::dvec3> radiance) const;
+
+    // Most light arrives with shared paths, and that of the lamps does not.
+    static constexpr PathSettings settings{.first_light_samples = 2};
 
     const RayScene& scene_;
     PathTracer tracer_;

@@ -87,7 +87,10 @@ glm::dvec3 PathTracer::reflected(PathEnd end, Sampler& sampler) const {
 }
 
 bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const {
-    sum += end.throughput * next_event(end.point, end.scattering, sampler);
+    const int samples = light_samples(end);
+    for (int i = 0; i < samples; ++i) {
+        sum += end.throughput * next_event(end, samples, sampler);
+    }
     const glm::dvec2 u = sampler.next_pair();
     const std::optional<ScatterSample> next = end.scattering.sample(u, sampler.next());
     if (!next) {
@@ -111,7 +114,7 @@ bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const 
         const double other =
             sampled ? lights_.density(end.point, end.scattering.frame(), next->direction, met.hit)
                     : 0.0;
-        sum += end.throughput * emission * (next->density / (next->density + other));
+        sum += end.throughput * emission * power_heuristic(next->density, samples * other);
     }
     if (!met.hit || met.hit->absorbs()) {
         return false;
@@ -124,22 +127,22 @@ bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const 
     return true;
 }
 
-glm::dvec3 PathTracer::next_event(const SurfacePoint& point, const Scattering& scattering,
-                                  Sampler& sampler) const {
+glm::dvec3 PathTracer::next_event(const PathEnd& end, int samples, Sampler& sampler) const {
     if (!settings_.next_event || lights_.empty()) {
         return glm::dvec3(0.0);
     }
     const double choice = sampler.next();
     const std::optional<LightSample> light =
-        lights_.sample(point, scattering.frame(), choice, sampler.next_pair());
+        lights_.sample(end.point, end.scattering.frame(), choice, sampler.next_pair());
     if (!light) {
         return glm::dvec3(0.0);
     }
-    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
-    if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
+    const glm::dvec3 value = end.scattering.evaluate(light->direction) * light->radiance;
+    if (value == glm::dvec3(0.0) || !lights_.arrives(end.point, *light)) {
         return glm::dvec3(0.0);
     }
-    return value / light->combined_density(scattering.density(light->direction));
+    const double other = end.scattering.density(light->direction) / samples;
+    return value * (light->weight(other) / (light->density * samples));
 }
 
 }  // namespace raybundle

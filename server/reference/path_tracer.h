@@ -16,8 +16,9 @@ namespace raybundle {
 
 struct PathSettings {
     int max_bounces = raybundle::max_bounces;
-    int certain_bounces = 3;  ///< before Russian roulette begins
-    bool next_event = true;   ///< false: paths meet the light by themselves
+    int certain_bounces = 3;      ///< before Russian roulette begins
+    bool next_event = true;       ///< false: paths meet the light by themselves
+    int first_light_samples = 1;  ///< for next-event estimation where the eye looks
     Survival survival = Survival::throughput;
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };
@@ -40,8 +41,7 @@ struct Seen {
 /// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation, which glass blocks: light that
 /// comes through glass or from ideal mirrors is met by the paths themselves, that of punctual
 /// lights behind glass not at all. Light that a path meets by itself and light that is sampled are
-/// weighted by the balance heuristic (Veach, Guibas 1995, "Optimally Combining Sampling
-/// Techniques").
+/// weighted by the power heuristic.
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,
@@ -66,8 +66,11 @@ class PathTracer {
     [[nodiscard]] glm::dvec3 reflected(PathEnd end, Sampler& sampler) const;
 
   private:
-    [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
-                                        Sampler& sampler) const;
+    [[nodiscard]] int light_samples(const PathEnd& end) const {
+        return end.bounces == 0 ? settings_.first_light_samples : 1;
+    }
+    /// One of so many samples of the lights.
+    [[nodiscard]] glm::dvec3 next_event(const PathEnd& end, int samples, Sampler& sampler) const;
     /// Where the surface transmits light diffusely, chooses whose light is followed: that of its
     /// own side, or that of the other one. Returns what to multiply it by.
     [[nodiscard]] double choose_side(SurfacePoint& point, Scattering& scattering,

@@ -29,7 +29,7 @@ glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& orig
     return seen.weight * sum;
 }
 
-/// Light chosen by LightSampling, by the balance heuristic with met_light().
+/// Light chosen by LightSampling, by the power heuristic with met_light().
 glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering& scattering,
                                     PixelSampler& sampler) const {
     if (lights_.empty()) {
@@ -45,7 +45,7 @@ glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering&
     if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
         return glm::dvec3(0.0);
     }
-    return value / light->combined_density(scattering.density(light->direction));
+    return value * (light->weight(scattering.density(light->direction)) / light->density);
 }
 
 /// What a direction drawn at a point meets behind mirrors and glass.
@@ -64,7 +64,7 @@ glm::dvec3 PhotonMapper::met_light(const SurfacePoint& point, const Scattering& 
         return emission;  // behind mirrors and glass next_event() finds none
     }
     const double other = lights_.density(point, scattering.frame(), drawn.direction, met.hit);
-    return emission * (drawn.density / (drawn.density + other));
+    return emission * power_heuristic(drawn.density, other);
 }
 
 /// Light reflected by an S surface: path tracing up to the first D surface.

@@ -38,7 +38,7 @@ glm::dvec3 RayCaster::sampled(const SurfacePoint& point, const Scattering& scatt
         return glm::dvec3(0.0);
     }
     const double other = scattering.is_lambert() ? 0.0 : scattering.density(light->direction);
-    return value / light->combined_density(other);
+    return value * (light->weight(other) / light->density);
 }
 
 /// Reflection of light that a direction of the lobe meets.
@@ -56,7 +56,7 @@ glm::dvec3 RayCaster::met(const SurfacePoint& point, const Scattering& scatterin
         return emitted;
     }
     const double other = lights_.density(point, scattering.frame(), drawn->direction, hit);
-    return drawn->weight * emitted * (drawn->density / (drawn->density + other));
+    return drawn->weight * emitted * power_heuristic(drawn->density, other);
 }
 
 }  // namespace raybundle

@@ -13,7 +13,7 @@ namespace raybundle {
 /// Local rendering (appendix A, "DirectLight"): emitted light and its first reflection, light path
 /// classes LE, LDE and LGE, seen in ideal mirrors and through glass too; neither throws light.
 /// Lambert surfaces sample points of the emitters and directions of the sky; glossy ones their lobe
-/// as well, both weighted by the balance heuristic.
+/// as well, both weighted by the power heuristic.
 class RayCaster {
   public:
     RayCaster(const RayScene& scene, const LightSampling& lights)

@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -74,6 +75,7 @@ RTCRayHit intersect(RTCScene scene, RTCIntersectContext& context, const RTCRay& 
     return result;
 }
 
+constexpr std::size_t ray_bundle = 64;  // rays at once
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 void check(RTCDevice device, const char* what) {
@@ -201,6 +203,25 @@ bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, flo
     RTCRay ray = make_ray(origin, direction, 0.0F, length);
     rtcOccluded1(embree_.get(), &context, &ray);
     return ray.tfar < 0.0F;
+}
+
+void RayScene::find_unobstructed(const glm::vec3& point, std::span<const glm::vec3> others,
+                                 std::span<bool> open) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    std::array<RTCRay, ray_bundle> rays;
+    for (std::size_t first = 0; first < others.size(); first += rays.size()) {
+        const std::size_t count = std::min(rays.size(), others.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            rays[i] = make_ray(point, others[first + i] - point, 0.0F, 1.0F);
+        }
+        rtcOccluded1M(embree_.get(), &context, rays.data(), static_cast<unsigned>(count),
+                      sizeof(RTCRay));
+        for (std::size_t i = 0; i < count; ++i) {
+            open[first + i] = !(rays[i].tfar < 0.0F);
+        }
+    }
 }
 
 bool RayScene::mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const {

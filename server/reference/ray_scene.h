@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/brdf.h"
@@ -57,6 +58,10 @@ class RayScene {
     [[nodiscard]] bool unobstructed(const glm::vec3& a, const glm::vec3& b) const {
         return !occluded(a, b - a, 1.0F);
     }
+    /// The same for one point and many others at once, which is faster where those are near each
+    /// other: open[i] tells of others[i].
+    void find_unobstructed(const glm::vec3& point, std::span<const glm::vec3> others,
+                           std::span<bool> open) const;
     /// Whether nothing lies between two surface points, each in front of the other.
     [[nodiscard]] bool mutually_visible(const SurfacePoint& a, const SurfacePoint& b) const;
     /// Whether nothing lies between a surface point and a point in space in front of it.

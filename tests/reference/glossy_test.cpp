@@ -47,6 +47,7 @@ TEST(GlossyFloor, ReflectsItsAlbedoOfAUniformSky) {
         b.scene.sky_radiance = glm::vec3(100.0F);
         const Tracing both(b);
         const Tracing one(b, alone);
+        const Tracing several(b, {.first_light_samples = 3});
         const RayCaster caster(both.scene, both.lights);
         const Brdf brdf = make_brdf(named.material, named.material.base_colour);
         for (const float cosine : {0.95F, 0.4F, 0.1F}) {
@@ -62,6 +63,10 @@ TEST(GlossyFloor, ReflectsItsAlbedoOfAUniformSky) {
             expect_estimate(
                 estimate(50'000,
                          [&](PixelSampler& s) { return one.tracer.radiance(eye, -away, s).g; }),
+                exact, 0.005);
+            expect_estimate(
+                estimate(50'000,
+                         [&](PixelSampler& s) { return several.tracer.radiance(eye, -away, s).g; }),
                 exact, 0.005);
             expect_estimate(
                 estimate(50'000, [&](PixelSampler& s) { return caster.radiance(eye, -away, s).g; }),

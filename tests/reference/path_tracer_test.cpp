@@ -243,6 +243,10 @@ TEST(PathTracer, NextEventEstimationChangesNothingButTheNoise) {
     const Estimate c = mean_irradiance(one.scene, one.tracer, 0, 4, 100'000, 2);
     EXPECT_NEAR(a.mean, c.mean, sigmas * std::hypot(a.standard_error, c.standard_error));
     EXPECT_LT(c.standard_error, 0.005 * c.mean);
+    const Tracing several(open, {.first_light_samples = 2});
+    const Estimate d = mean_irradiance(several.scene, several.tracer, 0, 4, 100'000, 3);
+    EXPECT_NEAR(d.mean, c.mean, sigmas * std::hypot(d.standard_error, c.standard_error));
+    EXPECT_LT(d.standard_error, 0.005 * d.mean);
 }
 
 }  // namespace
