@@ -30,13 +30,19 @@ build_dir_is_ours() {
         grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build_dir/CMakeCache.txt"
 }
 
-# Configures on the first run; later ninja itself re-runs cmake when a CMakeLists.txt has changed.
+# Configures on the first run and when the presets have changed; later ninja itself re-runs cmake when
+# a CMakeLists.txt has.
 configure() {
     local tests=$1
     if ! build_dir_is_ours; then
         say "configuring"
         (cd "$root" && cmake --fresh --preset release -DRAYBUNDLE_TESTS="$tests")
-    elif [[ $tests == ON ]] &&
+    elif [[ $root/CMakePresets.json -nt $build_dir/CMakeCache.txt ]]; then
+        say "configuring again: the presets have changed"
+        (cd "$root" && cmake --preset release)
+        touch "$build_dir/CMakeCache.txt"
+    fi
+    if [[ $tests == ON ]] &&
         ! grep -qx 'RAYBUNDLE_TESTS:BOOL=ON' "$build_dir/CMakeCache.txt"; then
         say "configuring the tests"
         (cd "$root" && cmake --preset release -DRAYBUNDLE_TESTS=ON)

@@ -36,38 +36,24 @@ project_dependencies() {
             if (file !~ /^\//) file = build file  # ccache may write paths so
             while (sub(/[^\/]+\/\.\.\//, "", file)) {}
             own = index(file, root) == 1 && index(file, build) != 1
-            if (first) { if (own || file ~ /\/Unity\/unity_[0-9]+_cxx\.cxx$/) line = file; first = 0 }
+            unity = index(file, build) == 1 && file ~ /\/Unity\/unity_[0-9]+_cxx\.cxx$/
+            if (first) { if (own || unity) line = file; first = 0 }
             else if (own && line != "") line = line "\t" file
         }
         END { flush() }'
 }
 
-# Where the text of a source is that CMake has made of others; others are where they are.
+# Whether CMake has made a source of others; join_sources.py has put the text of those together.
+is_unity() { [[ $1 == "$build_dir"/*/Unity/unity_*_cxx.cxx ]]; }
+
+# Where the text of a source is.
 text_of() {
-    if [[ $1 == */Unity/* ]]; then
+    if is_unity "$1"; then
         local name=${1#"$build_dir"/}
         printf '%s/%s\n' "$joined" "${name//\//_}"
     else
         printf '%s\n' "$1"
     fi
-}
-
-# Writes that text, and with which commands it compiles.
-join_sources() {
-    rm -rf "$joined"
-    mkdir -p "$joined"
-    local unity text line script=""
-    while read -r unity; do
-        text=$(text_of "$unity")
-        while read -r line; do
-            [[ $line == '#include "'* ]] || continue
-            line=${line#*\"}
-            printf '#line 1 "%s"\n' "${line%\"}"
-            cat "${line%\"}"
-        done <"$unity" >"$text"
-        script+="s|\"file\": \"$unity\"|\"file\": \"$text\"|;s| $unity\"| $text\"|;"
-    done < <(find "$build_dir" -path '*/Unity/unity_*_cxx.cxx')
-    sed "$script" "$build_dir/compile_commands.json" >"$joined/compile_commands.json"
 }
 
 # Names places in joined text ($1) as those of the sources.
@@ -77,7 +63,7 @@ original_places() {
             while ((getline line < joined) > 0) {
                 ++count
                 if (line ~ /^#line 1 "/) { split(line, part, "\""); file = part[2]; start = count }
-                name[count] = file; offset[count] = start
+                if (file != "") { name[count] = file; offset[count] = start }
             }
         }
         index($0, joined ":") == 1 && (substr($0, length(joined) + 2) + 0) in name {
@@ -108,7 +94,7 @@ tidy_one() {
         return 1
     fi
 }
-export -f text_of original_places tidy_one
+export -f is_unity text_of original_places tidy_one
 
 cd "$root"
 mkdir -p "$stamps"
@@ -126,7 +112,9 @@ any_tracked() {
     return 1
 }
 
-join_sources
+[[ -f $build_dir/compile_commands.json ]] ||
+    die "clang-tidy: nothing is built; run deploy/setup.sh --with-tests"
+python3 "$root/deploy/join_sources.py" "$build_dir"
 work=()
 declare -A seen=()
 while IFS=$'\t' read -r -a files; do

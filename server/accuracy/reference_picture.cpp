@@ -94,6 +94,10 @@ double ReferenceMaker::earlier_weight(const ReferenceNoise& own) const {
     return before + now > 0.0 ? now / (before + now) : 0.5;
 }
 
+std::uint64_t ReferenceMaker::samples() const {
+    return image_.passes() + (earlier_ ? earlier_->samples : 0);
+}
+
 double ReferenceMaker::noise() const {
     const bool known = image_.passes() >= ImageEstimate::batches;
     if (!known) {

@@ -52,6 +52,8 @@ class ReferenceMaker {
     void add_pass();
     /// The picture so far. Its noise is known from 8 passes on, or from the earlier one's.
     [[nodiscard]] ReferencePicture result() const;
+    /// Of each pixel of result().
+    [[nodiscard]] std::uint64_t samples() const;
     /// relRMSE of the noise of result(); infinite while unknown.
     [[nodiscard]] double noise() const;
 

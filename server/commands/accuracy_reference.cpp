@@ -13,7 +13,7 @@ namespace raybundle {
 namespace {
 
 /// The error of path tracing with scrambled (0, 2)-sequences falls about like samples^-0.65; this
-/// only foretells the time left.
+/// only foretells when to look again, and the time left.
 constexpr double foreseen_rate = 0.65;
 constexpr double safety = 0.98;  // the noise is itself an estimate
 constexpr std::uint64_t least_passes = 2 * ImageEstimate::batches;
@@ -58,7 +58,7 @@ class Refinement {
     /// whenever there is an eighth more.
     void refine_to(double target) {
         while (has_time() && maker_.noise() > target) {
-            const double wanted = samples_for(target) - static_cast<double>(passes_);
+            const double wanted = samples_until(target);
             const double more = std::min(wanted, static_cast<double>(passes_) / 8.0);
             const auto rounds = static_cast<std::uint64_t>(more / ImageEstimate::batches);
             add_passes(std::max<std::uint64_t>(rounds, 1) * ImageEstimate::batches);
@@ -66,10 +66,10 @@ class Refinement {
         }
     }
 
-    /// Passes, foreseen, until the noise is so low.
-    [[nodiscard]] double samples_for(double target) const {
-        return static_cast<double>(passes_) *
-               std::pow(maker_.noise() / target, 1.0 / foreseen_rate);
+    /// More samples, foreseen, until the noise is so low.
+    [[nodiscard]] double samples_until(double target) const {
+        return static_cast<double>(maker_.samples()) *
+               (std::pow(maker_.noise() / target, 1.0 / foreseen_rate) - 1.0);
     }
 
     void report() {

@@ -18,7 +18,7 @@ struct PathSettings {
     int max_bounces = raybundle::max_bounces;
     int certain_bounces = 3;      ///< before Russian roulette begins
     bool next_event = true;       ///< false: paths meet the light by themselves
-    int first_light_samples = 1;  ///< for next-event estimation where the eye looks
+    int first_light_samples = 1;  ///< for next-event estimation where a path begins
     Survival survival = Survival::throughput;
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
 };

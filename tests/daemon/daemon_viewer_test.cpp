@@ -130,12 +130,12 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
 
 /// Pictures in motion may be smaller where there is no time for more; probes mean the full ones.
 TEST_F(ViewersTest, APictureInMotionMayBeSmallerAndIsFullAgainAtRest) {
-    constexpr int kWidth = 1280;
+    static constexpr int kWidth = 1280;
     constexpr int kHeight = 960;
     JsonViewer viewer(daemon_->port());
     const Json welcome = viewer.join("", kWidth, kHeight);
-    const auto is_full = [kWidth](const Json& f) { return f["width"] == kWidth; };
-    const auto expect_whole = [kWidth](const Json& f) {
+    const auto is_full = [](const Json& f) { return f["width"] == kWidth; };
+    const auto expect_whole = [](const Json& f) {
         EXPECT_GE(f.value("width", 0), kWidth * 5 / 8);
         EXPECT_LE(f.value("width", 0), kWidth);
         EXPECT_NEAR(f.value("width", 0) / 4.0, f.value("height", 0) / 3.0, 0.5);
