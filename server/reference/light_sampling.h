@@ -68,8 +68,8 @@ class LightSampling {
         return emitters_.empty() && !(sky_probability_ > 0.0) && punctual_.empty();
     }
     /// For next-event estimation; a direction of the sky half by its cosine, half by its radiance
-    /// where that varies. receiver: frame about the
-    /// normal whose cosine counts. choice and at: uniform random numbers.
+    /// where that varies. receiver: frame about the normal whose cosine counts. choice and at:
+    /// uniform random numbers.
     [[nodiscard]] std::optional<LightSample> sample(const SurfacePoint& from, const Frame& receiver,
                                                     double choice, const glm::dvec2& at) const;
     /// Whether the sample's light arrives.
@@ -84,14 +84,14 @@ class LightSampling {
     [[nodiscard]] double area_density(std::uint32_t patch) const {
         return density_per_area_[patch];
     }
-    /// Densities of a line from the sky, as emit() draws it: of its direction, 1/sr, and of its
-    /// place across it, 1/own area.
     /// Probability of a punctual light's choice, the same for sample() and emit().
     [[nodiscard]] double punctual_probability(int light) const {
         return punctual_probability_ * choice_.probability(static_cast<std::size_t>(light));
     }
     /// Density, 1/sr, with which emit() draws a direction of a punctual light that has a position.
     [[nodiscard]] double punctual_direction_density(int light) const;
+    /// Densities of a line from the sky, as emit() draws it: of its direction, 1/sr, and of its
+    /// place across it, 1/own area.
     [[nodiscard]] double sky_direction_density() const;
     [[nodiscard]] double sky_disc_density() const;
 
