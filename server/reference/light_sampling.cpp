@@ -2,6 +2,7 @@
 #include "reference/light_sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,9 @@ constexpr double least_share = 0.25;
 
 /// Share of the choice among emitters that goes by area.
 constexpr double defensive_share = 0.1;
+
+/// Of more punctual lights than these it would take longer to compare them than to trace rays.
+constexpr std::size_t most_compared = 64;
 
 /// Share of the samples that goes to the sky. emitted: power of all emitters, own space.
 double sky_share(const RayScene& scene, double emitted) {
@@ -115,13 +119,59 @@ void LightSampling::choose_punctual_lights(double emitted) {
     sky_probability_ *= 1.0 - punctual_probability_;
 }
 
-std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from, double choice,
+/// Illuminance (of its luminance, lx) that a punctual light brings where nothing is in its way.
+double LightSampling::unobstructed(const SurfacePoint& from, const Frame& receiver,
+                                   const PlacedLight& light) const {
+    if (light.kind == PunctualKind::directional) {
+        return std::max(-glm::dot(light.direction(), receiver.z), 0.0) *
+               luminance(glm::vec3(light.intensity));
+    }
+    const glm::dvec3 offset = scene_.from_world(light.position) - from.position;
+    const double square = glm::dot(offset, offset);
+    const double cosine = glm::dot(offset, receiver.z) / std::sqrt(square);
+    return square > 0.0 && cosine > 0.0
+               ? cosine * luminance(glm::vec3(light.towards(-offset / std::sqrt(square)))) /
+                     (square * scene_.square_metres())
+               : 0.0;
+}
+
+/// By what each would bring, with a defensive share by flux for what is seen of a light by other
+/// ways than its cosine.
+LightSampling::ChosenLight LightSampling::choose_punctual(const SurfacePoint& from,
+                                                          const Frame& receiver,
+                                                          double choice) const {
+    const std::size_t count = punctual_.size();
+    std::array<double, most_compared> brought{};
+    double total = 0.0;
+    if (count > 1 && count <= most_compared) {
+        for (std::size_t i = 0; i < count; ++i) {
+            brought[i] = unobstructed(from, receiver, punctual_[i]);
+            total += brought[i];
+        }
+    }
+    if (!(total > 0.0)) {
+        const std::size_t index = choice_.sample(choice);
+        return {index, choice_.probability(index)};
+    }
+    const auto share = [&](std::size_t i) {
+        return (1.0 - defensive_share) * brought[i] / total +
+               defensive_share * choice_.probability(i);
+    };
+    std::size_t index = 0;
+    for (double rest = choice; index + 1 < count && rest >= share(index); ++index) {
+        rest -= share(index);
+    }
+    return {index, share(index)};
+}
+
+std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from,
+                                                          const Frame& receiver, double choice,
                                                           const glm::dvec2& at) const {
-    const std::size_t index = choice_.sample(choice);
-    const PlacedLight& light = punctual_[index];
+    const ChosenLight chosen = choose_punctual(from, receiver, choice);
+    const PlacedLight& light = punctual_[chosen.index];
     LightSample result;
-    result.punctual = static_cast<int>(index);
-    result.density = punctual_probability(result.punctual);
+    result.punctual = static_cast<int>(chosen.index);
+    result.density = punctual_probability_ * chosen.probability;
     if (light.kind == PunctualKind::directional) {
         result.direction = in_disc(-light.direction(), light.angular_radius, at);
         result.radiance = light.intensity;
@@ -224,7 +274,7 @@ double LightSampling::sky_disc_density() const {
 std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const Frame& receiver,
                                                  double choice, const glm::dvec2& at) const {
     if (choice < punctual_probability_) {
-        return sample_punctual(from, choice / punctual_probability_, at);
+        return sample_punctual(from, receiver, choice / punctual_probability_, at);
     }
     const double others = choice - punctual_probability_;
     if (others >= sky_probability_) {

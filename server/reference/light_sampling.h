@@ -58,8 +58,9 @@ std::optional<SurfacePoint> first_hit(const RayScene& scene, const EmittedPartic
 
 /// Random choice of light sources. Emitting patches are chosen by their power, with a defensive
 /// share of 10 % by area so that no dim one is starved, and a point on them uniformly; the uniform
-/// sky by the flux it could send into the scene. Punctual lights, chosen by their flux, get a share
-/// of the samples by power too.
+/// sky by the flux it could send into the scene. Punctual lights get a share of the samples by
+/// power too; particles set out from them by their flux, and surfaces choose them by the light that
+/// each would bring were nothing in its way.
 class LightSampling {
   public:
     explicit LightSampling(const RayScene& scene);
@@ -84,7 +85,7 @@ class LightSampling {
     [[nodiscard]] double area_density(std::uint32_t patch) const {
         return density_per_area_[patch];
     }
-    /// Probability of a punctual light's choice, the same for sample() and emit().
+    /// Probability with which emit() chooses a punctual light.
     [[nodiscard]] double punctual_probability(int light) const {
         return punctual_probability_ * choice_.probability(static_cast<std::size_t>(light));
     }
@@ -105,8 +106,16 @@ class LightSampling {
                                                 const glm::dvec2& direction) const;
     [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
                                                             const glm::dvec2& at) const;
+    struct ChosenLight {
+        std::size_t index;  ///< into punctual_
+        double probability;
+    };
+    [[nodiscard]] double unobstructed(const SurfacePoint& from, const Frame& receiver,
+                                      const PlacedLight& light) const;
+    [[nodiscard]] ChosenLight choose_punctual(const SurfacePoint& from, const Frame& receiver,
+                                              double choice) const;
     [[nodiscard]] std::optional<LightSample> sample_punctual(const SurfacePoint& from,
-                                                             double choice,
+                                                             const Frame& receiver, double choice,
                                                              const glm::dvec2& at) const;
     [[nodiscard]] double sky_density(const Frame& receiver, const glm::dvec3& direction) const;
     [[nodiscard]] EmittedParticle emit_punctual(double choice, const glm::dvec2& at,
@@ -120,7 +129,7 @@ class LightSampling {
     double sky_probability_ = 0.0;
     SkyDistribution sky_;
     std::vector<PlacedLight> punctual_;
-    DiscreteDistribution choice_;  // over punctual_
+    DiscreteDistribution choice_;  // over punctual_, by flux
     double punctual_probability_ = 0.0;
 };
 

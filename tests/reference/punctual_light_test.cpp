@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "lit_room.h"
 #include "reference/single_ray.h"
@@ -77,6 +78,36 @@ TEST(PunctualLight, WhatStandsInTheWayShades) {
                        glm::vec3(100.0F));
     EXPECT_EQ(illuminance(b, 0.95, 0.95), 0.0);
     EXPECT_GT(illuminance(b, 1.05, 0.0), 0.0);
+}
+
+/// Of lights that are chosen by what they bring no sample says more than all of them do together, but
+/// for the defensive share; and all choices together say the illuminance.
+TEST(PunctualLight, IsChosenByTheLightThatItBrings) {
+    SceneBuilder b = black_floor();
+    const std::vector<glm::dvec3> positions = {{0, 0.3, 0}, {-4, 2, 1}, {3, 4, -3}, {1, -2, 0}};
+    double expected = 0.0;
+    for (const glm::dvec3& position : positions) {
+        add_punctual_light(b, odd_rotation(), PunctualKind::point, glm::vec3(position), {0, -1, 0},
+                           glm::vec3(100.0F));
+        expected += 100.0 * std::max(position.y, 0.0) / std::pow(glm::length(position), 3);
+    }
+    add_punctual_light(b, odd_rotation(), PunctualKind::directional, {0, 0, 0}, {0.6F, -0.8F, 0},
+                       glm::vec3(500.0F));
+    expected += 0.8 * 500.0;
+    const Tracing tracing(b);
+    const SurfacePoint floor = tracing.scene.point_on_patch(0, {0.0, 0.5});
+    const Frame frame(floor.normal);
+    constexpr int choices = 100'000;
+    double sum = 0.0;
+    for (int i = 0; i < choices; ++i) {
+        const auto light = tracing.lights.sample(floor, frame, (i + 0.5) / choices, glm::dvec2(0.5));
+        ASSERT_TRUE(light);
+        const double cosine = std::max(glm::dot(light->direction, frame.z), 0.0);
+        const double value = cosine * light->radiance.g / light->density;
+        EXPECT_LE(value, 1.001 / 0.9 * expected) << light->punctual;
+        sum += value / choices;
+    }
+    EXPECT_NEAR(sum, expected, 1e-3 * expected);
 }
 
 /// The flux that emit() hands out in a closed room of one albedo: Phi/(1 - albedo) in all. The
