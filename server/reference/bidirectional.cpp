@@ -140,8 +140,8 @@ glm::dvec3 Bidirectional::next_event(const Subpath& eye, std::size_t eye_count,
     if (is_black(value) || !lights_.arrives(lit.point, *light)) {
         return glm::dvec3(0.0);
     }
-    // Of punctual lights the weights know the probability that light paths choose them with: weights
-    // of one path add up to 1 all the same.
+    // Of punctual lights the weights know the probability that light paths choose them with:
+    // weights of one path add up to 1 all the same.
     const PathVertex end = subpaths_.light_vertex(light->punctual, light->emitter, light->origin);
     Densities d = known({end}, 1, eye, eye_count);
     d.eye[0] = vertex_density(end, lit.lobe->density(light->direction), lit.point.position);

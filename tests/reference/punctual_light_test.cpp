@@ -80,8 +80,8 @@ TEST(PunctualLight, WhatStandsInTheWayShades) {
     EXPECT_GT(illuminance(b, 1.05, 0.0), 0.0);
 }
 
-/// Of lights that are chosen by what they bring no sample says more than all of them do together, but
-/// for the defensive share; and all choices together say the illuminance.
+/// Of lights that are chosen by what they bring no sample says more than all of them do together,
+/// but for the defensive share; and all choices together say the illuminance.
 TEST(PunctualLight, IsChosenByTheLightThatItBrings) {
     SceneBuilder b = black_floor();
     const std::vector<glm::dvec3> positions = {{0, 0.3, 0}, {-4, 2, 1}, {3, 4, -3}, {1, -2, 0}};
@@ -100,7 +100,8 @@ TEST(PunctualLight, IsChosenByTheLightThatItBrings) {
     constexpr int choices = 100'000;
     double sum = 0.0;
     for (int i = 0; i < choices; ++i) {
-        const auto light = tracing.lights.sample(floor, frame, (i + 0.5) / choices, glm::dvec2(0.5));
+        const auto light =
+            tracing.lights.sample(floor, frame, (i + 0.5) / choices, glm::dvec2(0.5));
         ASSERT_TRUE(light);
         const double cosine = std::max(glm::dot(light->direction, frame.z), 0.0);
         const double value = cosine * light->radiance.g / light->density;
