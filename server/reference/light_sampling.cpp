@@ -119,33 +119,35 @@ void LightSampling::choose_punctual_lights(double emitted) {
     sky_probability_ *= 1.0 - punctual_probability_;
 }
 
-/// Illuminance (of its luminance, lx) that a punctual light brings where nothing is in its way.
-double LightSampling::unobstructed(const SurfacePoint& from, const Frame& receiver,
-                                   const PlacedLight& light) const {
+/// What a punctual light brings where nothing is in its way; at: where on the disc of a directional
+/// one.
+LightSampling::Arrival LightSampling::arrival(const SurfacePoint& from, const PlacedLight& light,
+                                              const glm::dvec2& at) const {
     if (light.kind == PunctualKind::directional) {
-        return std::max(-glm::dot(light.direction(), receiver.z), 0.0) *
-               luminance(glm::vec3(light.intensity));
+        return {in_disc(-light.direction(), light.angular_radius, at), light.intensity};
     }
     const glm::dvec3 offset = scene_.from_world(light.position) - from.position;
     const double square = glm::dot(offset, offset);
-    const double cosine = glm::dot(offset, receiver.z) / std::sqrt(square);
-    return square > 0.0 && cosine > 0.0
-               ? cosine * luminance(glm::vec3(light.towards(-offset / std::sqrt(square)))) /
-                     (square * scene_.square_metres())
-               : 0.0;
+    if (!(square > 0.0)) {
+        return {};
+    }
+    const glm::dvec3 direction = offset / std::sqrt(square);
+    return {direction, light.towards(-direction) / (square * scene_.square_metres())};
 }
 
-/// By what each would bring, with a defensive share by flux for what is seen of a light by other
-/// ways than its cosine.
+/// By the illuminance that each would bring. A share by flux keeps every probability above 0, for
+/// rounding and for what a cosine does not say.
 LightSampling::ChosenLight LightSampling::choose_punctual(const SurfacePoint& from,
-                                                          const Frame& receiver,
-                                                          double choice) const {
+                                                          const Frame& receiver, double choice,
+                                                          const glm::dvec2& at) const {
     const std::size_t count = punctual_.size();
     std::array<double, most_compared> brought{};
     double total = 0.0;
     if (count > 1 && count <= most_compared) {
         for (std::size_t i = 0; i < count; ++i) {
-            brought[i] = unobstructed(from, receiver, punctual_[i]);
+            const Arrival light = arrival(from, punctual_[i], at);
+            brought[i] = std::max(glm::dot(light.direction, receiver.z), 0.0) *
+                         luminance(glm::vec3(light.illuminance));
             total += brought[i];
         }
     }
@@ -167,24 +169,20 @@ LightSampling::ChosenLight LightSampling::choose_punctual(const SurfacePoint& fr
 std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& from,
                                                           const Frame& receiver, double choice,
                                                           const glm::dvec2& at) const {
-    const ChosenLight chosen = choose_punctual(from, receiver, choice);
+    const ChosenLight chosen = choose_punctual(from, receiver, choice, at);
     const PlacedLight& light = punctual_[chosen.index];
+    const Arrival arriving = arrival(from, light, at);
+    if (arriving.direction == glm::dvec3(0.0)) {
+        return std::nullopt;
+    }
     LightSample result;
     result.punctual = static_cast<int>(chosen.index);
     result.density = punctual_probability_ * chosen.probability;
-    if (light.kind == PunctualKind::directional) {
-        result.direction = in_disc(-light.direction(), light.angular_radius, at);
-        result.radiance = light.intensity;
-        return result;
+    result.direction = arriving.direction;
+    result.radiance = arriving.illuminance;
+    if (light.kind != PunctualKind::directional) {
+        result.origin = scene_.from_world(light.position);
     }
-    result.origin = scene_.from_world(light.position);
-    const glm::dvec3 offset = *result.origin - from.position;
-    const double square = glm::dot(offset, offset);
-    if (!(square > 0.0)) {
-        return std::nullopt;
-    }
-    result.direction = offset / std::sqrt(square);
-    result.radiance = light.towards(-result.direction) / (square * scene_.square_metres());
     return result;
 }
 

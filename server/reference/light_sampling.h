@@ -110,10 +110,14 @@ class LightSampling {
         std::size_t index;  ///< into punctual_
         double probability;
     };
-    [[nodiscard]] double unobstructed(const SurfacePoint& from, const Frame& receiver,
-                                      const PlacedLight& light) const;
+    struct Arrival {
+        glm::dvec3 direction{0.0};    ///< from the receiver, unit; 0: it is at the light itself
+        glm::dvec3 illuminance{0.0};  ///< of a surface that faces the light, lx
+    };
+    [[nodiscard]] Arrival arrival(const SurfacePoint& from, const PlacedLight& light,
+                                  const glm::dvec2& at) const;
     [[nodiscard]] ChosenLight choose_punctual(const SurfacePoint& from, const Frame& receiver,
-                                              double choice) const;
+                                              double choice, const glm::dvec2& at) const;
     [[nodiscard]] std::optional<LightSample> sample_punctual(const SurfacePoint& from,
                                                              const Frame& receiver, double choice,
                                                              const glm::dvec2& at) const;
