@@ -26,9 +26,20 @@ struct Seen {
     bool own;      // the line meets the receiver's own surface
 };
 
+#ifdef CROWDED
+/// Whether the receiver's own ray is followed as far as a facet's plane, or leads away from it: what it met there counts,
+/// and not what the line meets beside it. Of each facet one of them decides, never both.
+bool own_ray_decides(vec4 plane, Receiver x, vec3 looking) {
+    float height = plane.w - dot(plane.xyz, x.position);
+    float approach = dot(plane.xyz, looking);
+    // height / approach < own_ray_reach
+    return approach > 0.0 ? height < own_ray_reach * approach : height > own_ray_reach * approach;
+}
+#endif
+
 /// Nearest surface that x sees, looking far (+z) or near (-z), among those on the window pixel's line.
 /// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
-/// CROWDED: only from half of the way on that the receiver's own ray is followed.
+/// CROWDED: only beyond the way that the receiver's own ray is followed.
 Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
     Seen seen = Seen(NO_HIT, beyond_all, false);
     float tiny = bundle.sky.w;
@@ -49,13 +60,13 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         // Within the footprint what is in front by its plane is in front, whatever the pixel's depth.
         bool close = abs(ahead) <= footprint;
 #ifdef CROWDED
-        bool passed = surface == x.surface || ahead < 0.5 * own_ray_reach;
+        bool passed = own_ray_decides(plane, x, looking);
 #else
         bool passed = surface == x.surface || ahead < (close ? -footprint : 0.0);
-#endif
         WHERE(close && !passed) {
             passed = beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny);
         }
+#endif
         if (passed) {
             continue;
         }
