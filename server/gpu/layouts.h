@@ -20,7 +20,8 @@ using uint = std::uint32_t;
 // std430 puts a scalar into the fourth component after a vec3, as C++ does.
 static_assert(sizeof(PatchGeometry) == 32 && offsetof(PatchGeometry, offset) == 12);
 static_assert(sizeof(PatchSurface) == 32);
-static_assert(sizeof(Shooter) == 112 && offsetof(Shooter, normal) == 16);
+static_assert(sizeof(RadianceSlope) == 16 && sizeof(VertexLight) == 48);
+static_assert(sizeof(Shooter) == 128 && offsetof(Shooter, normal) == 16);
 static_assert(sizeof(Counters) == 48);
 static_assert(sizeof(FacetGeometry) == 64 && offsetof(FacetGeometry, root_code) == 48);
 static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 64);
@@ -32,6 +33,6 @@ static_assert(sizeof(PunctualData) == 112);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);
-static_assert(sizeof(BundleParameters) == 16 * (18 + 4 * MOST_MOVED));
+static_assert(sizeof(BundleParameters) == 16 * (19 + 4 * MOST_MOVED));
 static_assert(sizeof(ViewParameters) == 64 + 16 * 11);
 }  // namespace raybundle::layout

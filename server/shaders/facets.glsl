@@ -66,11 +66,16 @@ bool meets_facet(Facet facet, vec3 point, vec3 direction) {
     return distance > 0.0 && min(min(w1, w2), 1.0 - w1 - w2) >= 0.0;
 }
 
-/// Triangle of a facet at a world point on it.
-uint triangle_at(Facet facet, vec3 point) {
+/// Triangle of a facet at a world point on it, and the point's barycentric weights there.
+uint triangle_at(Facet facet, vec3 point, out vec3 weights) {
     float w1 = dot(facet.weight1, vec4(point, 1.0));
     float w2 = dot(facet.weight2, vec4(point, 1.0));
-    vec3 weights = vec3(1.0 - w1 - w2, w1, w2);
+    weights = vec3(1.0 - w1 - w2, w1, w2);
     vec3 slope = vec3(0.0);
     return triangle_at(facet.root, weights, slope);
+}
+
+uint triangle_at(Facet facet, vec3 point) {
+    vec3 weights;
+    return triangle_at(facet, point, weights);
 }

@@ -49,6 +49,8 @@
 #define BINDING_PIXEL_GLOSS_DELTA 39  // vec4[]: signed increments of it
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
+#define BINDING_SLOPES 42             // RadianceSlope[]; BINDING_SENT is bound for passes of its own
+#define BINDING_VERTEX_LIGHT 24        // VertexLight[]; bound for the same pass, as BINDING_VERTEX_IRRADIANCE for others
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
 #define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
@@ -115,6 +117,7 @@
 
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
+#define UNIT_SLOPES 23              // rgba32ui: RadianceSlope
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -163,6 +166,22 @@ struct PatchSurface {
     vec4 emission;  // rgb, radiance units
 };
 
+// How the radiance that a patch sends differs from its mean where the patch's corners are, halves: r and g of corner 1,
+// b of corner 1 and r of corner 2, g and b of corner 2. Corner 0 has what makes their sum zero. See radiance_slope.glsl.
+struct RadianceSlope {
+    uint corner1_rg;
+    uint corner1_b_corner2_r;
+    uint corner2_gb;
+    uint pad0;
+};
+
+// Mean over the patches that share a vertex.
+struct VertexLight {
+    vec4 middle;  // world space: of these patches
+    vec4 front;   // irradiance, radiance units
+    vec4 back;    // of their back sides
+};
+
 // A point that shoots a perspective bundle.
 struct Shooter {
     vec3 position;   // world space
@@ -179,6 +198,7 @@ struct Shooter {
     float density_before;
     vec3 normal_before;
     uint pad0;
+    vec4 weights;    // barycentric, of the point in the patch
 };
 
 struct Counters {
@@ -331,6 +351,8 @@ struct BundleParameters {
     vec4 side_weights;   // and of its sides; 0: not drawn
     vec4 weights;        // sign/weight of the transfer, iteration weight w, parallel: pixel size, m, perspective: noise
                          // limit of density.glsl, 0 = none
+    vec4 slopes;         // barycentric weights of the shooter's point in its patch; w: share of the radiance slopes that
+                         // is carried: 1, or 0 where patches send something else than the solution
     uvec4 resolution;    // hemicube or window: width, height; shooter patch or layer capacity; place (0 now, 1 before)
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
     mat4 before_from_now[MOST_MOVED];  // rotations of the objects that are elsewhere at place 1

@@ -11,6 +11,7 @@
 #include "facets.glsl"
 #include "parallel.glsl"
 #include "rarely.glsl"
+#include "radiance_slope.glsl"
 #ifdef THIN_WALLS
 #include "crease.glsl"
 #endif
@@ -34,6 +35,7 @@ struct Run {
     float cosine;   // between normal and axis
     vec3 weights, weights_step;
     vec4 radiance;  // w = p_j/A_j
+    vec3 radiance_step;
     vec3 received;  // sum of L / d(omega)
 #ifdef THIN_WALLS
     uint triangle;
@@ -53,6 +55,7 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     run.weights = vec3(1.0);
     run.weights_step = vec3(0.0);
     run.radiance = vec4(0.0);
+    run.radiance_step = vec3(0.0);
     run.received = vec3(0.0);
 #ifdef THIN_WALLS
     run.triangle = 0u;
@@ -89,6 +92,9 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     run.patch_id = patch_of_surface(2u * triangle + side_of_surface(surface, far));
     if (run.patch_id != NO_PATCH) {
         run.radiance = texelFetch(radiance_texels, int(run.patch_id));
+        Slope slope = slope_of(run.patch_id);
+        run.radiance.rgb += rise(slope, clamp(run.weights, 0.0, 1.0));
+        run.radiance_step = rise(slope, run.weights_step);
     }
 #ifdef CONSTANT_RADIANCE  // what sends nothing lacks the constant term
     run.radiance.rgb -= bundle.constant.rgb;
@@ -183,6 +189,13 @@ Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3
     return e;
 }
 
+/// Mean over the next pixels of the run, whose radiance becomes that of the pixel after them.
+vec3 mean_radiance(inout Run run, int pixels) {
+    vec3 mean = run.radiance.rgb + 0.5 * float(pixels - 1) * run.radiance_step;
+    run.radiance.rgb += float(pixels) * run.radiance_step;
+    return mean;
+}
+
 /// Transfers the pixels [texel.x, end) of a row.
 void exchange_row(ivec2 texel, int end) {
     float pixel_area = bundle.weights.z * bundle.weights.z * float(row_stride);
@@ -192,13 +205,13 @@ void exchange_row(ivec2 texel, int end) {
     Run behind = start_run(surfaces.x, true, point, pixel_step);
     Run ahead = start_run(surfaces.y, false, point, pixel_step);
     while (texel.x < end) {
+        int start = texel.x;
         Exchange e = follow(behind, ahead, texel, point, pixel_step, end, surfaces);
+        vec3 from_ahead = mean_radiance(ahead, texel.x - start);
+        vec3 from_behind = mean_radiance(behind, texel.x - start);
 #ifdef SKY
-        vec3 from_ahead = ahead.surface == NO_HIT ? sky_radiance(true) : ahead.radiance.rgb;
-        vec3 from_behind = behind.surface == NO_HIT ? sky_radiance(false) : behind.radiance.rgb;
-#else
-        vec3 from_ahead = ahead.radiance.rgb;
-        vec3 from_behind = behind.radiance.rgb;
+        from_ahead = ahead.surface == NO_HIT ? sky_radiance(true) : from_ahead;
+        from_behind = behind.surface == NO_HIT ? sky_radiance(false) : from_behind;
 #endif
         behind.received += e.weights.x * from_ahead;
         ahead.received += e.weights.y * from_behind;

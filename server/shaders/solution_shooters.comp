@@ -61,10 +61,14 @@ uint find_patch(uint first, uint last, float u) {
     return first;
 }
 
-/// Uniform on a triangle.
-vec3 point_on(uvec3 v, vec2 u) {
+/// Barycentric weights of a point that is uniform on a triangle.
+vec3 uniform_weights(vec2 u) {
     float root = sqrt(u.x);
-    return world[v.x].xyz * (1.0 - root) + world[v.y].xyz * (root * (1.0 - u.y)) + world[v.z].xyz * (root * u.y);
+    return vec3(1.0 - root, root * (1.0 - u.y), root * u.y);
+}
+
+vec3 point_on(uvec3 v, vec3 weights) {
+    return world[v.x].xyz * weights.x + world[v.y].xyz * weights.y + world[v.z].xyz * weights.z;
 }
 
 void main() {
@@ -85,7 +89,8 @@ void main() {
     uvec3 v = triangles[patches[id].triangle].xyz;
     uint larger = larger_place(id);
     uint before = uint(patches.length()) / 2u + id;
-    vec3 position = point_on(v, u.zw);
+    vec3 weights = uniform_weights(u.zw);
+    vec3 position = point_on(v, weights);
     Shooter s;
     // Beyond the rounding of positions: a shooter that came out below its own plane, or its neighbours', would
     // not see what lies near the horizon.
@@ -94,10 +99,11 @@ void main() {
     s.patch_id = id;
     s.normal = patches[id].normal;
     s.density = density_at(id, larger, radiance[id].w);
-    s.position_before = point_on(v + uint(world.length()) / 2u, u.zw) + lift * patches[before].normal;
+    s.position_before = point_on(v + uint(world.length()) / 2u, weights) + lift * patches[before].normal;
     s.normal_before = patches[before].normal;
     s.density_before = density_at(before, larger, radiance[id].w);
     s.pad0 = 0u;
+    s.weights = vec4(weights, 0.0);
     s.object = patches[id].object;
 #ifdef GLOSSY
     s.glossy = is_glossy(id) ? 1u : 0u;

@@ -21,6 +21,7 @@ layout(local_size_x = 64) in;
 #endif
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
+#include "radiance_slope.glsl"
 uniform uint first_column;  // the rectangle of the stacked picture that is transferred
 uniform uint first_row;
 uniform uint run_columns;   // runs of 8 pixels a row
@@ -31,6 +32,12 @@ uniform uint row_phase;
 uniform uint patch_base;    // patches, facets and vertices of the place that was drawn
 uniform uint facet_base;
 uniform uint vertex_base;
+
+/// Of the shooter's point, without what depends on direction; w: p_j/A_j of its patch.
+vec4 shooter_radiance() {
+    uint y = bundle.resolution.z;
+    return texelFetch(radiance_texels, int(y)) + vec4(rise(slope_of(y), bundle.slopes.xyz), 0.0);
+}
 
 const uint run_length = 8u;
 
@@ -117,7 +124,7 @@ void deposit(Run run, Sum sum) {
 #ifdef SHOOTER_GLOSSY
     vec3 irradiance = sum;
 #else
-    vec3 irradiance = sum * (texelFetch(radiance_texels, int(bundle.resolution.z)).rgb - bundle.constant.rgb);
+    vec3 irradiance = sum * (shooter_radiance().rgb - bundle.constant.rgb);
 #endif
     accumulate(run.patch_id, 0u, irradiance.r);
     accumulate(run.patch_id, 1u, irradiance.g);
@@ -129,7 +136,7 @@ void deposit(Run run, Sum sum) {
 
 void main() {
     if (gl_GlobalInvocationID.x == 0u) {
-        vec4 sent = texelFetch(radiance_texels, int(bundle.resolution.z));
+        vec4 sent = shooter_radiance();
         counters.shooter_radiance = vec4(sent.rgb - bundle.constant.rgb, sent.w);
         counters.overflowed = 0u;
     }
@@ -158,7 +165,7 @@ void main() {
     pixel_area *= face_weight(face);
     vec3 normal = bundle.axis_z.xyz;
     Gloss shooter = shooter_gloss(vertex_base);
-    vec3 main_part = texelFetch(radiance_texels, int(bundle.resolution.z)).rgb;
+    vec3 main_part = shooter_radiance().rgb;
     float inverse_luminance = 1.0 / max(luminance(main_part), 1e-20);
 #endif
     uint surface = texelFetch(surface_ids, texel, 0).r;

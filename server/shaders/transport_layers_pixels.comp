@@ -12,6 +12,7 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
+#include "radiance_slope.glsl"
 #ifdef CROWDED
 #include "facet_boxes.glsl"
 uniform float own_ray_reach;  // m
@@ -87,8 +88,13 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
 
 /// L(y) cos_y / d(omega) of what lies `ahead`, m. point: on the facet; side: of it.
 vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
-    uint y = patch_of_surface(2u * triangle_at(facet, point) + side);
-    vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
+    vec3 weights;
+    uint y = patch_of_surface(2u * triangle_at(facet, point, weights) + side);
+    vec4 l = vec4(0.0);
+    if (y != NO_PATCH) {
+        l = texelFetch(radiance_texels, int(y));
+        l.rgb += rise(slope_of(y), clamp(weights, 0.0, 1.0));
+    }
     float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
     return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, cos_y, l.w);
 }

@@ -7,6 +7,7 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "parallel.glsl"
+#include "radiance_slope.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
 
@@ -54,9 +55,14 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     }
     Facet facet = load_facet(facet_base + (surface >> 1));
     float depth = plane_depth(facet.plane, line.point);
-    uint triangle = triangle_at(facet, line.point + depth * bundle.axis_z.xyz);
+    vec3 weights;
+    uint triangle = triangle_at(facet, line.point + depth * bundle.axis_z.xyz, weights);
     uint y = patch_of_surface(2u * triangle + side_of_surface(surface, !line.far));
-    vec4 l = y != NO_PATCH ? texelFetch(radiance_texels, int(y)) : vec4(0.0);
+    vec4 l = vec4(0.0);
+    if (y != NO_PATCH) {
+        l = texelFetch(radiance_texels, int(y));
+        l.rgb += rise(slope_of(y), clamp(weights, 0.0, 1.0));
+    }
     return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
 }
 

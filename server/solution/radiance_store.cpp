@@ -32,7 +32,11 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       scout_stride_((patch_count_ + MOST_SCOUTS - 1) / MOST_SCOUTS),
       scatter_("scatter of the strategies", (patch_count_ / scout_stride_ + 1) * sizeof(glm::vec2)),
       caustics_(caustics),
+      vertex_light_("vertex light",
+                    std::size_t{scene.vertex_count()} * sizeof(layout::VertexLight)),
+      slopes_("radiance slopes", std::size_t{patch_count_} * sizeof(layout::RadianceSlope)),
       radiance_texture_(create_buffer_texture("radiance", GL_RGBA32F, radiance_)),
+      slope_texture_(create_buffer_texture("radiance slopes", GL_RGBA32UI, slopes_)),
       shooter_readback_("shooter readback", max_shooters * sizeof(layout::Shooter)),
       statistics_readback_("statistics readback", statistics_buffer_.bytes()),
       counters_readback_("counters readback", sizeof(layout::Counters)),
@@ -43,11 +47,13 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       choose_({"solution_shooters.comp"}, scene.defines()),
       flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
+      gather_at_vertices_({"solution_vertex_light.comp"}),
+      find_slopes_({"solution_radiance_slopes.comp"}),
       checkpoint_({"solution_checkpoint.comp"}),
       statistics_({"solution_statistics.comp"}),
       measure_scatter_({"solution_scatter.comp"}) {
     for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &counters_,
-                                 &balance_, &flux_, &checkpoint_buffer_, &scatter_}) {
+                                 &balance_, &flux_, &checkpoint_buffer_, &scatter_, &slopes_}) {
         buffer->clear();
     }
     if (scene_.transmitting()) {
@@ -87,6 +93,7 @@ void RadianceStore::bind() const {
     (other_ != nullptr ? *other_ : radiance_).bind_storage(BINDING_RADIANCE);
     glBindTextureUnit(UNIT_RADIANCE,
                       (other_texture_ != nullptr ? *other_texture_ : radiance_texture_).get());
+    glBindTextureUnit(UNIT_SLOPES, slope_texture_.get());
     irradiance_.bind_storage(BINDING_IRRADIANCE);
     source_.bind_storage(BINDING_SOURCE);
     accumulator_.bind_storage(BINDING_ACCUMULATOR);
@@ -202,6 +209,16 @@ void RadianceStore::stop_sending_other() {
     other_ = nullptr;
     other_texture_ = nullptr;
     bind();
+}
+
+void RadianceStore::refresh_slopes() const {
+    vertex_light_.bind_storage(BINDING_VERTEX_LIGHT);
+    gather_at_vertices_.set("vertex_count", scene_.vertex_count());
+    gather_at_vertices_.dispatch(scene_.vertex_count());
+    slopes_.bind_storage(BINDING_SLOPES);
+    find_slopes_.set("patch_count", patch_count_);
+    find_slopes_.set("triangle_count", scene_.triangle_count());
+    find_slopes_.dispatch(patch_count_);
 }
 
 void RadianceStore::refresh_power() const {
@@ -340,8 +357,9 @@ void RadianceStore::write_radiance(std::uint32_t patch, const glm::vec4& value) 
 std::size_t RadianceStore::bytes() const {
     std::size_t sum =
         (first_shot_ ? first_shot_->bytes() : 0) + (placed_ ? placed_->radiance.bytes() : 0);
-    for (const Buffer* buffer : {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_,
-                                 &checkpoint_buffer_, &gloss_, &chain_, &sent_}) {
+    for (const Buffer* buffer :
+         {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_, &checkpoint_buffer_,
+          &gloss_, &chain_, &sent_, &vertex_light_, &slopes_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -72,6 +72,11 @@ class RadianceStore {
     /// instead of the solution's, until stop_sending_other(). Both must outlive that.
     void send_other(const Buffer& radiance, const Texture2D& texture);
     void stop_sending_other();
+    /// How radiance changes within patches follows the present solution; nothing is known of that
+    /// before.
+    void refresh_slopes() const;
+    /// Whether bundles carry it: not where they carry other radiance than the solution's.
+    [[nodiscard]] bool sends_slopes() const { return other_ == nullptr; }
     /// New selection probabilities from the present solution.
     void refresh_power() const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
@@ -125,7 +130,9 @@ class RadianceStore {
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Caustics* caustics_;                   // null where the scene has none
+    Buffer vertex_light_, slopes_;         // see radiance_slope.glsl
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
+    Texture2D slope_texture_;
     /// Radiance with the densities of one place; exists from the first change of a size on.
     struct Placed {
         Buffer radiance;
@@ -139,7 +146,7 @@ class RadianceStore {
     mutable Readback statistics_readback_, counters_readback_;
     std::optional<ShaderProgram> level_;  // only where patches transmit light
     ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
-    ShaderProgram flux_sum_, balance_flux_;
+    ShaderProgram flux_sum_, balance_flux_, gather_at_vertices_, find_slopes_;
     ShaderProgram checkpoint_, statistics_, measure_scatter_, turn_gloss_, send_, forget_;
 };
 

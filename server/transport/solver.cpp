@@ -110,6 +110,15 @@ void Solver::refine() {
     }
 }
 
+/// How light changes within patches is found anew when there are so many more samples of it.
+void Solver::refresh_slopes() {
+    constexpr std::uint64_t share = 8;
+    if (since_change_ >= next_slopes_) {
+        store_.refresh_slopes();
+        next_slopes_ = since_change_ + std::max<std::uint64_t>(since_change_ / share, group_size);
+    }
+}
+
 void Solver::plan_group() {
     if (!fine_ && fine_fits_ && iterations_ >= settings_.coarse_iterations && noise_is_low()) {
         refine();
@@ -138,6 +147,7 @@ void Solver::plan_group() {
         caustics_->refine(store_.sent());
         store_.bind();
     }
+    refresh_slopes();
     store_.refresh_power();
     const auto shooters = store_.choose_shooters(numbers);
     if (!shooters.empty()) {

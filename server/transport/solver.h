@@ -130,6 +130,7 @@ class Solver {
 
     void plan_group();
     void refine();
+    void refresh_slopes();
     void restart_caustics();
     [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
@@ -180,6 +181,7 @@ class Solver {
     std::uint64_t iterations_ = 0;
     Shots shots_;
     std::uint64_t since_change_ = 0;
+    std::uint64_t next_slopes_ = 0;  // of since_change_
     float kept_weight_ = 1e30F;  // samples that any mean was worth at most after the last change
     std::uint64_t iterate_age_ = 0;  // samples that the iterate is worth
     std::uint64_t changes_ = 0;

@@ -68,6 +68,7 @@ void Solver::note_change() {
     group_.clear();
     group_next_ = 0;
     since_change_ = 0;
+    next_slopes_ = 0;
     kept_weight_ = no_limit;
     limit_iterate_age(iterate_age_after_change);
     statistics_.settled = 0.0;

@@ -127,6 +127,7 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
                       settings.face_weights[4]};
     p.weights = {settings.weight, settings.context.sample_weight, 0.0F, 0.0F};
+    p.slopes.w = store_.sends_slopes() ? 1.0F : 0.0F;
     p.resolution.w = static_cast<unsigned>(settings.context.place);
     p.moved = scene_.moved_objects();
     for (int k = 0; k < MOST_MOVED && p.moved[k] != NO_PATCH; ++k) {
@@ -148,6 +149,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     store_.bind();
     layout::BundleParameters p = common_parameters(frame, settings);
     p.densities.w = shooter.density;
+    p.slopes = glm::vec4(glm::vec3(shooter.weights), p.slopes.w);
     p.axis_z.w = shooter.probability;
     p.weights.z = 2.0F * glm::pi<float>() * settings.noise_horizon;
     p.axis_x.w = frame.pixel_shift.x;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radiance that changes within a patch. The solution knows one value for a patch, and from afar that is all that matters.
+// Close by, in a corner, a groove, a slot, it is not: a surface there would get the light of the whole patch from its
+// dark end. So the mean irradiance is interpolated between vertices (Gouraud 1971, "Continuous Shading of Curved Surfaces";
+// that linear elements cure radiosity of this: Zatz 1993, "Galerkin Radiosity"), and what a patch sends from a point is
+// its radiance and the interpolated value's difference from its mean over the patch, so that all of the patch's light
+// is as much as ever. Made by solution_radiance_slopes.comp. Requires density.glsl.
+layout(binding = UNIT_SLOPES) uniform usamplerBuffer slope_texels;
+
+/// Change of a patch's radiance with the barycentric weights of corners 1 and 2 against that of corner 0.
+struct Slope {
+    vec3 along1;
+    vec3 along2;
+};
+
+Slope slope_of(uint patch_id) {
+    uvec4 texel = texelFetch(slope_texels, int(patch_id));
+    vec2 b = unpackHalf2x16(texel.y);
+    float carried = bundle.slopes.w;
+    return Slope(carried * vec3(unpackHalf2x16(texel.x), b.x), carried * vec3(b.y, unpackHalf2x16(texel.z)));
+}
+
+/// Difference from the patch's mean at a point, or along a step; weights: barycentric, their sum is 1, or 0 of a step.
+vec3 rise(Slope slope, vec3 weights) {
+    return slope.along1 * (weights.y - weights.x) + slope.along2 * (weights.z - weights.x);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the solution knows of the light round each vertex, for solution_radiance_slopes.comp.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+#include "mesh.glsl"
+layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
+layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
+layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
+layout(std430, binding = BINDING_BACK_PATCH) readonly buffer BackPatchBuffer { uint back_patch[]; };
+layout(std430, binding = BINDING_VERTEX_LIGHT) writeonly buffer VertexLightBuffer { VertexLight lights[]; };
+uniform uint vertex_count;
+
+vec3 middle_of(uint triangle) {
+    uvec3 v = load_triangle(triangle).xyz;
+    return (world_position(v.x) + world_position(v.y) + world_position(v.z)) / 3.0;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= vertex_count) {
+        return;
+    }
+    vec3 own = world_position(i);
+    vec3 offset = vec3(0.0);
+    vec3 front = vec3(0.0);
+    vec3 back = vec3(0.0);
+    float front_area = 0.0;
+    float back_area = 0.0;
+    uint end = vertices[i].first_patch + vertices[i].patch_count;
+    for (uint k = vertices[i].first_patch; k < end; ++k) {
+        uint triangle = vertex_patches[k];
+        float area = patches[triangle].area;
+        offset += area * (middle_of(triangle) - own);
+        front += area * irradiance[triangle].rgb;
+        front_area += area;
+        uint twin = back_patch[triangle];
+        if (twin != NO_PATCH) {
+            back += area * irradiance[twin].rgb;
+            back_area += area;
+        }
+    }
+    float per_area = front_area > 0.0 ? 1.0 / front_area : 0.0;
+    lights[i].middle = vec4(own + per_area * offset, 0.0);
+    lights[i].front = vec4(per_area * front, 0.0);
+    lights[i].back = vec4(back_area > 0.0 ? back / back_area : vec3(0.0), 0.0);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that changes within patches, beside surfaces that see how.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "oracle/scene_builder.h"
+#include "pictures.h"
+#include "transport/solver.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+namespace {
+
+constexpr glm::uvec2 size(16, 16);
+constexpr std::uint64_t iterations = 2048;
+
+struct Strategies {
+    std::string name;
+    StrategyProbabilities probabilities{};
+};
+
+void PrintTo(const Strategies& strategies, std::ostream* out) {
+    *out << strategies.name;
+}
+
+/// A room of 4 x 2.5 x 4 m with a lamp on one wall. A beam under the ceiling keeps the lamp's
+/// light from the ceiling behind it: the farther from the beam, the brighter it is.
+Scene room_with_beam() {
+    SceneBuilder b;
+    const auto paint = b.add_material(glm::vec3(0.7F));
+    const auto wood = b.add_material(glm::vec3(0.3F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 1, 1, paint);     // floor
+    b.add_quad({-2, 0, -2}, {0, 2.5F, 0}, {0, 0, 4}, 1, 1, paint);  // walls
+    b.add_quad({2, 0, -2}, {0, 0, 4}, {0, 2.5F, 0}, 1, 1, paint);
+    b.add_quad({-2, 0, -2}, {4, 0, 0}, {0, 2.5F, 0}, 1, 1, paint);
+    b.add_quad({-2, 0, 2}, {0, 2.5F, 0}, {4, 0, 0}, 1, 1, paint);
+    b.add_quad({-2, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);  // ceiling
+    b.add_quad({0.1F, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);
+    b.add_quad({-0.1F, 2.1F, -2}, {0, 0, 4}, {0, 0.4F, 0}, 1, 1, wood);  // beam
+    b.add_quad({0.1F, 2.1F, -2}, {0, 0.4F, 0}, {0, 0, 4}, 1, 1, wood);
+    b.add_quad({-0.1F, 2.1F, -2}, {0.2F, 0, 0}, {0, 0, 4}, 1, 1, wood);
+    b.add_quad({1.99F, 1, -0.5F}, {0, 0, 1}, {0, 1, 0}, 2, 2, lamp);
+    return b.loaded_scene();
+}
+
+/// The upper half of the beam's dark side, from straight ahead.
+Camera at_the_beam() {
+    Camera camera;
+    camera.eye = {-1.1F, 2.4F, 0.0F};
+    camera.target = {-0.1F, 2.4F, 0.0F};
+    camera.vertical_fov = 2.0F * std::atan(0.098F);
+    return camera;
+}
+
+class BesideABrightCeiling : public testing::TestWithParam<Strategies> {};
+
+TEST_P(BesideABrightCeiling, ABeamGetsTheLightOfItsDarkEnd) {
+    Scene scene = room_with_beam();
+    TessellationSettings coarse;
+    coarse.patch_size = 0.7F;  // m, much more than what the picture shows
+    const PatchMesh mesh = tessellate(scene, coarse);
+    SolverSettings settings;
+    settings.probabilities = GetParam().probabilities;
+    Solver solver(scene, mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    image.set_camera(at_the_beam());
+    image.rest();
+    BundleReceiver* const receivers[] = {&image};
+    for (std::uint64_t i = 0; i < iterations; ++i) {
+        solver.step(receivers);
+    }
+    const auto truth = path_traced_centres(scene, mesh, at_the_beam(), size, 2048);
+    const auto picture = image.read_radiance();
+    const auto mean_of_rows = [&](const auto& pixels, unsigned first, unsigned end) {
+        double sum = 0.0;
+        for (unsigned i = first * size.x; i < end * size.x; ++i) {
+            sum += double{pixels[i].x};
+        }
+        return sum / ((end - first) * size.x);
+    };
+    // Within patches of this size light does not change linearly. Without slopes 1.06 and 1.05 are
+    // found.
+    EXPECT_NEAR(mean_of_rows(picture, 0, 4) / mean_of_rows(truth, 0, 4), 1.0, 0.04);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, BesideABrightCeiling,
+                         testing::Values(Strategies{"Combined"},
+                                         Strategies{"Layered", {1.0F, 0.0F, 0.0F}}),
+                         [](const testing::TestParamInfo<Strategies>& strategies) {
+                             return strategies.param.name;
+                         });
+
+}  // namespace
+}  // namespace raybundle
