@@ -20,7 +20,7 @@ using uint = std::uint32_t;
 // std430 puts a scalar into the fourth component after a vec3, as C++ does.
 static_assert(sizeof(PatchGeometry) == 32 && offsetof(PatchGeometry, offset) == 12);
 static_assert(sizeof(PatchSurface) == 32);
-static_assert(sizeof(RadianceSlope) == 16 && sizeof(VertexLight) == 48);
+static_assert(sizeof(RadianceSlope) == 16 && sizeof(VertexLight) == 32);
 static_assert(sizeof(Shooter) == 128 && offsetof(Shooter, normal) == 16);
 static_assert(sizeof(Counters) == 48);
 static_assert(sizeof(FacetGeometry) == 64 && offsetof(FacetGeometry, root_code) == 48);

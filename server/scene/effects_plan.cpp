@@ -18,9 +18,10 @@
 namespace raybundle {
 namespace {
 
-constexpr double skipped_share = 0.1;      // of the accuracy: smaller classes are not simulated
-constexpr std::size_t diffuse_bytes = 92;  // radiance, mean, iterate, accumulator, cdf, checkpoint
-constexpr std::size_t glossy_bytes = 56;   // reflector, accepted light, its chain, sent radiance
+constexpr double skipped_share = 0.1;  // of the accuracy: smaller classes are not simulated
+// Radiance, mean, iterate, accumulator, cdf, checkpoint, slope of the radiance, light at vertices.
+constexpr std::size_t diffuse_bytes = 124;
+constexpr std::size_t glossy_bytes = 56;      // reflector, accepted light, its chain, sent radiance
 constexpr std::size_t first_shot_bytes = 32;  // irradiance, and the radiance that it makes
 constexpr std::size_t caustic_bytes = 88;     // flux, irradiance, the radiance of it, at vertices
 constexpr const char* caustic_paths = "L(D|G)*S+D(D|G)*E";

@@ -11,8 +11,9 @@
 namespace raybundle {
 
 /// Where patches have to be small: where direct light changes within them, and surfaces close by
-/// see how. A patch has one radiance. From afar only its mean matters; next to it, in the slot
-/// beside a window frame, at the foot of a lamp, light would come from where there is none.
+/// see how. What a patch sends changes linearly within it at most. From afar only its mean
+/// matters; next to it, in the slot beside a window frame, at the foot of a lamp, light would come
+/// from where there is none.
 /// Hierarchical radiosity weighs what it refines likewise (Hanrahan, Salzman, Aupperle 1991, "A
 /// Rapid Hierarchical Radiosity Algorithm"). At the objects' initial places; thread-safe.
 class NearField {

@@ -175,11 +175,13 @@ struct RadianceSlope {
     uint pad0;
 };
 
-// Mean over the patches that share a vertex.
+// Mean over the patches that share a vertex. Irradiance: radiance units, halves.
 struct VertexLight {
-    vec4 middle;  // world space: of these patches
-    vec4 front;   // irradiance, radiance units
-    vec4 back;    // of their back sides
+    vec3 middle;  // world space: of these patches
+    uint front_rg;
+    uint front_b_back_r;  // back: of their back sides
+    uint back_gb;
+    uint pad0, pad1;
 };
 
 // A point that shoots a perspective bundle.

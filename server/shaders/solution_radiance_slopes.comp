@@ -47,8 +47,10 @@ void main() {
     mat3 e;     // a column for each corner, a row for each colour
     for (int k = 0; k < 3; ++k) {
         VertexLight light = lights[v[k]];
-        rows[k] = barycentric(light.middle.xyz, a, e1, e2);
-        e[k] = behind ? light.back.rgb : light.front.rgb;
+        rows[k] = barycentric(light.middle, a, e1, e2);
+        vec2 b_and_r = unpackHalf2x16(light.front_b_back_r);
+        e[k] = behind ? vec3(b_and_r.y, unpackHalf2x16(light.back_gb))
+                      : vec3(unpackHalf2x16(light.front_rg), b_and_r.x);
     }
     mat3 q = mat3(regularisation);
     mat3 c = (e * transpose(rows) + regularisation * e) * inverse(rows * transpose(rows) + q);

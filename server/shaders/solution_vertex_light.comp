@@ -11,6 +11,8 @@ layout(std430, binding = BINDING_BACK_PATCH) readonly buffer BackPatchBuffer { u
 layout(std430, binding = BINDING_VERTEX_LIGHT) writeonly buffer VertexLightBuffer { VertexLight lights[]; };
 uniform uint vertex_count;
 
+const float largest = 65000.0;  // of a half
+
 vec3 middle_of(uint triangle) {
     uvec3 v = load_triangle(triangle).xyz;
     return (world_position(v.x) + world_position(v.y) + world_position(v.z)) / 3.0;
@@ -41,7 +43,8 @@ void main() {
         }
     }
     float per_area = front_area > 0.0 ? 1.0 / front_area : 0.0;
-    lights[i].middle = vec4(own + per_area * offset, 0.0);
-    lights[i].front = vec4(per_area * front, 0.0);
-    lights[i].back = vec4(back_area > 0.0 ? back / back_area : vec3(0.0), 0.0);
+    front = min(per_area * front, largest);
+    back = min(back_area > 0.0 ? back / back_area : vec3(0.0), largest);
+    lights[i] = VertexLight(own + per_area * offset, packHalf2x16(front.rg), packHalf2x16(vec2(front.b, back.r)),
+                            packHalf2x16(back.gb), 0u, 0u);
 }
