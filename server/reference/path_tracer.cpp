@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reference/next_event.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"
 
@@ -87,9 +88,11 @@ glm::dvec3 PathTracer::reflected(PathEnd end, Sampler& sampler) const {
 }
 
 bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const {
-    const int samples = light_samples(end);
+    const int samples = settings_.next_event ? light_samples(end) : 0;
     for (int i = 0; i < samples; ++i) {
-        sum += end.throughput * next_event(end, samples, sampler);
+        sum += end.throughput *
+               next_event(lights_, end.point, end.scattering, 1.0 / samples, sampler) /
+               static_cast<double>(samples);
     }
     const glm::dvec2 u = sampler.next_pair();
     const std::optional<ScatterSample> next = end.scattering.sample(u, sampler.next());
@@ -125,24 +128,6 @@ bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const 
     ++end.bounces;
     end.throughput *= choose_side(end.point, end.scattering, sampler);
     return true;
-}
-
-glm::dvec3 PathTracer::next_event(const PathEnd& end, int samples, Sampler& sampler) const {
-    if (!settings_.next_event || lights_.empty()) {
-        return glm::dvec3(0.0);
-    }
-    const double choice = sampler.next();
-    const std::optional<LightSample> light =
-        lights_.sample(end.point, end.scattering.frame(), choice, sampler.next_pair());
-    if (!light) {
-        return glm::dvec3(0.0);
-    }
-    const glm::dvec3 value = end.scattering.evaluate(light->direction) * light->radiance;
-    if (value == glm::dvec3(0.0) || !lights_.arrives(end.point, *light)) {
-        return glm::dvec3(0.0);
-    }
-    const double other = end.scattering.density(light->direction) / samples;
-    return value * (light->weight(other) / (light->density * samples));
 }
 
 }  // namespace raybundle

@@ -69,8 +69,6 @@ class PathTracer {
     [[nodiscard]] int light_samples(const PathEnd& end) const {
         return end.bounces == 0 ? settings_.first_light_samples : 1;
     }
-    /// One of so many samples of the lights.
-    [[nodiscard]] glm::dvec3 next_event(const PathEnd& end, int samples, Sampler& sampler) const;
     /// Where the surface transmits light diffusely, chooses whose light is followed: that of its
     /// own side, or that of the other one. Returns what to multiply it by.
     [[nodiscard]] double choose_side(SurfacePoint& point, Scattering& scattering,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/photon_mapper.h"
 
+#include "reference/next_event.h"
 #include "reference/roulette.h"
 #include "scene/environment.h"
 
@@ -29,25 +30,6 @@ glm::dvec3 PhotonMapper::radiance(const PhotonMaps& maps, const glm::dvec3& orig
     return seen.weight * sum;
 }
 
-/// Light chosen by LightSampling, by the power heuristic with met_light().
-glm::dvec3 PhotonMapper::next_event(const SurfacePoint& point, const Scattering& scattering,
-                                    PixelSampler& sampler) const {
-    if (lights_.empty()) {
-        return glm::dvec3(0.0);
-    }
-    const double choice = sampler.next();
-    const std::optional<LightSample> light =
-        lights_.sample(point, scattering.frame(), choice, sampler.next_pair());
-    if (!light) {
-        return glm::dvec3(0.0);
-    }
-    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
-    if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
-        return glm::dvec3(0.0);
-    }
-    return value * (light->weight(scattering.density(light->direction)) / light->density);
-}
-
 /// What a direction drawn at a point meets behind mirrors and glass.
 SpecularWalk PhotonMapper::met_by(const SurfacePoint& point, const ScatterSample& drawn,
                                   PixelSampler& sampler) const {
@@ -73,7 +55,7 @@ glm::dvec3 PhotonMapper::by_sharp(const PhotonMaps& maps, SurfacePoint point, Sc
     glm::dvec3 sum(0.0);
     glm::dvec3 throughput(1.0);
     for (int bounce = 0; bounce < max_bounces; ++bounce) {
-        sum += throughput * next_event(point, scattering, sampler);
+        sum += throughput * next_event(lights_, point, scattering, 1.0, sampler);
         const glm::dvec2 u = sampler.next_pair();
         const std::optional<ScatterSample> next = scattering.sample(u, sampler.next());
         if (!next) {
@@ -102,7 +84,7 @@ glm::dvec3 PhotonMapper::by_sharp(const PhotonMaps& maps, SurfacePoint point, Sc
 glm::dvec3 PhotonMapper::by_maps(const PhotonMaps& maps, const SurfacePoint& point,
                                  const Scattering& scattering, int gatherings,
                                  PixelSampler& sampler) const {
-    return next_event(point, scattering, sampler) +
+    return next_event(lights_, point, scattering, 1.0, sampler) +
            maps.caustic.reflected(point, scattering, settings_.nearest, radius_) +
            gathered(maps, point, scattering, gatherings, sampler);
 }

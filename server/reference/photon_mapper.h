@@ -34,8 +34,6 @@ class PhotonMapper {
                                       const glm::dvec3& direction, PixelSampler& sampler) const;
 
   private:
-    [[nodiscard]] glm::dvec3 next_event(const SurfacePoint& point, const Scattering& scattering,
-                                        PixelSampler& sampler) const;
     [[nodiscard]] glm::dvec3 met_light(const SurfacePoint& point, const Scattering& scattering,
                                        const ScatterSample& drawn, const SpecularWalk& met) const;
     [[nodiscard]] SpecularWalk met_by(const SurfacePoint& point, const ScatterSample& drawn,

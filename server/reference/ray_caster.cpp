@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/ray_caster.h"
 
+#include "reference/next_event.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"
 
@@ -16,29 +17,13 @@ glm::dvec3 RayCaster::radiance(const glm::dvec3& origin, const glm::dvec3& direc
     glm::dvec3 sum = scene_.shown_emission(*seen.hit);
     if (!seen.hit->absorbs() && !lights_.empty()) {
         const Scattering scattering(scene_, *seen.hit, NormalKind::shading, -seen.direction);
-        sum += sampled(*seen.hit, scattering, sampler);
+        sum += next_event(lights_, *seen.hit, scattering, scattering.is_lambert() ? 0.0 : 1.0,
+                          sampler);
         if (!scattering.is_lambert()) {
             sum += met(*seen.hit, scattering, sampler);
         }
     }
     return seen.weight * sum;
-}
-
-/// Reflection of light from a point chosen on the lights.
-glm::dvec3 RayCaster::sampled(const SurfacePoint& point, const Scattering& scattering,
-                              PixelSampler& sampler) const {
-    const double choice = sampler.next();
-    const std::optional<LightSample> light =
-        lights_.sample(point, scattering.frame(), choice, sampler.next_pair());
-    if (!light) {
-        return glm::dvec3(0.0);
-    }
-    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
-    if (value == glm::dvec3(0.0) || !lights_.arrives(point, *light)) {
-        return glm::dvec3(0.0);
-    }
-    const double other = scattering.is_lambert() ? 0.0 : scattering.density(light->direction);
-    return value * (light->weight(other) / light->density);
 }
 
 /// Reflection of light that a direction of the lobe meets.

@@ -25,8 +25,6 @@ class RayCaster {
                                       PixelSampler& sampler) const;
 
   private:
-    [[nodiscard]] glm::dvec3 sampled(const SurfacePoint& point, const Scattering& scattering,
-                                     PixelSampler& sampler) const;
     [[nodiscard]] glm::dvec3 met(const SurfacePoint& point, const Scattering& scattering,
                                  PixelSampler& sampler) const;
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/next_event.h"
+
+#include <optional>
+
+namespace raybundle {
+
+glm::dvec3 next_event(const LightSampling& lights, const SurfacePoint& point,
+                      const Scattering& scattering, double lobe_samples, Sampler& sampler) {
+    if (lights.empty()) {
+        return glm::dvec3(0.0);
+    }
+    const double choice = sampler.next();
+    const std::optional<LightSample> light =
+        lights.sample(point, scattering.frame(), choice, sampler.next_pair());
+    if (!light) {
+        return glm::dvec3(0.0);
+    }
+    const glm::dvec3 value = scattering.evaluate(light->direction) * light->radiance;
+    if (value == glm::dvec3(0.0) || !lights.arrives(point, *light)) {
+        return glm::dvec3(0.0);
+    }
+    const double other =
+        lobe_samples > 0.0 ? lobe_samples * scattering.density(light->direction) : 0.0;
+    return value * (light->weight(other) / light->density);
+}
+
+}  // namespace raybundle
