@@ -49,8 +49,6 @@
 #define BINDING_PIXEL_GLOSS_DELTA 39  // vec4[]: signed increments of it
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
-#define BINDING_SLOPES 42             // RadianceSlope[]; BINDING_SENT is bound for passes of its own
-#define BINDING_VERTEX_LIGHT 24        // VertexLight[]; bound for the same pass, as BINDING_VERTEX_IRRADIANCE for others
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
 #define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
@@ -73,6 +71,9 @@
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 #define BINDING_CROWDED 63            // see crowded_pixels.glsl
+// Bound for one pass, on numbers that others are bound on for theirs.
+#define BINDING_SLOPES 42             // RadianceSlope[]
+#define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
 #define TIE_SHARE 4e-6  // of it: closer surfaces coincide

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance that changes within a patch. The solution knows one value for a patch, and from afar that is all that matters.
 // Close by, in a corner, a groove, a slot, it is not: a surface there would get the light of the whole patch from its
-// dark end. So the mean irradiance is interpolated between vertices (Gouraud 1971, "Continuous Shading of Curved Surfaces";
-// that linear elements cure radiosity of this: Zatz 1993, "Galerkin Radiosity"), and what a patch sends from a point is
-// its radiance and the interpolated value's difference from its mean over the patch, so that all of the patch's light
-// is as much as ever. Made by solution_radiance_slopes.comp. Requires density.glsl.
+// dark end (linear elements cure radiosity of that: Zatz 1993, "Galerkin Radiosity"). So what a patch sends from a point is
+// its radiance and the rise of a linear function there, solution_radiance_slopes.comp, whose mean over the patch is zero: of
+// all of its light it neither takes nor adds any. Requires density.glsl.
 layout(binding = UNIT_SLOPES) uniform usamplerBuffer slope_texels;
 
 /// Change of a patch's radiance with the barycentric weights of corners 1 and 2 against that of corner 0.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the solution knows of the light round each vertex, for solution_radiance_slopes.comp.
+// What the solution knows of the light round each vertex, for solution_radiance_slopes.comp. Where a wall stands on a
+// floor that runs on beneath it, the light above is not that below: patches that are dark beside others are left out.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "luminance.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
 layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
@@ -12,6 +14,7 @@ layout(std430, binding = BINDING_VERTEX_LIGHT) writeonly buffer VertexLightBuffe
 uniform uint vertex_count;
 
 const float largest = 65000.0;  // of a half
+const float dark = 0.02;        // of the brightest patch's irradiance
 
 vec3 middle_of(uint triangle) {
     uvec3 v = load_triangle(triangle).xyz;
@@ -30,16 +33,20 @@ void main() {
     float front_area = 0.0;
     float back_area = 0.0;
     uint end = vertices[i].first_patch + vertices[i].patch_count;
+    float brightest = 0.0;
+    for (uint k = vertices[i].first_patch; k < end; ++k) {
+        brightest = max(brightest, luminance(irradiance[vertex_patches[k]].rgb));
+    }
     for (uint k = vertices[i].first_patch; k < end; ++k) {
         uint triangle = vertex_patches[k];
-        float area = patches[triangle].area;
+        float area = luminance(irradiance[triangle].rgb) < dark * brightest ? 0.0 : patches[triangle].area;
         offset += area * (middle_of(triangle) - own);
         front += area * irradiance[triangle].rgb;
         front_area += area;
         uint twin = back_patch[triangle];
         if (twin != NO_PATCH) {
-            back += area * irradiance[twin].rgb;
-            back_area += area;
+            back += patches[triangle].area * irradiance[twin].rgb;
+            back_area += patches[triangle].area;
         }
     }
     float per_area = front_area > 0.0 ? 1.0 / front_area : 0.0;

@@ -136,7 +136,11 @@ void deposit(Run run, Sum sum) {
 
 void main() {
     if (gl_GlobalInvocationID.x == 0u) {
+#ifdef SHOOTER_GLOSSY
+        vec4 sent = texelFetch(radiance_texels, int(bundle.resolution.z));  // what `missed` is a share of
+#else
         vec4 sent = shooter_radiance();
+#endif
         counters.shooter_radiance = vec4(sent.rgb - bundle.constant.rgb, sent.w);
         counters.overflowed = 0u;
     }
@@ -166,7 +170,7 @@ void main() {
     vec3 normal = bundle.axis_z.xyz;
     Gloss shooter = shooter_gloss(vertex_base);
     vec3 main_part = shooter_radiance().rgb;
-    float inverse_luminance = 1.0 / max(luminance(main_part), 1e-20);
+    float inverse_luminance = 1.0 / max(luminance(texelFetch(radiance_texels, int(bundle.resolution.z)).rgb), 1e-20);
 #endif
     uint surface = texelFetch(surface_ids, texel, 0).r;
     while (texel.x < end) {

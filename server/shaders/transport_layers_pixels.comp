@@ -76,7 +76,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
         bool nearer = ahead < seen.ahead || (ahead == seen.ahead && surface < seen.surface);
         // Behind the receiver's own surface, as the lamp in a shade is for its outside, only what goes through that
         // surface can be in front.
-        RARELY(nearer && close && dot(geometric, vec3(lateral, along)) < -tiny) {
+        RARELY(nearer && ahead <= footprint && dot(geometric, vec3(lateral, along)) < -tiny) {
             nearer = meets_facet(load_facet(facet_base + facet_of(surface)), x.position, looking);
         }
         if (nearer) {

@@ -75,6 +75,7 @@ SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeSt
     store_.bind();
     change_.begin();
     if (moving_) {
+        store_.refresh_slopes();  // light and materials may have changed since
         store_.refresh_power();
     } else {
         change_.send();

@@ -10,7 +10,7 @@ namespace {
 /// Nearer surfaces crowd a pixel, in pixels of the window: how far a line is from what it stands
 /// for, with some room.
 constexpr float radius_in_pixels = 1.0F;
-/// Own rays are followed so far: at half of it the line's distance makes little difference.
+/// Own rays are followed so far: beyond it the line's distance makes little difference.
 constexpr float reach_in_pixels = 6.0F;
 
 }  // namespace

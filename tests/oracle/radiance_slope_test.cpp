@@ -16,18 +16,19 @@ namespace {
 constexpr glm::uvec2 size(16, 16);
 constexpr std::uint64_t iterations = 2048;
 
-struct Strategies {
+struct Beam {
     std::string name;
-    StrategyProbabilities probabilities{};
+    StrategyProbabilities strategies{};
+    bool below = false;  // the ceiling runs on above it
 };
 
-void PrintTo(const Strategies& strategies, std::ostream* out) {
-    *out << strategies.name;
+void PrintTo(const Beam& beam, std::ostream* out) {
+    *out << beam.name;
 }
 
 /// A room of 4 x 2.5 x 4 m with a lamp on one wall. A beam under the ceiling keeps the lamp's
 /// light from the ceiling behind it: the farther from the beam, the brighter it is.
-Scene room_with_beam() {
+Scene room_with_beam(bool below) {
     SceneBuilder b;
     const auto paint = b.add_material(glm::vec3(0.7F));
     const auto wood = b.add_material(glm::vec3(0.3F));
@@ -37,8 +38,12 @@ Scene room_with_beam() {
     b.add_quad({2, 0, -2}, {0, 0, 4}, {0, 2.5F, 0}, 1, 1, paint);
     b.add_quad({-2, 0, -2}, {4, 0, 0}, {0, 2.5F, 0}, 1, 1, paint);
     b.add_quad({-2, 0, 2}, {0, 2.5F, 0}, {4, 0, 0}, 1, 1, paint);
-    b.add_quad({-2, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);  // ceiling
-    b.add_quad({0.1F, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);
+    if (below) {
+        b.add_quad({-2, 2.5F, -2}, {4, 0, 0}, {0, 0, 4}, 1, 1, paint);  // ceiling
+    } else {
+        b.add_quad({-2, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);
+        b.add_quad({0.1F, 2.5F, -2}, {1.9F, 0, 0}, {0, 0, 4}, 1, 1, paint);
+    }
     b.add_quad({-0.1F, 2.1F, -2}, {0, 0, 4}, {0, 0.4F, 0}, 1, 1, wood);  // beam
     b.add_quad({0.1F, 2.1F, -2}, {0, 0.4F, 0}, {0, 0, 4}, 1, 1, wood);
     b.add_quad({-0.1F, 2.1F, -2}, {0.2F, 0, 0}, {0, 0, 4}, 1, 1, wood);
@@ -55,15 +60,15 @@ Camera at_the_beam() {
     return camera;
 }
 
-class BesideABrightCeiling : public testing::TestWithParam<Strategies> {};
+class BesideABrightCeiling : public testing::TestWithParam<Beam> {};
 
 TEST_P(BesideABrightCeiling, ABeamGetsTheLightOfItsDarkEnd) {
-    Scene scene = room_with_beam();
+    Scene scene = room_with_beam(GetParam().below);
     TessellationSettings coarse;
     coarse.patch_size = 0.7F;  // m, much more than what the picture shows
     const PatchMesh mesh = tessellate(scene, coarse);
     SolverSettings settings;
-    settings.probabilities = GetParam().probabilities;
+    settings.probabilities = GetParam().strategies;
     Solver solver(scene, mesh, settings);
     const ViewPrograms programs(solver.scene());
     ViewerImage image(solver.scene(), solver.store(), programs, size);
@@ -87,12 +92,13 @@ TEST_P(BesideABrightCeiling, ABeamGetsTheLightOfItsDarkEnd) {
     EXPECT_NEAR(mean_of_rows(picture, 0, 4) / mean_of_rows(truth, 0, 4), 1.0, 0.04);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, BesideABrightCeiling,
-                         testing::Values(Strategies{"Combined"},
-                                         Strategies{"Layered", {1.0F, 0.0F, 0.0F}}),
-                         [](const testing::TestParamInfo<Strategies>& strategies) {
-                             return strategies.param.name;
-                         });
+constexpr StrategyProbabilities layered{1.0F, 0.0F, 0.0F};
+
+INSTANTIATE_TEST_SUITE_P(Beams, BesideABrightCeiling,
+                         testing::Values(Beam{"Combined"}, Beam{"Layered", layered},
+                                         Beam{"CombinedBelow", {}, true},
+                                         Beam{"LayeredBelow", layered, true}),
+                         [](const testing::TestParamInfo<Beam>& beam) { return beam.param.name; });
 
 }  // namespace
 }  // namespace raybundle
