@@ -22,15 +22,15 @@ const float inverse_pi = 0.31830988618;
 const float largest = 65000.0;  // of a half
 const float regularisation = 0.002;  // of the corners' squared distances: patches are seldom narrower than that
 
-/// Places in a patch's plane, m.
+/// Places in a patch's plane, in units of the patch's size.
 struct Plane {
     vec3 origin;
     vec3 x;
     vec3 y;
 };
 
-Plane plane_of(vec3 origin, vec3 normal) {
-    vec3 x = normalize(cross(abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0), normal));
+Plane plane_of(vec3 origin, vec3 normal, float size) {
+    vec3 x = normalize(cross(abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0), normal)) / size;
     return Plane(origin, x, cross(normal, x));
 }
 
@@ -46,7 +46,9 @@ void main() {
     vec3 a = world_position(v.x);
     vec3 b = world_position(v.y);
     vec3 c = world_position(v.z);
-    Plane plane = plane_of((a + b + c) / 3.0, patches[i].normal);
+    vec3 centre = (a + b + c) / 3.0;
+    float size = sqrt(dot(a - centre, a - centre) + dot(b - centre, b - centre) + dot(c - centre, c - centre));
+    Plane plane = plane_of(centre, patches[i].normal, max(size, 1e-12));
     vec2 corner[3] = vec2[3](place_in(plane, a), place_in(plane, b), place_in(plane, c));
     vec2 middle[3];
     vec3 light[3];
@@ -58,8 +60,7 @@ void main() {
     }
     vec2 mean_middle = (middle[0] + middle[1] + middle[2]) / 3.0;
     vec3 mean_light = (light[0] + light[1] + light[2]) / 3.0;
-    float spread = regularisation * (dot(corner[0], corner[0]) + dot(corner[1], corner[1]) + dot(corner[2], corner[2]));
-    vec3 moments = vec3(spread, spread, 0.0);  // xx, yy, xy
+    vec3 moments = vec3(regularisation, regularisation, 0.0);  // xx, yy, xy
     vec3 by_x = vec3(0.0);
     vec3 by_y = vec3(0.0);
     for (int k = 0; k < 3; ++k) {
@@ -69,7 +70,8 @@ void main() {
         by_x += m.x * difference;
         by_y += m.y * difference;
     }
-    float determinant = max(moments.x * moments.y - moments.z * moments.z, 1e-30);
+    float least = regularisation * (moments.x + moments.y - regularisation);  // but for rounding
+    float determinant = max(moments.x * moments.y - moments.z * moments.z, least);
     vec3 gradient_x = (moments.y * by_x - moments.z * by_y) / determinant;
     vec3 gradient_y = (moments.x * by_y - moments.z * by_x) / determinant;
     vec3 rise[3];  // from the patch's middle
@@ -79,8 +81,13 @@ void main() {
     vec3 deepest = -min(min(rise[0], rise[1]), rise[2]);
     vec3 kept = clamp(irradiance[i].rgb / max(deepest, 1e-20), 0.0, 1.0);
     vec3 factor = kept * surfaces[i].albedo.rgb * inverse_pi;
-    vec3 corner1 = clamp(factor * rise[1], -largest, largest);
-    vec3 corner2 = clamp(factor * rise[2], -largest, largest);
+    vec3 corner1 = factor * rise[1];
+    vec3 corner2 = factor * rise[2];
+    vec3 greatest = max(abs(corner1), abs(corner2));
+    // An object without size has no normals, and no slopes.
+    bool finite = size > 0.0 && max(greatest.r, max(greatest.g, greatest.b)) < largest;
+    corner1 = finite ? corner1 : vec3(0.0);
+    corner2 = finite ? corner2 : vec3(0.0);
     slopes[i] = RadianceSlope(packHalf2x16(corner1.rg), packHalf2x16(vec2(corner1.b, corner2.r)),
                               packHalf2x16(corner2.gb), 0u);
 }
