@@ -11,11 +11,11 @@
 #include "facets.glsl"
 #include "parallel.glsl"
 #include "rarely.glsl"
-#include "radiance_slope.glsl"
 #ifdef THIN_WALLS
 #include "crease.glsl"
 #endif
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
+#include "radiance_slope.glsl"
 uniform uint row_stride;   // rows are sampled: every row_stride-th from row_phase on
 uniform uint row_phase;
 uniform uint patch_base;   // patches, facets and vertices of the place that was drawn
@@ -91,10 +91,8 @@ Run start_run(uint surface, bool far, vec3 point, vec3 pixel_step) {
     uint triangle = triangle_at(facet.root, run.weights, run.weights_step);
     run.patch_id = patch_of_surface(2u * triangle + side_of_surface(surface, far));
     if (run.patch_id != NO_PATCH) {
-        run.radiance = texelFetch(radiance_texels, int(run.patch_id));
-        Slope slope = slope_of(run.patch_id);
-        run.radiance.rgb += rise(slope, clamp(run.weights, 0.0, 1.0));
-        run.radiance_step = rise(slope, run.weights_step);
+        run.radiance = radiance_at(run.patch_id, run.weights);
+        run.radiance_step = rise(slope_of(run.patch_id), run.weights_step);
     }
 #ifdef CONSTANT_RADIANCE  // what sends nothing lacks the constant term
     run.radiance.rgb -= bundle.constant.rgb;

@@ -33,12 +33,6 @@ uniform uint patch_base;    // patches, facets and vertices of the place that wa
 uniform uint facet_base;
 uniform uint vertex_base;
 
-/// Of the shooter's point, without what depends on direction; w: p_j/A_j of its patch.
-vec4 shooter_radiance() {
-    uint y = bundle.resolution.z;
-    return texelFetch(radiance_texels, int(y)) + vec4(rise(slope_of(y), bundle.slopes.xyz), 0.0);
-}
-
 const uint run_length = 8u;
 
 /// Consecutive pixels of a row that see one triangle. D is the direction through a pixel, in world
@@ -124,7 +118,7 @@ void deposit(Run run, Sum sum) {
 #ifdef SHOOTER_GLOSSY
     vec3 irradiance = sum;
 #else
-    vec3 irradiance = sum * (shooter_radiance().rgb - bundle.constant.rgb);
+    vec3 irradiance = sum * (radiance_at(bundle.resolution.z, bundle.slopes.xyz).rgb - bundle.constant.rgb);
 #endif
     accumulate(run.patch_id, 0u, irradiance.r);
     accumulate(run.patch_id, 1u, irradiance.g);
@@ -139,7 +133,7 @@ void main() {
 #ifdef SHOOTER_GLOSSY
         vec4 sent = texelFetch(radiance_texels, int(bundle.resolution.z));  // what `missed` is a share of
 #else
-        vec4 sent = shooter_radiance();
+        vec4 sent = radiance_at(bundle.resolution.z, bundle.slopes.xyz);
 #endif
         counters.shooter_radiance = vec4(sent.rgb - bundle.constant.rgb, sent.w);
         counters.overflowed = 0u;
@@ -169,7 +163,7 @@ void main() {
     pixel_area *= face_weight(face);
     vec3 normal = bundle.axis_z.xyz;
     Gloss shooter = shooter_gloss(vertex_base);
-    vec3 main_part = shooter_radiance().rgb;
+    vec3 main_part = radiance_at(bundle.resolution.z, bundle.slopes.xyz).rgb;
     float inverse_luminance = 1.0 / max(luminance(texelFetch(radiance_texels, int(bundle.resolution.z)).rgb), 1e-20);
 #endif
     uint surface = texelFetch(surface_ids, texel, 0).r;

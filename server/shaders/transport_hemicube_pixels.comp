@@ -15,15 +15,9 @@ layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 #include "radiance_slope.glsl"
 
-/// Of the shooter's point, without what depends on direction; w: p_j/A_j of its patch.
-vec4 shooter_radiance() {
-    uint y = bundle.resolution.z;
-    return texelFetch(radiance_texels, int(y)) + vec4(rise(slope_of(y), bundle.slopes.xyz), 0.0);
-}
-
 /// Radiance of the shooter towards w_out, less the constant term.
 vec3 sent_radiance(vec3 w_out) {
-    vec3 sent = shooter_radiance().rgb - bundle.constant.rgb;
+    vec3 sent = radiance_at(bundle.resolution.z, bundle.slopes.xyz).rgb - bundle.constant.rgb;
 #ifdef SHOOTER_GLOSSY
     vec3 normal = bundle.axis_z.xyz;
     sent += difference_radiance(shooter_gloss(vertex_base), normal, w_out);

@@ -12,12 +12,12 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
-#include "radiance_slope.glsl"
 #ifdef CROWDED
 #include "facet_boxes.glsl"
 uniform float own_ray_reach;  // m
 #endif
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
+#include "radiance_slope.glsl"
 layout(std430, binding = BINDING_COUNTERS) readonly buffer CounterBuffer { Counters counters; };
 
 /// What x sees along the axis.
@@ -90,11 +90,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
 vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
     vec3 weights;
     uint y = patch_of_surface(2u * triangle_at(facet, point, weights) + side);
-    vec4 l = vec4(0.0);
-    if (y != NO_PATCH) {
-        l = texelFetch(radiance_texels, int(y));
-        l.rgb += rise(slope_of(y), clamp(weights, 0.0, 1.0));
-    }
+    vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
     return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, cos_y, l.w);
 }

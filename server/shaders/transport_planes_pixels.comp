@@ -7,9 +7,9 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "parallel.glsl"
-#include "radiance_slope.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
+#include "radiance_slope.glsl"
 
 /// The line of a window pixel, and the receiver on it.
 struct Line {
@@ -58,11 +58,7 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     vec3 weights;
     uint triangle = triangle_at(facet, line.point + depth * bundle.axis_z.xyz, weights);
     uint y = patch_of_surface(2u * triangle + side_of_surface(surface, !line.far));
-    vec4 l = vec4(0.0);
-    if (y != NO_PATCH) {
-        l = texelFetch(radiance_texels, int(y));
-        l.rgb += rise(slope_of(y), clamp(weights, 0.0, 1.0));
-    }
+    vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
 }
 
