@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 
 #include "commands/render_job.h"
-#include "scene/effects_plan.h"
+#include "scene/effect_removal.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

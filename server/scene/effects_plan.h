@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -43,10 +42,6 @@ EffectsPlan plan_effects(const Scene& scene, std::size_t patches, double accurac
 
 /// Whether an effect of that name is simulated.
 bool is_active(const EffectsPlan& plan, std::string_view name);
-
-/// Takes an effect out of a scene and its mesh, for measuring what it costs. False where that is
-/// not possible, as for `diffuse`.
-bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh);
 
 /// {"patches", "bytesPerPatch", "effects": [{"name", "active", "reason", "pathClass", "shareBound",
 /// "bytesPerPatch", "msPerIteration"}]}; msPerIteration is null where it was not measured.

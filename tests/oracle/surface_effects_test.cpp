@@ -6,7 +6,7 @@
 
 #include "../unit/gltf_builder.h"
 #include "pictures.h"
-#include "scene/effects_plan.h"
+#include "scene/effect_removal.h"
 #include "scene/gltf_loader.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

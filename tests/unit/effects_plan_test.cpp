@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gltf_builder.h"
+#include "scene/effect_removal.h"
 
 namespace raybundle::test {
 namespace {
