@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest surface: 2 * facet + side (0 front, 1 back), of a hemicube or, with PARALLEL, a window.
+// Nearest surface: 2 * facet + side (0 front, 1 back), of a hemicube or, with PARALLEL, a window. STAGGERED:
+// of some of the pixels.
 #include "layouts.glsl"
 #include "density.glsl"
 #include "hemicube.glsl"
@@ -21,8 +22,11 @@ vec3 line_direction() {
 }
 #include "glass.glsl"
 #endif
-#if !defined(ALPHA_MASK) && !defined(GLASS_PASSES)
+#if !defined(ALPHA_MASK) && !defined(GLASS_PASSES) && !defined(STAGGERED)
 layout(early_fragment_tests) in;
+#endif
+#ifdef STAGGERED  // only pixels whose column and row leave these remainders, see view_place.glsl
+uniform uint remainder_x, remainder_y;
 #endif
 layout(location = 0) out uint surface;
 
@@ -30,6 +34,11 @@ uniform uint first_facet;
 
 void main() {
     uint facet = first_facet + uint(gl_PrimitiveID);
+#ifdef STAGGERED
+    if (uvec2(gl_FragCoord.xy) % STAGGER_PERIOD != uvec2(remainder_x, remainder_y)) {
+        discard;
+    }
+#endif
 #ifdef ALPHA_MASK
     if (!covered(facet, mesh_uv)) {
         discard;

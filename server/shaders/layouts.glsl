@@ -82,6 +82,7 @@
 #define SPECULAR_GROUP 64  // pixels
 #define CROWDED_GROUP 64  // pixels
 #define EDGE_SAMPLES 16  // sub-samples of a pixel that is smoothed
+#define STAGGER_PERIOD 4  // pixels after which places in them repeat, see view_place.glsl
 #define VIEW_TILE 8  // pixels along a tile of a viewer
 #define MOST_DIFFERENCES 8  // pairs of bundles whose affected tiles are listed at once
 #define MOST_MOVED 4  // objects that are elsewhere at once: components of a vector
@@ -375,4 +376,5 @@ struct ViewParameters {
     vec4 sun_radiance;  // cd/m^2
     vec4 weights;       // x: weight of all samples since the last resolve; since the scatter sums began, y: the same, z: sum of squared weights
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
+    vec4 places[STAGGER_PERIOD * STAGGER_PERIOD / 2];  // of the pixels' samples, two each, see view_place.glsl
 };

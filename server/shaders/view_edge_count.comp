@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "patch_seen.glsl"
 #include "edge_counts.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+#include "view_place.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;  // at the sub-samples
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(std430, binding = BINDING_EDGE_COUNTS) buffer EdgeCountBuffer { uint edge_counts[]; };
@@ -19,7 +20,7 @@ uniform vec3 offset;  // xy: of the sub-sample from the pixel's centre, pixels
 const float curved_on = 10.0;  // another piece of a curved surface: only where the very one is not around
 const float different = 1e6;
 
-/// Surface that a pixel shows at its centre: 2 * facet + side, or NO_HIT.
+/// Surface that a pixel shows: 2 * facet + side, or NO_HIT.
 uint shown_surface(uint index) {
     uint facet = texelFetch(pixel_texels, int(2u * index + 1u)).w;
     return (facet & PIXEL_SKY) != 0u ? NO_HIT
@@ -53,14 +54,15 @@ float penalty(uint surface, uint index) {
 
 /// Neighbour that shows a surface and is nearest to the sub-sample, or 8 where that is the pixel itself.
 uint neighbour_showing(uint surface, ivec2 at, float own_penalty) {
-    float least = min(own_penalty + dot(offset.xy, offset.xy), different);
+    vec2 away_from_own = place_in_pixel(uvec2(at)) - offset.xy;
+    float least = min(own_penalty + dot(away_from_own, away_from_own), different);
     uint nearest = 8u;
     for (uint k = 0u; k < 8u; ++k) {
         ivec2 step_to = edge_neighbour(k);
         ivec2 beside = at + step_to;
         bool inside = all(greaterThanEqual(beside, ivec2(0))) && all(lessThan(beside, ivec2(view.size.xy)));
         uint index = inside ? uint(beside.y) * view.size.x + uint(beside.x) : 0u;
-        vec2 away = vec2(step_to) - offset.xy;
+        vec2 away = vec2(step_to) + place_in_pixel(uvec2(max(beside, ivec2(0)))) - offset.xy;
         float cost = inside ? penalty(surface, index) + dot(away, away) : different;
         if (cost < least) {
             least = cost;
@@ -85,8 +87,7 @@ void main() {
         if (k < 8u && edge_count(counts, k) < 15u) {
             edge_counts[2u * index] = counts + (1u << (4u * k));
         } else if (k == 8u && own_penalty >= different && surface != NO_HIT) {
-            vec2 ndc = (vec2(at) + 0.5 + offset.xy) / vec2(view.size.xy) * 2.0 - 1.0;
-            uint met = patch_seen(surface, view.eye.xyz, view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz);
+            uint met = patch_seen(surface, view.eye.xyz, view_direction(at, offset.xy));
             if (met != NO_PATCH) {
                 edge_counts[2u * index + 1u] = with_stranger(edge_counts[2u * index + 1u], met);
             }

@@ -7,6 +7,7 @@
 #endif
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+#include "view_place.glsl"
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(binding = UNIT_PIXEL_IRRADIANCE) uniform samplerBuffer pixel_irradiance_texels;
 layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance_texels;
@@ -95,8 +96,8 @@ vec3 background(uint index) {
     vec3 direction = -continued_towards(index);
 #else
     uint row = index / view.size.x;
-    vec2 ndc = (vec2(index - row * view.size.x, row) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
-    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+    uvec2 at = uvec2(index - row * view.size.x, row);
+    vec3 direction = view_direction(at, place_in_pixel(at));
 #endif
     sum += environment_radiance(normalize(direction)) * view.sky.w;
 #endif

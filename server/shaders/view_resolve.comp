@@ -19,6 +19,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "octahedral.glsl"
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
+#include "view_place.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
 layout(std430, binding = BINDING_PIXELS) writeonly buffer PixelBuffer { uvec4 pixels[]; };
@@ -192,8 +193,7 @@ void main() {
     }
 #else
     uint surface = texelFetch(surface_ids, ivec2(at), 0).r;
-    vec2 ndc = (vec2(at) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0;
-    vec3 direction = view.forward.xyz + ndc.x * view.right.xyz + ndc.y * view.up.xyz;
+    vec3 direction = view_direction(at, place_in_pixel(at));
     vec3 eye = view.eye.xyz;
 #endif
     uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, eye, direction);

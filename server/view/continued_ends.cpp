@@ -11,6 +11,7 @@
 
 #include "gpu/octahedral.h"
 #include "solution/facet_raster.h"
+#include "view/sub_samples.h"
 
 namespace raybundle {
 namespace {
@@ -93,7 +94,8 @@ std::vector<layout::ContinuedPixel> ends_of_tile(const SpecularRays& rays,
         if (at.x >= view.size.x || at.y >= view.size.y) {
             continue;
         }
-        const glm::vec2 ndc = (glm::vec2(at) + 0.5F) / glm::vec2(view.size) * 2.0F - 1.0F;
+        const glm::vec2 ndc =
+            (glm::vec2(at) + 0.5F + place_in_pixel(view, at)) / glm::vec2(view.size) * 2.0F - 1.0F;
         const glm::vec3 direction = glm::normalize(
             glm::vec3(view.forward) + ndc.x * glm::vec3(view.right) + ndc.y * glm::vec3(view.up));
         std::array<ContinuedRay, SpecularRays::most_ends> ends;

@@ -75,7 +75,6 @@ void FinalPicture::prepare() {
         if (statistics_.known && statistics_.discretisation > share * statistics_.noise) {
             image_.refine(2);
             grid_ *= 2;
-            image_.show_means_over(grid_);
             image_.smooth();
             measure();  // what was found of the coarser pixels holds no more
         }

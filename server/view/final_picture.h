@@ -22,8 +22,8 @@ enum class PixelGrid {
 /// A picture that is made to be kept: its camera rests. Light changes within pixels, along the foot
 /// of a wall or in a narrow slot, and more so in small pictures, where no number of samples at
 /// their centres tells of it. So once noise is not much more than what the pixels do not resolve,
-/// each is drawn as 2 x 2, then 4 x 4, in the end 8 x 8 of them, whose mean it is. No clock
-/// decides, so that runs of one seed are equal to the bit.
+/// each is drawn as 2 x 2, then 4 x 4, in the end 8 x 8 of them at staggered places, whose mean it
+/// is. No clock decides, so that runs of one seed are equal to the bit.
 class FinalPicture {
   public:
     FinalPicture(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs,

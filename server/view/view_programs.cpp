@@ -56,6 +56,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene) : ViewPrograms(scene, {}) {
 
 ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant)
     : raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
+      raster_staggered({"bundle_raster.vert", "bundle_nearest.frag"},
+                       with_all(scene.defines(), {"SHOW_GLASS 1", "STAGGERED 1"})),
       resolve_new(make_resolve(scene, variant)),
       resolve_reprojected(make_resolve(scene, with(variant, "REPROJECT 1"))),
       resolve_moved(make_resolve(scene, with_all(variant, {"REPROJECT 1", "MOVED 1"}))),

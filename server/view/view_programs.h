@@ -20,6 +20,7 @@ struct ViewPrograms {
     ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
 
     ShaderProgram raster;
+    ShaderProgram raster_staggered;  ///< some of the pixels, see view/sub_samples.h
     /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
     /// after an object has moved; `specular` goes over specular pixels alone.
     struct Resolve {

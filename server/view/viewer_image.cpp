@@ -6,6 +6,7 @@
 
 #include "gpu/gl_scope.h"
 #include "view/continued_view.h"
+#include "view/sub_samples.h"
 
 namespace raybundle {
 
@@ -121,6 +122,7 @@ void ViewerImage::set_view(const Camera& camera, glm::uvec2 size) {
 
 void ViewerImage::restart(const Camera& camera, glm::uvec2 size) {
     size = glm::max(size, glm::uvec2(1));
+    grid_ = 1;
     if (size != full_size_) {
         full_size_ = size;
         size_ = size;
@@ -150,6 +152,7 @@ void ViewerImage::refine(unsigned factor) {
     Texture2D pixel_texture = std::move(pixel_texture_);
     Texture2D irradiance_texture = std::move(irradiance_texture_);
     Texture2D gloss_texture = std::move(gloss_texture_);
+    grid_ *= factor;
     full_size_ *= factor;
     size_ = full_size_;
     allocate();
@@ -189,8 +192,7 @@ PixelRectangle ViewerImage::whole_picture() const {
     return {0, 0, static_cast<int>(size_.x), static_cast<int>(size_.y)};
 }
 
-void ViewerImage::raster(const glm::mat4& clip_from_world, const PixelRectangle& rectangle) const {
-    const GlScope scope("view raster");
+void ViewerImage::begin_raster(const PixelRectangle& rectangle) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
     glEnable(GL_SCISSOR_TEST);
@@ -201,22 +203,52 @@ void ViewerImage::raster(const glm::mat4& clip_from_world, const PixelRectangle&
     glClearBufferfv(GL_DEPTH, 0, &far_depth);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    programs_.raster.use();
-    programs_.raster.set("clip_from_world", clip_from_world);
-    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true,
-                programs_.raster);
+}
+
+void ViewerImage::end_raster() {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_SCISSOR_TEST);
+}
+
+/// Draws the scene as seen at a place in each pixel, from its centre, pixels.
+void ViewerImage::raster_shifted(const ShaderProgram& program, const glm::vec2& place,
+                                 const PixelRectangle& rectangle) const {
+    // A place at +x sees what the centre sees of a picture shifted by -x.
+    const glm::vec2 shift = -2.0F * place / glm::vec2(size_);
+    const glm::mat4 clip_from_world =
+        glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world;
+    program.use();
+    program.set("clip_from_world", clip_from_world);
+    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true, program);
+}
+
+/// Draws the scene as the pixels of a rectangle are looked at.
+void ViewerImage::raster_pixels(const PixelRectangle& rectangle) const {
+    const GlScope scope("view raster");
+    begin_raster(rectangle);
+    if (grid_ == 1) {
+        raster_shifted(programs_.raster, glm::vec2(0.0F), rectangle);
+    } else {
+        const ShaderProgram& program = programs_.raster_staggered;
+        for (unsigned y = 0; y < STAGGER_PERIOD; ++y) {
+            for (unsigned x = 0; x < STAGGER_PERIOD; ++x) {
+                program.set("remainder_x", x);
+                program.set("remainder_y", y);
+                raster_shifted(program, place_in_pixel(parameters_, glm::uvec2(x, y)), rectangle);
+            }
+        }
+    }
+    end_raster();
 }
 
 bool ViewerImage::smooth_step() {
     if (!has_picture_ || size_ != full_size_ || edges_->complete()) {
         return false;
     }
-    // A sub-sample at +x sees what the centre sees of a picture shifted by -x.
-    const glm::vec2 shift = -2.0F * edges_->next_offset() / glm::vec2(size_);
-    raster(glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world,
-           whole_picture());
+    const GlScope scope("view sub-sample raster");
+    begin_raster(whole_picture());
+    raster_shifted(programs_.raster, edges_->next_offset(), whole_picture());
+    end_raster();
     store_.bind();
     bind_pixels();
     glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
@@ -232,13 +264,14 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     parameters_ = make_view_parameters(camera_, scene_.origin(), full_size_, near_distance());
     parameters_.size = picture_size(size_);
     parameters_.display = display;
+    set_places(parameters_, staggered_places(grid_));
     scene_.set_background(parameters_);
     if (continued_) {
         continued_->refresh(parameters_, camera_, kept_weight);
     }
     upload_view();
     if (ends_ == nullptr) {
-        raster(parameters_.clip_from_world, whole_picture());
+        raster_pixels(whole_picture());
     }
     std::swap(pixels_, old_pixels_);
     std::swap(irradiance_, old_irradiance_);

@@ -94,12 +94,12 @@ class ViewerImage : public BundleReceiver {
     void set_camera(const Camera& camera, glm::uvec2 size);
     /// The same with another full size, where nothing is kept.
     void set_view(const Camera& camera, glm::uvec2 size);
-    /// Draws the same view with `factor` times as many pixels along each edge. What is accumulated
-    /// goes along, and so does what its samples say of their scatter; what is seen in mirrors and
-    /// through glass begins anew. For pictures of full size, between special phases.
+    /// Draws the same view with `factor` times as many pixels along each edge, which are from now
+    /// on parts of the pixels that there were: they are looked at in staggered places
+    /// (view/sub_samples.h), and what is said of the error is that of means over them. What is
+    /// accumulated goes along, and so does what its samples say of their scatter; what is seen in
+    /// mirrors and through glass begins anew. For pictures of full size, between special phases.
     void refine(unsigned factor);
-    /// What is said of the error is from now on that of means over grid x grid pixels.
-    void show_means_over(unsigned grid) { grid_ = grid; }
     /// The camera will not move again: what makes the picture better and takes a while is done at
     /// once.
     void rest() { rests_ = true; }
@@ -209,7 +209,11 @@ class ViewerImage : public BundleReceiver {
     void allocate_gloss();
     void allocate_first_shot();
     void shoot_first() const;
-    void raster(const glm::mat4& clip_from_world, const PixelRectangle& rectangle) const;
+    void begin_raster(const PixelRectangle& rectangle) const;
+    static void end_raster();
+    void raster_shifted(const ShaderProgram& program, const glm::vec2& place,
+                        const PixelRectangle& rectangle) const;
+    void raster_pixels(const PixelRectangle& rectangle) const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
@@ -234,7 +238,7 @@ class ViewerImage : public BundleReceiver {
     const ViewPrograms& programs_;
     glm::uvec2 full_size_;  // of the buffers
     glm::uvec2 size_;       // in use of it
-    unsigned grid_ = 1;     // see show_means_over()
+    unsigned grid_ = 1;     // a picture's pixel is the mean of grid x grid, see refine()
     Camera camera_;
     layout::ViewParameters parameters_{};
     struct OldPicture {  ///< what was accumulated in it is reprojected

@@ -96,6 +96,44 @@ TEST(FinalPicture, IsTheMeanOverItsPixelsAreas) {
     EXPECT_EQ(adaptive.read_display().size(), truth.size() * 4);
 }
 
+/// A wall behind a dark board that is lit from behind: a line of light round it, parallel to the
+/// picture's rows and columns and narrower than a quarter of a pixel.
+SceneBuilder backlit_board() {
+    SceneBuilder b;
+    const auto paint = b.add_material(glm::vec3(0.4F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(500.0F));
+    b.add_box({-1, -1, 0}, {1, 1, 2}, true, 8, paint);
+    b.add_quad({-0.53F, -0.32F, 0.01F}, {0, 0.6F, 0}, {1, 0, 0}, 4, 4, lamp);
+    return b;
+}
+
+TEST(FinalPicture, PartsOfPixelsSeeALineAlongTheRowsThatIsNarrowerThanThey) {
+    const SceneBuilder b = backlit_board();
+    Solver solver(b.scene, b.mesh, coarse_settings());
+    const ViewPrograms programs(solver.scene());
+    Camera camera = in_front();
+    camera.eye = {0.0F, 0.0F, 1.9F};
+    ViewerImage staggered(solver.scene(), solver.store(), programs, size);
+    staggered.set_camera(camera);
+    staggered.rest();
+    staggered.refine(4);
+    FinalPicture even(solver.scene(), solver.store(), programs, camera, size * 4U,
+                      PixelGrid::centres);
+    FinalPicture fine(solver.scene(), solver.store(), programs, camera, size * 32U,
+                      PixelGrid::centres);
+    BundleReceiver* const receivers[] = {&staggered, &even.receiver(), &fine.receiver()};
+    while (solver.iterations() < 512) {
+        staggered.smooth();
+        even.prepare();
+        fine.prepare();
+        solver.step(receivers);
+    }
+    const auto truth = averaged(fine.read_radiance(), 32);
+    const double evenly = difference(averaged(even.read_radiance(), 4), truth);
+    EXPECT_GT(evenly, 0.3);
+    EXPECT_LT(difference(averaged(staggered.read_radiance(), 4), truth), 0.5 * evenly);
+}
+
 TEST(FinalPicture, ComesOutTheSameEveryTime) {
     const SceneBuilder b = boards();
     const auto render = [&] {
