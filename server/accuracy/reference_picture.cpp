@@ -4,10 +4,8 @@
 #include <chrono>
 #include <limits>
 
-#include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
 #include "reference/solution_picture.h"
-#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -25,17 +23,6 @@ double squared(double value) {
 
 std::string filter_name(PixelFilter filter) {
     return filter == PixelFilter::centre ? "centre" : "area";
-}
-
-std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera) {
-    std::vector<bool> left_out = pixels_that_see_emitters(scene, camera);
-    if (has_sky(scene.scene())) {
-        const auto centres = pixel_centres(scene, camera);
-        for (std::size_t i = 0; i < centres.size(); ++i) {
-            left_out[i] = left_out[i] || !centres[i];
-        }
-    }
-    return without_emitters(left_out, camera.size());
 }
 
 ReferenceMaker::ReferenceMaker(const RayScene& scene, const LightSampling& lights,

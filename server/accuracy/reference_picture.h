@@ -35,10 +35,6 @@ struct ReferencePicture {
 /// Name of a filter in files: "centre" or "area".
 std::string filter_name(PixelFilter filter);
 
-/// Mask of the pixels to measure (design.md, section 8): without those that see an emitter or the
-/// sky, and their neighbours.
-std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera);
-
 /// A reference in the making: path tracing that shares paths, on top of an earlier one where there
 /// is one. Scene and lights must outlive it.
 class ReferenceMaker {

@@ -13,6 +13,7 @@
 #include "accuracy/scene_fingerprint.h"
 #include "commands/accuracy_reference.h"
 #include "journal/session_journal.h"
+#include "reference/emitter_pixels.h"
 #include "scene/effect_removal.h"
 #include "scene/effects_plan.h"
 #include "view/tone_curve.h"

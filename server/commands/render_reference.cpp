@@ -8,6 +8,7 @@
 
 #include "commands/command.h"
 #include "commands/render_job.h"
+#include "reference/emitter_pixels.h"
 #include "reference/reference_method.h"
 #include "view/image_file.h"
 #include "view/tone_curve.h"
@@ -92,7 +93,7 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
         spdlog::warn("{}", missed);
     }
     const Outcome outcome = solve(*method, options);
-    write_picture(options.output, method->picture(), size, reflecting_pixels(scene, camera, size));
+    write_picture(options.output, method->picture(), size, reflecting_pixels(scene, CameraRays(scene, camera, size)));
     if (!options.stats.empty()) {
         write_statistics(options, size, loaded, *method, outcome);
     }

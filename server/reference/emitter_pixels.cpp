@@ -5,6 +5,10 @@
 
 #include <cstdint>
 
+#include "reference/image_metrics.h"
+#include "reference/solution_picture.h"
+#include "scene/environment.h"
+
 namespace raybundle {
 namespace {
 
@@ -35,6 +39,25 @@ std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRa
         }
     });
     return {found.begin(), found.end()};
+}
+
+std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera) {
+    std::vector<bool> left_out = pixels_that_see_emitters(scene, camera);
+    if (has_sky(scene.scene())) {
+        const auto centres = pixel_centres(scene, camera);
+        for (std::size_t i = 0; i < centres.size(); ++i) {
+            left_out[i] = left_out[i] || !centres[i];
+        }
+    }
+    return without_emitters(left_out, camera.size());
+}
+
+std::vector<bool> reflecting_pixels(const RayScene& scene, const CameraRays& camera) {
+    std::vector<bool> result;
+    for (const auto& hit : pixel_centres(scene, camera)) {
+        result.push_back(hit && !hit->absorbs() && scene.emission(*hit) == glm::dvec3(0.0));
+    }
+    return result;
 }
 
 }  // namespace raybundle

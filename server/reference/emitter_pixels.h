@@ -16,4 +16,12 @@ bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::si
 /// 8 x 8 rays a pixel finds it; row by row from the top. For without_emitters().
 std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRays& camera);
 
+/// Mask of the pixels that count for the error of a picture (design.md, section 8): without those
+/// that see an emitter or the sky, and their neighbours.
+std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera);
+
+/// Pixels whose centre shows a surface that reflects and does not emit, row by row: those that
+/// count for the exposure.
+std::vector<bool> reflecting_pixels(const RayScene& scene, const CameraRays& camera);
+
 }  // namespace raybundle

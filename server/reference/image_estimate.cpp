@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -75,8 +76,7 @@ void ImageEstimate::add_splatting_pass(const CameraRays& camera,
 
 void ImageEstimate::add_tiled_pass(const CameraRays& camera, std::uint32_t side,
                                    const TileEstimator& estimator) {
-    tile_side_ = side;
-    const glm::uvec2 tiles = this->tiles();
+    const glm::uvec2 tiles = (size_ + side - 1U) / side;
     std::atomic<std::uint64_t> dropped{0};
     tbb::parallel_for(0U, tiles.x * tiles.y, [&](std::uint32_t tile) {
         const glm::uvec2 first = side * glm::uvec2(tile % tiles.x, tile / tiles.x);
@@ -153,44 +153,41 @@ std::vector<glm::dvec3> ImageEstimate::means() const {
     return result;
 }
 
+/// Of the pixels [first, last).
+BatchScatter ImageEstimate::scatter(std::size_t first, std::size_t last,
+                                    const std::vector<bool>& measured) const {
+    BatchScatter sum(batches);
+    std::array<glm::dvec3, batches> deviations;
+    for (std::size_t pixel = first; pixel < last; ++pixel) {
+        if (!measured.empty() && !measured[pixel]) {
+            continue;
+        }
+        const glm::dvec3 centre = mean(pixel);
+        for (std::uint32_t batch = 0; batch < batches; ++batch) {
+            const double share =
+                static_cast<double>(samples_of(batch)) / static_cast<double>(passes_);
+            deviations[batch] = std::sqrt(share) * (batch_mean(pixel, batch) - centre);
+        }
+        sum.add(deviations, centre);
+    }
+    return sum;
+}
+
 ImageError ImageEstimate::error(const std::vector<bool>& measured) const {
     if (passes_ < batches) {
         return {};
     }
-    struct Tile {
-        double squares = 0.0, variance = 0.0;
-    };
-    std::vector<Tile> of_tiles(std::size_t{tiles().x} * tiles().y);
-    for (std::size_t pixel = 0; pixel < sums_.size() / batches; ++pixel) {
-        if (measured.empty() || measured[pixel]) {
-            const glm::dvec3 m = mean(pixel);
-            const glm::dvec3 e = standard_error(pixel);
-            Tile& tile = of_tiles[tile_of(pixel)];
-            tile.squares += glm::dot(m, m);
-            tile.variance += glm::dot(e, e);
-        }
+    const std::size_t pixels = sums_.size() / batches;
+    constexpr std::size_t a_task = 4096;
+    std::vector<BatchScatter> parts((pixels + a_task - 1) / a_task, BatchScatter(batches));
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        parts[i] = scatter(i * a_task, std::min((i + 1) * a_task, pixels), measured);
+    });
+    BatchScatter sum(batches);
+    for (const BatchScatter& part : parts) {
+        sum.add(part);
     }
-    VarianceSum sum;
-    for (const Tile& tile : of_tiles) {
-        sum.add(tile.squares, tile.variance);
-    }
-    return sum.independent_error(batches - 1);
-}
-
-double VarianceSum::relative() const {
-    return squares_ > 0.0 ? std::sqrt(variances_ / squares_) : 0.0;
-}
-
-ImageError VarianceSum::independent_error(double freedom) const {
-    if (!(variances_ > 0.0)) {
-        return {0.0, 0.0, 0.0};
-    }
-    // Satterthwaite 1946: a sum of independent estimates of variance is nearly chi-square with this
-    // many degrees of freedom.
-    const double all = freedom * variances_ * variances_ / squared_variances_;
-    const double half_width = 1.96 / std::sqrt(2.0 * all);
-    return {relative(), relative() * std::max(1.0 - half_width, 0.0),
-            relative() * (1.0 + half_width)};
+    return sum.error();
 }
 
 }  // namespace raybundle

@@ -7,39 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "reference/batch_scatter.h"
 #include "reference/camera_rays.h"
 #include "reference/random.h"
 
 namespace raybundle {
-
-/// Error of a whole picture as estimated from its samples.
-struct ImageError {
-    double relative = 1.0;  ///< sqrt(sum of squared standard errors / sum of squares)
-    double low = 0.0;       ///< 95 % interval of it
-    double high = 1.0;
-};
-
-/// Sums over pixels for the error of a picture from the variances of their means.
-class VarianceSum {
-  public:
-    void add(const glm::dvec3& mean, const glm::dvec3& variance) {
-        add(glm::dot(mean, mean), variance.r + variance.g + variance.b);
-    }
-    /// Of pixels that depend on each other: sums over them.
-    void add(double squares, double variance) {
-        squares_ += squares;
-        variances_ += variance;
-        squared_variances_ += variance * variance;
-    }
-    /// sqrt(sum of variances / sum of squares); 0 where nothing varies.
-    [[nodiscard]] double relative() const;
-    /// The same with its interval where the pixels are independent of each other and each variance
-    /// has this many degrees of freedom.
-    [[nodiscard]] ImageError independent_error(double freedom) const;
-
-  private:
-    double squares_ = 0.0, variances_ = 0.0, squared_variances_ = 0.0;
-};
 
 /// Radiance that arrives at `origin` against `direction` (own space of the ray scene), cd/m².
 using RadianceEstimator = std::function<glm::dvec3(
@@ -103,16 +75,14 @@ class ImageEstimate {
     [[nodiscard]] glm::dvec3 batch_mean(std::size_t pixel, std::uint32_t batch) const;
     [[nodiscard]] std::vector<glm::dvec3> means() const;
     [[nodiscard]] std::size_t bytes() const { return sums_.size() * sizeof(glm::dvec3); }
-    /// measured: pixels that count, row by row; empty: all.
+    /// measured: pixels that count, row by row; empty: all. Nothing is known before every batch has
+    /// a sample.
     [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
 
   private:
     [[nodiscard]] PixelRay next_ray(std::size_t pixel, const CameraRays& camera) const;
-    [[nodiscard]] glm::uvec2 tiles() const { return (size_ + tile_side_ - 1U) / tile_side_; }
-    [[nodiscard]] std::size_t tile_of(std::size_t pixel) const {
-        const std::size_t row = pixel / size_.x / tile_side_;
-        return row * tiles().x + pixel % size_.x / tile_side_;
-    }
+    [[nodiscard]] BatchScatter scatter(std::size_t first, std::size_t last,
+                                       const std::vector<bool>& measured) const;
     /// False where the value is not finite and was dropped.
     bool add(std::size_t pixel, const glm::dvec3& value);
 
@@ -126,7 +96,6 @@ class ImageEstimate {
     PixelFilter filter_;
     std::uint64_t passes_ = 0;
     std::uint64_t non_finite_ = 0;
-    std::uint32_t tile_side_ = 1;   // of pixels whose samples may depend on each other
     std::vector<glm::dvec3> sums_;  // [pixel * batches + batch]
 };
 

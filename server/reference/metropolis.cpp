@@ -177,14 +177,18 @@ glm::dvec3 Metropolis::standard_error(std::size_t pixel) const {
 
 ImageError Metropolis::error(const std::vector<bool>& measured) const {
     const std::vector<glm::dvec3> means = picture();
-    VarianceSum sum;
+    BatchScatter scatter(batches);
+    std::array<glm::dvec3, batches> deviations;
     for (std::size_t pixel = 0; pixel < means.size(); ++pixel) {
         if (measured[pixel]) {
-            const glm::dvec3 e = standard_error(pixel);
-            sum.add(means[pixel], e * e);
+            std::transform(
+                batches_.begin(), batches_.end(), deviations.begin(), [&](const Batch& batch) {
+                    return (batch_mean(batch, pixel) - means[pixel]) * std::sqrt(1.0 / batches);
+                });
+            scatter.add(deviations, means[pixel]);
         }
     }
-    return sum.independent_error(batches - 1);
+    return scatter.error();
 }
 
 std::size_t Metropolis::bytes() const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reference/bidirectional.h"
+#include "reference/emitter_pixels.h"
 #include "reference/light_tracer.h"
 #include "reference/metropolis.h"
 #include "reference/path_reuse.h"
@@ -20,18 +21,26 @@
 namespace raybundle {
 namespace {
 
+/// Pixels whose error is estimated: those that are measured against references, or where a picture
+/// shows nothing but lamps and what is beside them, that.
+std::vector<bool> pixels_for_error(const RayScene& scene, const CameraRays& camera) {
+    std::vector<bool> measured = measured_pixels(scene, camera);
+    const bool any = std::find(measured.begin(), measured.end(), true) != measured.end();
+    return any ? measured : reflecting_pixels(scene, camera);
+}
+
 /// Methods whose picture is the mean of samples of its pixels.
 class SampledMethod : public ReferenceMethod {
   public:
     SampledMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
         : lights_(scene),
           camera_(scene, view, size),
-          reflecting_(reflecting_pixels(scene, view, size)),
+          measured_(pixels_for_error(scene, camera_)),
           image_(size, seed) {}
 
     [[nodiscard]] std::uint64_t iterations() const override { return image_.passes(); }
     [[nodiscard]] std::vector<glm::dvec3> picture() const override { return image_.means(); }
-    [[nodiscard]] ImageError error() const override { return image_.error(reflecting_); }
+    [[nodiscard]] ImageError error() const override { return image_.error(measured_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return image_.non_finite(); }
     [[nodiscard]] std::size_t bytes() const override { return image_.bytes(); }
 
@@ -43,7 +52,7 @@ class SampledMethod : public ReferenceMethod {
   private:
     LightSampling lights_;
     CameraRays camera_;
-    std::vector<bool> reflecting_;
+    std::vector<bool> measured_;
     ImageEstimate image_;
 };
 
@@ -101,20 +110,20 @@ class MetropolisMethod : public ReferenceMethod {
                      std::uint64_t seed)
         : lights_(scene),
           tracer_(scene, lights_),
-          reflecting_(raybundle::reflecting_pixels(scene, camera, size)),
+          measured_(pixels_for_error(scene, CameraRays(scene, camera, size))),
           metropolis_(tracer_, CameraRays(scene, camera, size), seed) {}
 
     void iterate() override { metropolis_.iterate(); }
     [[nodiscard]] std::uint64_t iterations() const override { return metropolis_.iterations(); }
     [[nodiscard]] std::vector<glm::dvec3> picture() const override { return metropolis_.picture(); }
-    [[nodiscard]] ImageError error() const override { return metropolis_.error(reflecting_); }
+    [[nodiscard]] ImageError error() const override { return metropolis_.error(measured_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return metropolis_.non_finite(); }
     [[nodiscard]] std::size_t bytes() const override { return metropolis_.bytes(); }
 
   private:
     LightSampling lights_;
     PathTracer tracer_;
-    std::vector<bool> reflecting_;
+    std::vector<bool> measured_;
     Metropolis metropolis_;
 };
 
@@ -151,6 +160,7 @@ class SingleRayMethod : public ReferenceMethod {
                     std::uint64_t seed)
         : lights_(scene),
           solution_(scene, lights_, seed),
+          measured_(pixels_for_error(scene, CameraRays(scene, camera, size))),
           view_(scene, CameraRays(scene, camera, size), seed) {}
 
     void iterate() override {
@@ -161,13 +171,14 @@ class SingleRayMethod : public ReferenceMethod {
     [[nodiscard]] std::vector<glm::dvec3> picture() const override {
         return view_.picture(solution_);
     }
-    [[nodiscard]] ImageError error() const override { return view_.error(solution_); }
+    [[nodiscard]] ImageError error() const override { return view_.error(solution_, measured_); }
     [[nodiscard]] std::uint64_t non_finite() const override { return 0; }
     [[nodiscard]] std::size_t bytes() const override { return solution_.bytes() + view_.bytes(); }
 
   private:
     LightSampling lights_;
     SingleRay solution_;
+    std::vector<bool> measured_;
     SingleRayPicture view_;
 };
 
@@ -244,14 +255,6 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
         default:
             return std::make_unique<PixelMethod<PathTracer>>(scene, camera, size, seed);
     }
-}
-
-std::vector<bool> reflecting_pixels(const RayScene& scene, const Camera& camera, glm::uvec2 size) {
-    std::vector<bool> result;
-    for (const auto& hit : pixel_centres(scene, CameraRays(scene, camera, size))) {
-        result.push_back(hit && !hit->absorbs() && scene.emission(*hit) == glm::dvec3(0.0));
-    }
-    return result;
 }
 
 }  // namespace raybundle

@@ -62,8 +62,4 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
                                                        const Camera& camera, glm::uvec2 size,
                                                        std::uint64_t seed);
 
-/// Pixels whose centre shows a surface that reflects and does not emit, row by row: those that
-/// count for the estimated error and the exposure.
-std::vector<bool> reflecting_pixels(const RayScene& scene, const Camera& camera, glm::uvec2 size);
-
 }  // namespace raybundle

@@ -113,13 +113,14 @@ glm::dvec3 SingleRayPicture::centre_main_part(const SingleRay& solution, std::si
                      irradiance.at(point));
 }
 
-ImageError SingleRayPicture::error(const SingleRay& solution) const {
+ImageError SingleRayPicture::error(const SingleRay& solution,
+                                   const std::vector<bool>& measured) const {
     const std::vector<VertexIrradiance> irradiance = batch_irradiance(scene_, solution);
     const std::vector<glm::vec3> looks = looks_so_far(solution);
-    VarianceSum sum;
+    BatchScatter scatter(batches);
     for (std::size_t pixel = 0; pixel < centres_.size(); ++pixel) {
         const auto& point = centres_[pixel];
-        if (!point || point->absorbs() || scene_.emission(*point) != glm::dvec3(0.0)) {
+        if (!measured[pixel] || !point || point->absorbs()) {
             continue;
         }
         std::array<glm::dvec3, batches> values;
@@ -132,17 +133,12 @@ ImageError SingleRayPicture::error(const SingleRay& solution) const {
             }
             mean += values[batch] / double{batches};
         }
-        glm::dvec3 scatter(0.0);
-        for (const glm::dvec3& value : values) {
-            scatter += (value - mean) * (value - mean);
+        for (glm::dvec3& value : values) {
+            value = (value - mean) * std::sqrt(1.0 / batches);
         }
-        sum.add(mean, scatter / double{batches * (batches - 1)});
+        scatter.add(values, mean);
     }
-    // Pixels of a patch err together: chi-square with 15 degrees of freedom if all did (the
-    // cautious end), 2.5 % and 97.5 % quantiles 6.262 and 27.49.
-    static_assert(batches == 16);
-    return {sum.relative(), sum.relative() * std::sqrt(15.0 / 27.49),
-            sum.relative() * std::sqrt(15.0 / 6.262)};
+    return scatter.error();
 }
 
 }  // namespace raybundle

@@ -31,9 +31,10 @@ class SingleRayPicture {
     /// Radiance, cd/m², row 0 at the top; irradiance interpolated over the vertices. Where glossy
     /// surfaces are noisy it may be negative.
     [[nodiscard]] std::vector<glm::dvec3> picture(const SingleRay& solution) const;
-    /// Statistical error at the pixels' centres, by the scatter of the batches; what the
-    /// interpolation blurs is not in it.
-    [[nodiscard]] ImageError error(const SingleRay& solution) const;
+    /// Statistical error at the centres of the pixels of a mask, by the scatter of the batches;
+    /// what the interpolation blurs is not in it.
+    [[nodiscard]] ImageError error(const SingleRay& solution,
+                                   const std::vector<bool>& measured) const;
     [[nodiscard]] std::size_t bytes() const { return looks_.size() * sizeof(glm::vec3); }
 
   private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
 #include "scene/gltf_loader.h"
 #include "transport/solver.h"

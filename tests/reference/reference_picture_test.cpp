@@ -10,6 +10,7 @@
 
 #include "accuracy/reference_cache.h"
 #include "accuracy/scene_fingerprint.h"
+#include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
 #include "rooms.h"
 
