@@ -43,7 +43,7 @@ RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
       update_({"solution_update.comp"}, scene.defines()),
       power_sum_({"solution_power_sum.comp"}, scene.defines()),
       power_scan_({"solution_power_scan.comp"}),
-      power_density_({"solution_power_density.comp"}),
+      power_density_({"solution_power_density.comp"}, scene.defines()),
       choose_({"solution_shooters.comp"}, scene.defines()),
       flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
