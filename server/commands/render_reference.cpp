@@ -93,7 +93,8 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
         spdlog::warn("{}", missed);
     }
     const Outcome outcome = solve(*method, options);
-    write_picture(options.output, method->picture(), size, reflecting_pixels(scene, CameraRays(scene, camera, size)));
+    write_picture(options.output, method->picture(), size,
+                  reflecting_pixels(scene, CameraRays(scene, camera, size)));
     if (!options.stats.empty()) {
         write_statistics(options, size, loaded, *method, outcome);
     }
