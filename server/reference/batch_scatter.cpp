@@ -53,7 +53,8 @@ ImageError BatchScatter::error() const {
     if (!(variance > 0.0) || !(squares_ > 0.0)) {
         return {0.0, 0.0, 0.0};
     }
-    const double light = squares_ > 2.0 * variance ? squares_ - variance : squares_;
+    // The noise of the means is no light; half of them where next to nothing else is left.
+    const double light = std::max(squares_ - variance, 0.5 * squares_);
     const double relative = std::sqrt(variance / light);
     // At least as if all pixels and channels were independent and alike.
     const double of_squares = std::max((norm - trace * trace / k) / ((k + 2.0) * (k - 1.0)),

@@ -10,7 +10,7 @@ namespace raybundle {
 
 /// Error of a whole picture as estimated from its samples.
 struct ImageError {
-    double relative = 1.0;  ///< sqrt(sum of squared standard errors / sum of squares)
+    double relative = 1.0;  ///< sqrt(sum of squared standard errors / sum of squares without them)
     double low = 0.0;       ///< 95 % interval of the true relRMSE
     double high = 1.0;
 };
@@ -22,8 +22,9 @@ struct ImageError {
 /// the batches' deviations from the mean, summed over pixels and channels: with k + 1 batches,
 /// C the covariance of the mean and nearly normal deviations
 ///   E tr G = k tr C = k E S,   E |G|^2 = k (tr C)^2 + k (k + 1) tr C^2,   Var S = 2 tr C^2.
-/// So pixels may depend on each other in any way, and (k + 2) (k - 1) / 2 degrees of freedom say
-/// how widely S scatters, 27 with 8 batches.
+/// So pixels may depend on each other, and (k + 2) (k - 1) / 2 degrees of freedom say how widely S
+/// scatters, 27 with 8 batches. The interval takes the logarithm of S to be normal: where S has
+/// only 1, 2 or 5 modes it covers 81, 87 or 92 % (simulated), with 15 and more 93 to 95 %.
 class BatchScatter {
   public:
     explicit BatchScatter(std::size_t batches);

@@ -40,7 +40,8 @@ class ReferenceMethod {
     [[nodiscard]] virtual std::uint64_t iterations() const = 0;
     /// Radiance, cd/m², row 0 at the top.
     [[nodiscard]] virtual std::vector<glm::dvec3> picture() const = 0;
-    /// Over the pixels that show a reflecting surface.
+    /// Over the pixels that errors are measured of (measured_pixels()); where there are none, those
+    /// that show a reflecting surface.
     [[nodiscard]] virtual ImageError error() const = 0;
     /// Samples dropped because they were not finite.
     [[nodiscard]] virtual std::uint64_t non_finite() const = 0;
