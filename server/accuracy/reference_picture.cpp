@@ -4,9 +4,6 @@
 #include <chrono>
 #include <limits>
 
-#include "reference/image_metrics.h"
-#include "reference/solution_picture.h"
-
 namespace raybundle {
 namespace {
 

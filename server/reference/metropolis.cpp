@@ -162,19 +162,6 @@ std::vector<glm::dvec3> Metropolis::picture() const {
     return result;
 }
 
-glm::dvec3 Metropolis::standard_error(std::size_t pixel) const {
-    glm::dvec3 mean(0.0);
-    for (const Batch& batch : batches_) {
-        mean += batch_mean(batch, pixel) / double{batches};
-    }
-    glm::dvec3 scatter(0.0);
-    for (const Batch& batch : batches_) {
-        const glm::dvec3 deviation = batch_mean(batch, pixel) - mean;
-        scatter += deviation * deviation;
-    }
-    return glm::sqrt(scatter / double{batches * (batches - 1)});
-}
-
 ImageError Metropolis::error(const std::vector<bool>& measured) const {
     const std::vector<glm::dvec3> means = picture();
     BatchScatter scatter(batches);

@@ -40,8 +40,6 @@ class Metropolis {
     /// measured: pixels that count, row by row.
     [[nodiscard]] ImageError error(const std::vector<bool>& measured) const;
     [[nodiscard]] std::size_t bytes() const;
-    /// Of a pixel's mean, by the scatter of the batches, 7 degrees of freedom; cd/m².
-    [[nodiscard]] glm::dvec3 standard_error(std::size_t pixel) const;
 
   private:
     /// Light that one point of primary sample space brings.

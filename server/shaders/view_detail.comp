@@ -2,14 +2,15 @@
 // How much of a picture is finer than its pixels, for the discretisation part of its error, emitters and the 8 pixels
 // around them left out. Partial sums in a fixed order, behind those of view_statistics.comp:
 //  x: squared difference that smoothing makes at edges
-//  y: squared second difference between other pixels and their four neighbours, none of them at an edge
+//  y: squared second difference between other pixels and their four neighbours, none of them at an edge; where
+//     places in pixels are staggered a part of the first difference is in it
 //  z: squared radiance
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
-layout(std430, binding = BINDING_FRAME) readonly buffer FrameBuffer { vec4 frame[]; };           // at the centres, row 0 at the top
+layout(std430, binding = BINDING_FRAME) readonly buffer FrameBuffer { vec4 frame[]; };           // not smoothed, row 0 at the top
 layout(std430, binding = BINDING_SMOOTHED) readonly buffer SmoothedBuffer { vec4 smoothed[]; };  // or the same
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 

@@ -22,7 +22,7 @@ struct EdgePrograms {
 };
 
 /// Antialiasing of a picture at rest: a box filter over the pixels at the edges of surfaces. Light
-/// is gathered at the pixels' centres alone; what else an edge pixel covers is most often some
+/// is gathered at one place of each pixel alone; what else an edge pixel covers is most often some
 /// neighbour's surface, and takes its light from there; what is thinner than a pixel takes it from
 /// the solution in object space. So only the shares are needed, found by rasterising the
 /// scene again through `samples` points of each pixel, and iterations cost no more than without.

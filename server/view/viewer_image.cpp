@@ -241,14 +241,19 @@ void ViewerImage::raster_pixels(const PixelRectangle& rectangle) const {
     end_raster();
 }
 
-bool ViewerImage::smooth_step() {
-    if (!has_picture_ || size_ != full_size_ || edges_->complete()) {
-        return false;
-    }
+/// Draws the scene as seen at the edge filter's next place.
+void ViewerImage::raster_sub_sample() const {
     const GlScope scope("view sub-sample raster");
     begin_raster(whole_picture());
     raster_shifted(programs_.raster, edges_->next_offset(), whole_picture());
     end_raster();
+}
+
+bool ViewerImage::smooth_step() {
+    if (!has_picture_ || size_ != full_size_ || edges_->complete()) {
+        return false;
+    }
+    raster_sub_sample();
     store_.bind();
     bind_pixels();
     glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());

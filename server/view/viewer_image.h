@@ -151,8 +151,8 @@ class ViewerImage : public BundleReceiver {
     void request_depths(std::uint32_t columns);
     /// Of the depths that were requested last; null before.
     [[nodiscard]] DepthGrid* depths() { return depth_grid_ ? &*depth_grid_ : nullptr; }
-    /// Linear radiance of all pixels, cd/m², row 0 at the top: at their centres, or once smoothed()
-    /// means over their areas. Synchronous.
+    /// Linear radiance of all pixels, cd/m², row 0 at the top: where they are looked at, or once
+    /// smoothed() means over their areas. Synchronous.
     std::vector<glm::vec4> read_radiance();
     /// Mean irradiance at the pixels as accumulated (lx, w = weight), row 0 at the bottom.
     /// Synchronous.
@@ -214,6 +214,7 @@ class ViewerImage : public BundleReceiver {
     void raster_shifted(const ShaderProgram& program, const glm::vec2& place,
                         const PixelRectangle& rectangle) const;
     void raster_pixels(const PixelRectangle& rectangle) const;
+    void raster_sub_sample() const;
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();

@@ -63,16 +63,16 @@ SampleOrder ViewerImage::sample_order() const {
 
 /// What is finer than the pixels changes little: measured when there are twice as many samples.
 void ViewerImage::measure_detail() {
-    Buffer centres("centres of pixels", pixel_count(size_) * sizeof(glm::vec4));
-    centres.bind_storage(BINDING_FRAME);
+    Buffer unsmoothed("pixels not smoothed", pixel_count(size_) * sizeof(glm::vec4));
+    unsmoothed.bind_storage(BINDING_FRAME);
     programs_.compose_linear.set("triangle_count", scene_.triangle_count());
     programs_.compose_linear.set("frame_width", size_.x);
     programs_.compose_linear.set("frame_height", size_.y);
     programs_.compose_linear.dispatch(pixel_count(size_));
     const Buffer smoothed =
-        edges_->complete() ? edges_->average_linear(programs_.edges, centres) : Buffer();
-    centres.bind_storage(BINDING_FRAME);
-    (edges_->complete() ? smoothed : centres).bind_storage(BINDING_SMOOTHED);
+        edges_->complete() ? edges_->average_linear(programs_.edges, unsmoothed) : Buffer();
+    unsmoothed.bind_storage(BINDING_FRAME);
+    (edges_->complete() ? smoothed : unsmoothed).bind_storage(BINDING_SMOOTHED);
     programs_.detail.dispatch(statistics_groups * 64);
     detail_samples_ = scatter_samples_;
 }
