@@ -11,7 +11,8 @@ uniform vec3 old_constant;  // ViewParameters::constant of that picture
 #endif
 uniform uvec4 moved_objects;  // whose place 1 differs, the rest NO_PATCH
 uniform float kept_weight;    // share of the old weight that a reprojected value keeps
-uniform float same_distance;  // m, at unit distance: points closer than this (and coplanar) are the same
+uniform float same_distance;  // m, at unit distance, seen head-on: points closer than this (and coplanar) are the same
+uniform vec3 old_eye;
 
 const uint hidden = 0xffffffffu;
 
@@ -31,7 +32,10 @@ uint old_pixel(vec3 old_position, vec3 normal, uint id, uint object) {
     if (!same && old.w != NO_PATCH &&
         facet_object(texelFetch(old_pixel_texels, int(2u * index + 1u)).w & PIXEL_FACET_MASK) == object) {
         vec3 offset = uintBitsToFloat(old.xyz) - old_position;
-        same = length(offset) < same_distance * clip.w && abs(dot(offset, normal)) < 0.1 * same_distance * clip.w;
+        float distance = same_distance * clip.w;
+        // A pixel is that much longer on a surface that is seen at a slant.
+        float cosine = max(abs(dot(normalize(old_eye - old_position), normal)), 0.05);
+        same = length(offset) * cosine < distance && abs(dot(offset, normal)) < 0.1 * distance;
     }
     return same ? index : hidden;
 }

@@ -25,7 +25,6 @@ uniform float common_weight;
 #ifdef REPROJECT
 #include "reproject.glsl"
 layout(binding = UNIT_OLD_PIXEL_GLOSS) uniform samplerBuffer old_gloss_texels;
-uniform vec3 old_eye;
 
 /// Share of its weight that a glossy part keeps when the point is seen from another direction: what has turned
 /// by less than a lobe's width still looks about the same.

@@ -11,6 +11,7 @@ namespace {
 constexpr std::array<unsigned, EDGE_SAMPLES> rows_of_16 = {5, 13, 1,  10, 6, 15, 3, 11,
                                                            8, 0,  12, 4,  7, 14, 2, 9};
 constexpr std::array<unsigned, 4> rows_of_4 = {1, 3, 0, 2};
+static_assert(rows_of_16.size() == STAGGER_PERIOD * STAGGER_PERIOD);
 
 /// The place of part k of count.
 float place_in(unsigned k, unsigned count) {

@@ -134,6 +134,31 @@ TEST(FinalPicture, PartsOfPixelsSeeALineAlongTheRowsThatIsNarrowerThanThey) {
     EXPECT_LT(difference(averaged(staggered.read_radiance(), 4), truth), 0.5 * evenly);
 }
 
+TEST(FinalPicture, PartsOfPixelsKeepSamplesOfAFloorThatIsSeenAtASlant) {
+    SceneBuilder b;
+    const auto paint = b.add_material(glm::vec3(0.5F), glm::vec3(1.0F));
+    b.add_box({-1, -1, -1}, {1, 1, 1}, true, 8, paint);
+    Solver solver(b.scene, b.mesh, coarse_settings());
+    const ViewPrograms programs(solver.scene());
+    Camera camera;
+    camera.eye = {0.0F, -0.95F, 0.9F};
+    camera.target = {0.0F, -1.0F, 0.2F};
+    camera.vertical_fov = 0.1F;
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    while (solver.iterations() < 64) {
+        solver.step(receivers);
+    }
+    image.refine(4);
+    int with_samples = 0;
+    for (const glm::vec4& pixel : image.read_irradiance()) {
+        with_samples += pixel.w > 0.0F ? 1 : 0;
+    }
+    // Parts of those in the picture's margin may show what was beside it, by rounding.
+    EXPECT_GT(with_samples, 0.95 * 16 * size.x * size.y);
+}
+
 TEST(FinalPicture, ComesOutTheSameEveryTime) {
     const SceneBuilder b = boards();
     const auto render = [&] {
