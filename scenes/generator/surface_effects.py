@@ -137,4 +137,15 @@ def clear_coat() -> SceneModel:
          SceneObject("ball", [ball], (2.7, 0.451, 1.9))])
 
 
-SCENES = (clear_coat, roughness_texture, normal_map, vertex_colours, unlit, diffuse_transmission)
+def polished() -> SceneModel:
+    """Dark polished stone, a porcelain ball and a lacquered block: dielectrics that mirror."""
+    return _model("polished", [
+        Material("stone", (0.06, 0.06, 0.07), roughness=0.03),
+        Material("porcelain", (0.85, 0.84, 0.8), roughness=0.05),
+        Material("lacquer", (0.1, 0.25, 0.12), roughness=0.08)],
+        [_room("stone", "white"),
+         SceneObject("block", [box((-0.5, 0.0, -0.4), (0.5, 0.9, 0.4), "lacquer")], (1.2, 0.0, 2.4), 20.0),
+         SceneObject("ball", [sphere(0.45, 48, 24, "porcelain")], (2.7, 0.451, 1.9))])
+
+
+SCENES = (clear_coat, polished, roughness_texture, normal_map, vertex_colours, unlit, diffuse_transmission)

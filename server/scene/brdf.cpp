@@ -181,9 +181,10 @@ bool is_coated(const SpecularLobe& lobe) {
 
 ReflectanceModel metallic_roughness_model(const Material& material,
                                           const glm::vec2& metallic_roughness) {
-    ReflectanceModel model =
-        below(coat_of(material), uncoupled_model({material.specular_colour, material.specular},
-                                                 metallic_roughness.x, metallic_roughness.y));
+    ReflectanceModel model = uncoupled_model({material.specular_colour, material.specular},
+                                             metallic_roughness.x, metallic_roughness.y);
+    model.lobe_traced = material.lobe_traced;
+    model = below(coat_of(material), model);
     if (is_coated(model.lobe)) {
         model.lobe.inverse_mean = inverse_mean_transmission(model.lobe);
     }
@@ -250,6 +251,10 @@ ReflectanceModel TexturedReflectance::at(const glm::vec2& metallic_roughness) co
 Brdf make_brdf(const ReflectanceModel& model, const glm::vec3& base_colour) {
     const glm::vec3 colour = glm::clamp(base_colour, 0.0F, max_albedo);
     Brdf brdf{model.lambert_share * colour, model.f0 + model.f0_share * colour, model.lobe};
+    if (model.lobe_traced) {
+        brdf.f0 = glm::vec3(0.0F);
+        brdf.lobe.f90 = 0.0F;
+    }
     if (model.lobe.kind == LobeKind::max_phong) {
         const glm::vec3 scale = glm::min(glm::vec3(1.0F), max_albedo / (brdf.lambert + brdf.f0));
         brdf.lambert *= scale;

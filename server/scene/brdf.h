@@ -72,6 +72,7 @@ struct ReflectanceModel {
     float f0_share = 0.0F;       ///< share of the base colour in Brdf::f0 (metals)
     float lambert_share = 1.0F;  ///< share of the base colour in Brdf::lambert
     SpecularLobe lobe;
+    bool lobe_traced = false;  ///< a BRDF has no GGX lobe: view rays show what it would reflect
 };
 
 /// glTF 2.0 appendix B (metallic-roughness) with KHR_materials_specular, or max-Phong over a

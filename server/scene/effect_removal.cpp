@@ -17,10 +17,10 @@ void remove_gloss(Scene& scene) {
     }
 }
 
-/// Mirrors become the glossy surfaces next to them.
+/// Mirrors and polished surfaces become the glossy ones next to them.
 void remove_mirrors(Scene& scene) {
     for (Material& material : scene.materials) {
-        if (specular_kind(material) == SpecularKind::mirror) {
+        if (has_smooth_lobe(material)) {
             material.roughness = std::nextafter(mirror_roughness, 1.0F);
         }
     }

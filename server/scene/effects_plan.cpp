@@ -38,7 +38,7 @@ struct Survey {
     double caustic_flux = 0.0;  // of lamps, at most, that meets mirrors and glass first
     double specular_area = 0.0, other_area = 0.0;  // of sides of surfaces
     std::size_t punctual = 0, suns = 0;
-    std::size_t mirrors = 0, panes = 0, bodies = 0;
+    std::size_t mirrors = 0, polished = 0, panes = 0, bodies = 0;
     double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
     double transmitted_share = 0.0;  // largest share that glass lets pass
     std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0, transmitting = 0;
@@ -123,6 +123,10 @@ void survey_specular(const SpecularSurface& surface, Survey& survey) {
             std::max(survey.transmitted_share, static_cast<double>(luminance(shares.transmitted)));
         survey.mirrored_share = std::max(survey.mirrored_share, 1.0);  // at grazing angles
     }
+    if (surface.kind == SpecularKind::coat && surface.f90 > 0.0F) {
+        ++survey.polished;
+        survey.mirrored_share = std::max(survey.mirrored_share, 1.0);
+    }
 }
 
 void survey_materials(const Scene& scene, Survey& survey) {
@@ -138,7 +142,8 @@ void survey_materials(const Scene& scene, Survey& survey) {
         }
         survey_specular(specular_surface(material, mean_base_colour(scene, material)), survey);
         survey.coats += material.clear_coat > 0.0F ? 1 : 0;
-        survey.smooth_coats += specular_kind(material) == SpecularKind::coat ? 1 : 0;
+        survey.smooth_coats +=
+            specular_kind(material) == SpecularKind::coat && has_smooth_coat(material) ? 1 : 0;
         survey.textured += varies_by_texture(material) ? 1 : 0;
         survey.transmitting += transmits(material) ? 1 : 0;
         const glm::vec3& through = material.transmittance;
@@ -229,12 +234,13 @@ class Planner {
 
     void plan_specular() {
         const std::size_t glass = survey_.panes + survey_.bodies;
-        const bool mirrors = survey_.mirrors > 0;
-        add("specular-reflection", mirrors || glass > 0,
-            mirrors || glass > 0
-                ? count_of(survey_.mirrors, "mirror") + " and " + std::to_string(glass) +
+        const bool any = survey_.mirrors + survey_.polished + glass > 0;
+        add("specular-reflection", any,
+            any ? count_of(survey_.mirrors, "mirror") + ", " +
+                      count_of(survey_.polished, "polished surface") + " and " +
+                      std::to_string(glass) +
                       " of glass: view rays go on from them, pixels gather light at their ends"
-                : "no material in use is a mirror or glass",
+                : "no material in use is a mirror, polished or glass",
             "L(D|G)*S+E", survey_.mirrored_share, 0);
         add("refraction", glass > 0,
             glass > 0

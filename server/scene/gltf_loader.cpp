@@ -90,9 +90,9 @@ void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene
     }
 }
 
-/// Names the materials whose reflections are nearly mirror images: bundles find those slowly.
+/// Names the materials whose reflections are nearly mirror images that view rays do not show:
+/// bundles find those slowly.
 void note_materials(GltfDocument& document, const Scene& scene) {
-    constexpr float nearly_mirror = 0.1F;  // roughness
     std::vector<bool> used(scene.materials.size(), false);
     for (const Triangle& triangle : scene.triangles) {
         used[triangle.material] = true;
@@ -100,9 +100,8 @@ void note_materials(GltfDocument& document, const Scene& scene) {
     std::string names;
     for (std::size_t i = 0; i < used.size(); ++i) {
         const Material& m = scene.materials[i];
-        const bool specular = !m.max_phong && (m.metallic > 0.0F || m.specular > 0.0F);
-        if (used[i] && specular && m.roughness < nearly_mirror &&
-            specular_kind(m) == SpecularKind::none) {
+        const bool lamp = m.emission != glm::vec3(0.0F);
+        if (used[i] && !lamp && has_smooth_lobe(m) && specular_kind(m) == SpecularKind::none) {
             names += (names.empty() ? "'" : ", '") + m.name + "'";
         }
     }

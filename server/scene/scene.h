@@ -86,6 +86,7 @@ struct Material {
     float clear_coat = 0.0F;            ///< KHR_materials_clearcoat clearcoatFactor; 0: none
     float clear_coat_roughness = 0.0F;  ///< of the same
     bool clear_coat_traced = false;     ///< its lobe is left out: view rays show what it reflects
+    bool lobe_traced = false;           ///< likewise the GGX lobe below the coat
     float reflectance = 1.0F;           ///< factor of the whole BRDF; 1 in files
     glm::vec3 emission{0.0F};           ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/base_colour.h"
+#include "scene/brdf.h"
 #include "scene/patch_colour.h"
 #include "scene/world_triangle.h"
 
@@ -35,6 +36,13 @@ glm::vec3 absorption_of(const Material& material) {
     return -glm::log(left) / material.attenuation_distance;
 }
 
+/// Whether view rays see it: not where a map turns the normals, which they do not know, or below a
+/// rough coat.
+bool shows_smooth_lobe(const Material& material) {
+    const bool covered = material.clear_coat > 0.0F && !has_smooth_coat(material);
+    return has_smooth_lobe(material) && !covered && material.normal_texture.texture < 0;
+}
+
 }  // namespace
 
 SpecularKind specular_kind(const Material& material) {
@@ -42,14 +50,12 @@ SpecularKind specular_kind(const Material& material) {
         material.emission != glm::vec3(0.0F)) {
         return SpecularKind::none;
     }
-    const SpecularKind opaque = has_smooth_coat(material) ? SpecularKind::coat : SpecularKind::none;
-    if (material.metallic >= least_metal) {
-        const bool smooth = material.roughness <= mirror_roughness &&
-                            material.metallic_roughness_texture.texture < 0;
-        return smooth ? SpecularKind::mirror : opaque;
+    if (material.metallic >= least_metal && has_smooth_lobe(material)) {
+        return SpecularKind::mirror;
     }
-    if (material.transmission < least_transmission) {
-        return opaque;
+    if (material.metallic >= least_metal || material.transmission < least_transmission) {
+        const bool smooth = has_smooth_coat(material) || shows_smooth_lobe(material);
+        return smooth ? SpecularKind::coat : SpecularKind::none;
     }
     return material.thickness > 0.0F ? SpecularKind::glass : SpecularKind::pane;
 }
@@ -60,6 +66,11 @@ SpecularSurface specular_surface(const Material& material, const glm::vec3& base
     surface.coat = surface.is_glass() ? 0.0F : std::clamp(material.clear_coat, 0.0F, 1.0F);
     if (surface.kind == SpecularKind::mirror) {
         surface.f0 = clamped_base_colour(base_colour) * material.reflectance;
+        surface.f90 = 1.0F;
+    } else if (surface.kind == SpecularKind::coat && shows_smooth_lobe(material)) {
+        const Brdf brdf = make_brdf(material, base_colour);
+        surface.f0 = brdf.f0;
+        surface.f90 = brdf.lobe.f90;
     } else if (surface.is_glass()) {
         surface.ior = std::clamp(material.ior, least_index, most_index);
         const glm::vec3 colour = glm::clamp(base_colour, 0.0F, 1.0F) * material.reflectance;
@@ -75,8 +86,21 @@ bool has_specular_surfaces(const Scene& scene) {
                        [](const Material& m) { return specular_kind(m) != SpecularKind::none; });
 }
 
+bool has_coats(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        return specular_kind(m) == SpecularKind::coat;
+    });
+}
+
 bool has_smooth_coat(const Material& material) {
     return material.clear_coat > 0.0F && material.clear_coat_roughness <= mirror_roughness;
+}
+
+bool has_smooth_lobe(const Material& material) {
+    return !material.unlit && !material.max_phong && material.reflectance > 0.0F &&
+           (material.metallic > 0.0F || material.specular > 0.0F) &&
+           material.roughness <= mirror_roughness &&
+           material.metallic_roughness_texture.texture < 0;
 }
 
 bool has_mirror_or_glass(const Scene& scene) {
@@ -90,14 +114,10 @@ bool has_glass(const Scene& scene) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), is_glass);
 }
 
-float coat_reflectance(const SpecularSurface& surface, float cosine) {
+glm::vec3 mirror_reflectance(const SpecularSurface& surface, float cosine) {
     const float p = schlick(cosine);
-    return surface.coat * (coat_f0 + (1.0F - coat_f0) * p);
-}
-
-glm::vec3 mirror_reflectance(const SpecularSurface& mirror, float cosine) {
-    const float coat = coat_reflectance(mirror, cosine);
-    const glm::vec3 below = mirror.f0 + (glm::vec3(1.0F) - mirror.f0) * schlick(cosine);
+    const float coat = surface.coat * (coat_f0 + (1.0F - coat_f0) * p);
+    const glm::vec3 below = surface.f0 + (glm::vec3(surface.f90) - surface.f0) * p;
     return glm::vec3(coat) + (1.0F - coat) * below;
 }
 

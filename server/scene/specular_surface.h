@@ -13,7 +13,8 @@ namespace raybundle {
 enum class SpecularKind {
     none,
     mirror,  ///< reflects into the mirrored direction
-    coat,    ///< a smooth clear coat over a surface that reflects otherwise
+    coat,    ///< a smooth clear coat or the surface of a polished dielectric, over what reflects
+             ///< otherwise
     pane,    ///< a thin pane of glass: lets light straight through
     glass    ///< boundary of a glass body: refracts, absorbs on the way inside
 };
@@ -21,7 +22,8 @@ enum class SpecularKind {
 /// What such a surface does with light.
 struct SpecularSurface {
     SpecularKind kind = SpecularKind::none;
-    glm::vec3 f0{0.0F};          ///< mirror: reflectance at normal incidence
+    glm::vec3 f0{0.0F};          ///< mirror, dielectric: reflectance at normal incidence
+    float f90 = 0.0F;            ///< of the same at grazing angles
     float coat = 0.0F;           ///< share that a clear coat covers
     float ior = 1.5F;            ///< glass: index of refraction, of the inside over the outside
     glm::vec3 tint{1.0F};        ///< glass: factor of what passes the surface once
@@ -32,14 +34,15 @@ struct SpecularSurface {
     }
 };
 
-/// Metals and clear coats up to this roughness are mirrors: through bundles so narrow a lobe
-/// settles too slowly.
+/// Lobes of metals, dielectrics and clear coats up to this roughness are mirror images: through
+/// bundles so narrow a lobe settles too slowly.
 constexpr float mirror_roughness = 0.1F;
 
 /// What a material is for view rays: a mirror where nothing but a narrow metallic lobe reflects,
 /// glass where at least half of the light is transmitted (KHR_materials_transmission; a body where
-/// KHR_materials_volume gives it a thickness), a coat where a smooth one lies over anything else.
-/// What emits or is cut out is none. base_colour: linear, of the whole surface.
+/// KHR_materials_volume gives it a thickness), a coat where a smooth one lies over anything else or
+/// that has a narrow lobe itself. What emits or is cut out is none. base_colour: linear, of the
+/// whole surface.
 SpecularSurface specular_surface(const Material& material, const glm::vec3& base_colour);
 
 /// Kind of a material; cheap.
@@ -51,15 +54,17 @@ inline bool is_glass(const Material& material) {
 }
 /// Whether a clear coat is a mirror rather than a lobe.
 bool has_smooth_coat(const Material& material);
-/// Whether any material has a kind, and whether one is more than a coat.
+/// Whether the lobe below it is, or that of a material without one, the same all over the surface.
+bool has_smooth_lobe(const Material& material);
+/// Whether any material has a kind; whether one is a coat, and whether one is more than that.
 bool has_specular_surfaces(const Scene& scene);
+bool has_coats(const Scene& scene);
 bool has_mirror_or_glass(const Scene& scene);
 bool has_glass(const Scene& scene);
 
-/// Schlick's approximation, as the lobes of scene/brdf.h have it; below its coat if it has one.
-glm::vec3 mirror_reflectance(const SpecularSurface& mirror, float cosine);
-/// What a clear coat reflects, likewise.
-float coat_reflectance(const SpecularSurface& surface, float cosine);
+/// What a mirror or a coat reflects into the mirrored direction: Schlick's approximation, as the
+/// lobes of scene/brdf.h have it, with what a smooth lobe below a smooth coat adds.
+glm::vec3 mirror_reflectance(const SpecularSurface& surface, float cosine);
 
 /// Share of unpolarised light that the boundary of two dielectrics reflects (Fresnel 1823).
 /// relative_index: of the far side over the near side. 1 where all is reflected.

@@ -42,9 +42,9 @@ Brdf make_brdf(uint record, vec3 base_colour) {
     vec3 colour = clamp(base_colour, 0.0, MAX_ALBEDO);
     Brdf b;
     b.lambert = lobe.z * colour;
-    b.f0 = f0.rgb + f0.w * colour;
+    b.f0 = lobe.y < 0.0 ? vec3(0.0) : f0.rgb + f0.w * colour;
     b.width = lobe.x;
-    b.f90 = lobe.y;
+    b.f90 = max(lobe.y, 0.0);
     b.inverse_mean = lobe.w;
     b.grazing = table.x;
     b.first_node = int(table.y);
@@ -156,6 +156,33 @@ vec3 brdf_value(Brdf b, vec3 normal, vec3 w_in, vec3 w_out, float passed) {
 #endif
     return cos_in > 0.0 && cos_out > 0.0 ? value : vec3(0.0);
 }
+
+#ifdef COATS
+/// What a smooth coat or a polished surface reflects, 1/sr, and view rays show instead of f_r: for lights without
+/// extent, which no view ray meets. b: of that record.
+vec3 traced_value(Brdf b, uint record, vec3 normal, vec3 w_in, vec3 w_out) {
+    float cos_in = dot(normal, w_in);
+    float cos_out = dot(normal, w_out);
+    vec3 sum = w_in + w_out;
+    vec3 value = vec3(0.0);
+    vec4 lobe = texelFetch(reflectance_texels, 3 * int(record) + 1);
+    if (lobe.y < 0.0) {
+        vec4 f0 = texelFetch(reflectance_texels, 3 * int(record));
+        vec3 coloured = f0.rgb + f0.w * b.lambert / max(lobe.z, 1e-4);
+        vec2 polish = brdf_ggx(b.width, normal, sum, cos_in, cos_out);
+        value = mix(coloured, vec3(-lobe.y), polish.y) * polish.x;
+    }
+#ifdef CLEAR_COAT
+    if (b.coat != 0) {
+        vec4 coat = coat_at(b.coat, cos_in);
+        value *= min(coat.x, coat_at(b.coat, cos_out).x);
+        vec2 top = brdf_ggx(coat.y, normal, sum, cos_in, cos_out);
+        value += coat.z > 0.0 ? vec3(0.0) : vec3(coat.w * mix(0.04, 1.0, top.y) * top.x);
+    }
+#endif
+    return cos_in > 0.0 && cos_out > 0.0 ? value : vec3(0.0);
+}
+#endif
 
 /// df_r = f_r - a(w_in)/pi; in, out = brdf_at() of the angles.
 vec3 brdf_difference(Brdf b, vec3 normal, vec3 w_in, vec3 w_out, vec4 at_in, vec4 at_out) {

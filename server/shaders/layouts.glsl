@@ -330,7 +330,7 @@ struct ContinuedPixel {
     uint towards;     // direction back along the ray, octahedral snorm 2x16
     uint old_index;   // of the same end in the picture before, or NO_HIT
     uint branch;      // 0: the strongest of the pixel's ends
-    uint added;       // 1: what a clear coat reflects, besides what the pixel shows of itself
+    uint added;       // 1: what a smooth coat reflects, besides what the pixel shows of itself
     uint pad0;
 };
 

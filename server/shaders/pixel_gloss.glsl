@@ -11,8 +11,9 @@ Brdf pixel_brdf(uint record, vec3 albedo, float cos_out, out vec4 at_out) {
     Brdf plain = make_brdf(record, vec3(0.0));
     at_out = brdf_at(plain, cos_out);
     int at = 3 * int(record);
-    float f0_share = texelFetch(reflectance_texels, at).w;
-    float lambert_share = texelFetch(reflectance_texels, at + 1).z;
+    vec4 lobe = texelFetch(reflectance_texels, at + 1);
+    float f0_share = lobe.y < 0.0 ? 0.0 : texelFetch(reflectance_texels, at).w;
+    float lambert_share = lobe.z;
     vec3 uncoloured = plain.f0 * at_out.x + plain.f90 * at_out.y;
     float per_colour = lambert_share * at_out.z + f0_share * at_out.x;
     return make_brdf(record, max(albedo - uncoloured, 0.0) / max(per_colour, 1e-4));

@@ -48,7 +48,8 @@ void main() {
         vec3 w_out = normalize(view.eye.xyz - position);
 #endif
         vec4 at_out;
-        Brdf brdf = pixel_brdf(reflectance_record(facet_material(facet), q.y), albedo, dot(normal, w_out), at_out);
+        uint record = reflectance_record(facet_material(facet), q.y);
+        Brdf brdf = pixel_brdf(record, albedo, dot(normal, w_out), at_out);
 #endif
         for (uint k = 0u; k < punctual_count; ++k) {
             vec3 w_in;
@@ -58,6 +59,9 @@ void main() {
             RARELY(glossy && arriving != vec3(0.0)) {
                 vec4 at_in = brdf_at(brdf, dot(normal, w_in));
                 vec3 value = brdf_value(brdf, normal, w_in, w_out, at_in.z * at_out.z);
+#ifdef COATS
+                value += traced_value(brdf, record, normal, w_in, w_out);
+#endif
                 gloss += arriving * (value - albedo * brdf_inverse_pi);
             }
 #endif

@@ -190,8 +190,8 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         reflected = max(reflected + gloss, 0.0);
     }
 #endif
-#if defined(CLEAR_COAT) && defined(MIRRORS) && !defined(CONTINUED)
-    reflected += radiance_of_ends(index);  // by a smooth coat
+#if defined(COATS) && !defined(CONTINUED)
+    reflected += radiance_of_ends(index);  // by a smooth coat, or by a polished surface
 #endif
     return emitted + reflected;
 }

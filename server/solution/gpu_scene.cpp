@@ -233,6 +233,8 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");
     define_if(specular_rays_ != nullptr, "MIRRORS");
+    coats_ = has_coats(scene);
+    define_if(coats_, "COATS");
     glass_ = has_glass(scene);
     define_if(glass_, "GLASS");
     absorbing_glass_ = has_absorbing_glass(scene);

@@ -150,6 +150,7 @@ class GpuScene {
     bool glass_ = false;            // some surfaces let bundles pass
     bool absorbing_glass_ = false;  // and absorb some of their light
     bool mirror_or_glass_ = false;  // some are more than a smooth coat
+    bool coats_ = false;            // some are such
     bool trace_caustics_;
     bool constant_radiance_;
     bool has_sky_ = false;

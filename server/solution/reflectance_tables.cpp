@@ -28,7 +28,7 @@ constexpr float transported_roughness = 0.4F;
 /// A material as bundles know it.
 Material as_transported(const Material& material) {
     Material rough = material;
-    if (specular_kind(material) == SpecularKind::mirror) {
+    if (has_smooth_lobe(material)) {
         rough.roughness = transported_roughness;
     }
     if (has_smooth_coat(material)) {
@@ -37,14 +37,23 @@ Material as_transported(const Material& material) {
     return rough;
 }
 
-/// As pixels do, which view rays show the reflections of mirrors and smooth coats.
+/// As pixels do, which view rays show the reflections of mirrors and of smooth surfaces over others.
+/// Beside what a lamp sends its reflections are nothing.
 Material as_shown(const Material& material) {
-    if (specular_kind(material) == SpecularKind::mirror) {
+    const SpecularKind kind = specular_kind(material);
+    if (kind == SpecularKind::mirror || material.emission != glm::vec3(0.0F)) {
         return as_transported(material);
     }
     Material shown = material;
     shown.clear_coat_traced = has_smooth_coat(material);
+    shown.lobe_traced = kind == SpecularKind::coat && has_smooth_lobe(material);
     return shown;
+}
+
+/// Whether patches and pixels may not know a material alike.
+bool has_two_models(const Material& material) {
+    return has_smooth_coat(material) ||
+           (has_smooth_lobe(material) && specular_kind(material) != SpecularKind::mirror);
 }
 
 /// What a material's table is made for. All Lambert surfaces share one. Of a grid, its sharpest
@@ -69,7 +78,8 @@ layout::Reflectance record_of(const ReflectanceModel& model, std::size_t first_t
     const bool coated = lobe.coat.factor > 0.0F;
     const float width = lobe.kind == LobeKind::max_phong ? lobe.exponent : lobe.alpha;
     return {glm::vec4(model.f0, model.f0_share),
-            glm::vec4(width, lobe.f90, model.lambert_share, lobe.inverse_mean),
+            glm::vec4(width, model.lobe_traced ? -lobe.f90 : lobe.f90, model.lambert_share,
+                      lobe.inverse_mean),
             glm::vec4(coated ? static_cast<float>(coat_texel) : grazing_scale(lobe.alpha),
                       static_cast<float>(first_texel),
                       static_cast<float>(coated ? LOBE_COATED : static_cast<int>(lobe.kind)),
@@ -131,8 +141,8 @@ ReflectanceTables::ReflectanceTables(const Scene& scene) {
             gridded = true;
             const ReflectanceGrid& grid = grids_[i].emplace(scene, material);
             first_record_[i] = add_grid(grid);
-            patch_record_[i] = has_smooth_coat(material) ? add_grid(grid) : first_record_[i];
-        } else if (has_smooth_coat(material)) {
+            patch_record_[i] = has_two_models(material) ? add_grid(grid) : first_record_[i];
+        } else if (has_two_models(material)) {
             patch_record_[i] = models_.size();
             models_.emplace_back();
             table_of_record_.push_back(table_for(representative(scene, as_transported(material))));
@@ -219,6 +229,10 @@ std::size_t ReflectanceTables::table_for(const Brdf& brdf) {
 }
 
 bool ReflectanceTables::covers(const Scene& scene, std::size_t material) const {
+    const std::size_t shown = grids_[material] ? first_record_[material] : material;
+    if (has_two_models(scene.materials[material]) && patch_record_[material] == shown) {
+        return false;
+    }
     const Brdf brdf = representative(scene, as_transported(scene.materials[material]));
     if (brdf.lobe.kind == LobeKind::none || any_glossy_) {
         return true;

@@ -15,15 +15,16 @@
 namespace raybundle {
 
 /// A material's reflectance between surfaces: a mirror's is a wide lobe, since a random bundle
-/// seldom meets the one direction in which it throws light, and then far too much. So is a smooth
-/// clear coat's.
+/// seldom meets the one direction in which it throws light, and then far too much. So is that of a
+/// polished dielectric and of a smooth clear coat.
 ReflectanceModel transported_model(const Material& material);
 
 /// The reflectance of a scene's materials for brdf.glsl: a record per material, one for each place
 /// in the grid of a material whose roughness or metalness is textured (ReflectanceGrid), and a
 /// table per distinct BRDF. Mirrors reflect into a wide lobe here; what is seen in them,
-/// SpecularRays tell. A material below a smooth clear coat has two sets of records: its own, for
-/// pixels, lack the coat's lobe, which SpecularRays show, and those of its patches have it wide.
+/// SpecularRays tell. A polished material, or one below a smooth clear coat, has two sets of
+/// records: its own, for pixels, lack the smooth lobe, which SpecularRays show, and those of its
+/// patches have it wide.
 /// Importance is tabulated for the mean base colour of a material's texture.
 class ReflectanceTables {
   public:
@@ -32,7 +33,7 @@ class ReflectanceTables {
     explicit ReflectanceTables(const Scene& scene);
 
     /// Whether a material as it is in the scene now needs no macro of GpuScene::defines() that the
-    /// shaders were not compiled with.
+    /// shaders were not compiled with, and no records that there are not.
     [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
     /// Takes over a material that has changed; it must be covered.
     void update(const Scene& scene, std::size_t material);

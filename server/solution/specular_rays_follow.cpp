@@ -76,7 +76,7 @@ class SpecularRays::Walk {
             const PaneShares shares = pane_shares(surface, cosine);
             split(branch, hit, shares.reflected, shares.transmitted, branch.direction);
         } else if (surface.kind == SpecularKind::coat) {
-            cover(branch, hit, coat_reflectance(surface, cosine));
+            cover(branch, hit, mirror_reflectance(surface, cosine));
         } else {
             refract(branch, hit, surface, cosine);
         }
@@ -93,13 +93,13 @@ class SpecularRays::Walk {
               behind.value_or(branch.direction));
     }
 
-    /// What a clear coat reflects, and what is seen through it: the surface's own record has no
-    /// coat, but is dimmed by one (solution/reflectance_tables.h).
-    void cover(const Branch& branch, const Hit& hit, float reflected) {
-        glm::vec3 share(reflected);
+    /// What a coat reflects, and what is seen through it: the surface's own record lacks the coat's
+    /// lobe, but is dimmed by it (solution/reflectance_tables.h).
+    void cover(const Branch& branch, const Hit& hit, glm::vec3 share) {
         if (branch.surfaces > 0) {
             Branch below = branch;
             if (count_ + open_count_ + 2 > most_ends) {
+                const float reflected = luminance(share);
                 const float chance = reflected / (reflected + 1.0F);
                 const bool reflects = random() < chance;
                 share = reflects ? share / chance : glm::vec3(0.0F);

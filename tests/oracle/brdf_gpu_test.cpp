@@ -114,6 +114,8 @@ Scene random_scene(unsigned seed, int materials, Lobes lobes) {
         }
         if (specular_kind(material) == SpecularKind::mirror) {  // bundles have a lobe of their own
             material.roughness = std::nextafter(mirror_roughness, 1.0F);
+        } else if (has_smooth_lobe(material)) {  // pixels have one below a map of normals alone
+            material.normal_texture.texture = 0;
         }
         scene.materials.push_back(material);
     }
@@ -228,6 +230,27 @@ TEST(ReflectanceTables, SmoothCoatsHaveARecordForPatches) {
     EXPECT_EQ(tables.patch_record(1, glm::vec2(0.0F)), 1U);
     // Three tables, each with the nodes of a coat.
     EXPECT_EQ(tables.bytes(), 16U * (3U * 3U + 3U * 2U * reflectance_nodes));
+}
+
+TEST(ReflectanceTables, PolishedDielectricsHaveARecordForPatches) {
+    Scene scene;
+    Material porcelain;
+    porcelain.metallic = porcelain.roughness = 0.0F;
+    scene.materials = {porcelain, porcelain, porcelain};
+    scene.materials[1].roughness = 0.3F;
+    scene.materials[2].emission = glm::vec3(1.0F);
+    const ReflectanceTables tables(scene);
+    EXPECT_EQ(tables.table(0).brdf().f0, glm::vec3(0.0F));
+    EXPECT_FLOAT_EQ(tables.table(3).brdf().lobe.alpha, 0.16F);
+    EXPECT_NEAR(tables.table(3).brdf().f0.g, 0.04F, 0.0005F);
+    EXPECT_EQ(tables.patch_record(0, glm::vec2(0.0F)), 3U);
+    EXPECT_EQ(tables.patch_record(1, glm::vec2(0.0F)), 1U);
+    // A lamp's reflections are those of its patches, in pictures too.
+    EXPECT_FLOAT_EQ(tables.table(2).brdf().lobe.alpha, 0.16F);
+    // What is polished later needs another set of records.
+    EXPECT_TRUE(tables.covers(scene, 1));
+    scene.materials[1].roughness = 0.05F;
+    EXPECT_FALSE(tables.covers(scene, 1));
 }
 
 TEST(ReflectanceTables, LambertScenesShareOneTable) {

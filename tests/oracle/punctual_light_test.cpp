@@ -195,6 +195,57 @@ TEST(HeavyFirstShot, GlossyRoomIsAsBrightAsByPathTracing) {
     }
 }
 
+/// No view ray meets a light without extent: its image in a black floor is the whole picture.
+double brightest_deviation(const Material& floor) {
+    SceneBuilder b;
+    b.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 4, 4, b.add_material(floor));
+    const glm::vec3 lamp(0.0F, 2.0F, 1.0F);
+    add_punctual_light(b, glm::mat4(1.0F), PunctualKind::point, lamp, {0, -1, 0},
+                       glm::vec3(100.0F));
+    Solver solver(b.scene, b.mesh);
+    const ViewPrograms programs(solver.scene());
+    constexpr glm::uvec2 size(16, 16);
+    ViewerImage image(solver.scene(), solver.store(), programs, size);
+    Camera camera;
+    camera.eye = {0.0F, 2.0F, -1.0F};
+    camera.target = glm::vec3(0.0F);
+    camera.vertical_fov = 0.02F;
+    image.set_camera(camera);
+    const Brdf brdf = make_brdf(floor, floor.base_colour);
+    const std::vector<glm::vec4> picture = image.read_radiance();
+    double greatest = 0.0;
+    double deviation = 0.0;
+    for (unsigned i = 0; i < size.x * size.y; ++i) {
+        const auto probed = image.probe(glm::uvec2(i % size.x, i / size.x));
+        const glm::vec3 to_lamp = lamp - probed->position;
+        const glm::vec3 w_in = glm::normalize(to_lamp);
+        const glm::vec3 w_out = glm::normalize(camera.eye - probed->position);
+        const auto local = [](const glm::vec3& w) { return glm::vec3(w.x, w.z, w.y); };
+        const float exact = 100.0F * w_in.y / glm::dot(to_lamp, to_lamp) *
+                            evaluate(brdf, local(w_in), local(w_out)).g;
+        greatest = std::max(greatest, static_cast<double>(exact));
+        deviation = std::max(deviation, static_cast<double>(std::abs(picture[i].g - exact)));
+    }
+    EXPECT_GT(greatest, 1000.0);  // cd/m²
+    return deviation / greatest;
+}
+
+TEST(FirstShot, SmoothSurfacesShowItsHighlight) {
+    Material polished;
+    polished.base_colour = glm::vec3(0.0F);
+    polished.metallic = 0.0F;
+    polished.roughness = 0.08F;
+    EXPECT_LT(brightest_deviation(polished), 0.02);
+    Material coated = polished;
+    coated.specular = 0.0F;
+    coated.clear_coat = 1.0F;
+    coated.clear_coat_roughness = 0.08F;
+    EXPECT_LT(brightest_deviation(coated), 0.02);
+    Material both = coated;
+    both.specular = 1.0F;
+    EXPECT_LT(brightest_deviation(both), 0.02);
+}
+
 TEST(FirstShot, SameSeedGivesTheSameBits) {
     const auto bits = [](std::uint64_t seed) {
         Lit lit(odd_rotation(), 6, {16, 12}, seed);

@@ -8,6 +8,7 @@
 #include "pictures.h"
 #include "scene/effect_removal.h"
 #include "scene/gltf_loader.h"
+#include "scene/specular_surface.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
@@ -95,7 +96,7 @@ TEST_P(SharedPaths, ShowWhatPathsOfSinglePixelsDo) {
 
 INSTANTIATE_TEST_SUITE_P(Effects, SharedPaths,
                          testing::Values("diffuse_transmission", "normal_map", "roughness_texture",
-                                         "clear_coat"),
+                                         "clear_coat", "polished"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(SurfaceEffects, NormalMapIsAsByPathTracing) {
@@ -133,6 +134,21 @@ TEST(SurfaceEffects, ClearCoatIsAsByPathTracing) {
     // Half as much again as the bound: without coats the picture is 5.6 % off.
     ASSERT_TRUE(remove_effect("clear-coat", loaded.scene, loaded.mesh));
     EXPECT_GT(block_difference(picture, path_traced(loaded, 128), size, block), 0.045);
+}
+
+/// Dielectrics that mirror, which view rays show over what is below.
+TEST(SurfaceEffects, PolishedSurfacesAreAsByPathTracing) {
+    LoadedScene loaded = load_effect("polished");
+    Camera& flat = loaded.scene.cameras.front();
+    flat.eye = {2.0F, 0.7F, -1.0F};
+    flat.target = {2.0F, 0.2F, 2.5F};
+    const auto picture = solved(loaded, 384);
+    EXPECT_LT(block_difference(picture, path_traced(loaded, 768), size, block), 0.03);
+    for (Material& material : loaded.scene.materials) {
+        material.specular = has_smooth_lobe(material) ? 0.0F : material.specular;
+    }
+    // Seen: 7 %.
+    EXPECT_GT(block_difference(picture, path_traced(loaded, 128), size, block), 0.05);
 }
 
 TEST(SurfaceEffects, VertexColoursAreAsByPathTracing) {

@@ -111,7 +111,50 @@ TEST(SpecularSurface, FilesAskForMirrorsPanesAndBodies) {
     EXPECT_NEAR(body.absorption.b, 0.5F * std::numbers::ln2_v<float>, 1e-6F);
 
     glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.2;
+    EXPECT_EQ(specular_kind(read_material(glass)), SpecularKind::coat);
+    glass["pbrMetallicRoughness"]["roughnessFactor"] = 0.3;
     EXPECT_EQ(specular_kind(read_material(glass)), SpecularKind::none);
+}
+
+TEST(SpecularSurface, PolishedDielectricsMirrorOverWhatIsBelow) {
+    Material porcelain;
+    porcelain.metallic = 0.0F;
+    porcelain.roughness = 0.05F;
+    ASSERT_EQ(specular_kind(porcelain), SpecularKind::coat);
+    const SpecularSurface surface = specular_surface(porcelain, glm::vec3(0.8F));
+    EXPECT_NEAR(mirror_reflectance(surface, 1.0F).g, 0.04F, 0.0005F);
+    EXPECT_NEAR(mirror_reflectance(surface, 0.0F).g, 1.0F, 0.01F);
+    // Partly metal, it has the colour of that part.
+    porcelain.metallic = 0.5F;
+    const SpecularSurface half = specular_surface(porcelain, glm::vec3(0.8F, 0.4F, 0.0F));
+    EXPECT_NEAR(mirror_reflectance(half, 1.0F).r, 0.5F * (0.04F + 0.8F), 0.001F);
+    EXPECT_NEAR(mirror_reflectance(half, 1.0F).b, 0.5F * 0.04F, 0.001F);
+}
+
+TEST(SpecularSurface, OnlyEvenSmoothnessThatIsNotHiddenMirrors) {
+    Material polished;
+    polished.metallic = 0.0F;
+    polished.roughness = 0.05F;
+    const auto kind_if = [&](auto change) {
+        Material changed = polished;
+        change(changed);
+        return specular_kind(changed);
+    };
+    EXPECT_EQ(kind_if([](Material& m) { m.roughness = 0.11F; }), SpecularKind::none);
+    EXPECT_EQ(kind_if([](Material& m) { m.specular = 0.0F; }), SpecularKind::none);
+    EXPECT_EQ(kind_if([](Material& m) { m.emission.r = 1.0F; }), SpecularKind::none);
+    EXPECT_EQ(kind_if([](Material& m) { m.normal_texture.texture = 0; }), SpecularKind::none);
+    EXPECT_EQ(kind_if([](Material& m) { m.metallic_roughness_texture.texture = 0; }),
+              SpecularKind::none);
+    EXPECT_EQ(kind_if([](Material& m) { m.alpha_mode = AlphaMode::mask; }), SpecularKind::none);
+    const auto coat = [](float roughness) {
+        return [roughness](Material& m) {
+            m.clear_coat = 1.0F;
+            m.clear_coat_roughness = roughness;
+        };
+    };
+    EXPECT_EQ(kind_if(coat(0.4F)), SpecularKind::none);
+    EXPECT_EQ(kind_if(coat(0.0F)), SpecularKind::coat);
 }
 
 TEST(SpecularSurface, GlassReflectsNothingByItsBrdf) {
