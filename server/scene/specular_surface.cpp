@@ -87,9 +87,8 @@ bool has_specular_surfaces(const Scene& scene) {
 }
 
 bool has_coats(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        return specular_kind(m) == SpecularKind::coat;
-    });
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& m) { return specular_kind(m) == SpecularKind::coat; });
 }
 
 bool has_smooth_coat(const Material& material) {
