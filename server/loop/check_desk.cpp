@@ -105,6 +105,7 @@ CheckDesk::Result CheckDesk::work(const Job& job) {
     tbb::task_arena arena(1);
     arena.execute([&] {
         SpotCheck& check = paths_for(job);
+        check.look_for_sparks(job.picture.radiance);
         do {
             check.add_round();
             square = check.measure(job.picture.radiance);

@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "reference/emitter_pixels.h"
@@ -14,7 +16,11 @@
 namespace raybundle {
 namespace {
 
-constexpr double about_pixels = 1500.0;  // that are checked of a large picture
+constexpr double about_pixels = 1500.0;   // that are checked of a large picture
+constexpr std::size_t most_sparks = 128;  // of one picture
+constexpr std::size_t most_candidates = 8192;
+constexpr std::size_t most_tests = 512;  // whether a pixel is measured: 600 rays each
+constexpr std::size_t most_kept = 1024;  // sparks, of all pictures so far
 constexpr int batch_count = ImageEstimate::batches;
 
 /// What one pixel adds to the sums over all of them.
@@ -56,23 +62,66 @@ PixelError pixel_error(const ImageEstimate& paths, std::size_t pixel, const glm:
             (glm::dot(light_sum, light_sum) - light_squares) / pairs, noise};
 }
 
+/// How far each pixel's luminance is from the median of the 3 x 3 pixels round it, cd/m².
+std::vector<float> distances_from_neighbours(std::span<const glm::vec4> picture, glm::uvec2 size) {
+    std::vector<float> light(picture.size());
+    std::transform(picture.begin(), picture.end(), light.begin(),
+                   [](const glm::vec4& p) { return luminance(glm::vec3(p)); });
+    std::vector<float> distances(picture.size());
+    tbb::parallel_for(0U, size.y, [&](unsigned y) {
+        for (unsigned x = 0; x < size.x; ++x) {
+            std::array<float, 9> around;
+            std::size_t count = 0;
+            for (unsigned row = y == 0 ? 0 : y - 1; row <= std::min(y + 1, size.y - 1); ++row) {
+                for (unsigned column = x == 0 ? 0 : x - 1; column <= std::min(x + 1, size.x - 1);
+                     ++column) {
+                    around[count++] = light[std::size_t{row} * size.x + column];
+                }
+            }
+            const auto middle = around.begin() + static_cast<std::ptrdiff_t>(count / 2);
+            std::nth_element(around.begin(), middle,
+                             around.begin() + static_cast<std::ptrdiff_t>(count));
+            const std::size_t i = std::size_t{y} * size.x + x;
+            distances[i] = std::abs(light[i] - *middle);
+        }
+    });
+    return distances;
+}
+
+/// Sums over the pixels of a part.
+struct ErrorSums {
+    double square = 0.0, light = 0.0;
+    double noise = 0.0;                ///< variance of `square` by the paths' noise
+    std::vector<PixelError> weighted;  ///< `square` and `light` of each pixel, times its weight
+
+    void add(const PixelError& error, double weight) {
+        square += weight * error.square;
+        light += weight * error.light;
+        noise += weight * weight * error.noise_variance;
+        weighted.push_back({weight * error.square, weight * error.light, 0.0});
+    }
+};
+
 }  // namespace
+
+SpotCheck::Part::Part(std::vector<Pixel> chosen, std::uint64_t seed)
+    : pixels(std::move(chosen)),
+      paths(
+          [this] {
+              std::vector<std::uint32_t> numbers;
+              for (const Pixel& pixel : pixels) {
+                  numbers.push_back(pixel.number);
+              }
+              return numbers;
+          }(),
+          seed) {}
 
 SpotCheck::SpotCheck(std::shared_ptr<const TracedScene> scene, const Camera& camera,
                      glm::uvec2 size, std::uint64_t seed)
     : scene_(std::move(scene)),
       camera_(scene_->rays, camera, size),
-      pixels_(choose(size, seed)),
-      paths_(
-          [this] {
-              std::vector<std::uint32_t> numbers;
-              for (const Pixel& pixel : pixels_) {
-                  numbers.push_back(pixel.number);
-              }
-              return numbers;
-          }(),
-          mixed_bits(seed)) {}
-
+      seed_(seed),
+      sample_(choose(size, seed), mixed_bits(seed)) {}
 /// One of each square of pixels, without those that are not measured.
 std::vector<SpotCheck::Pixel> SpotCheck::choose(glm::uvec2 size, std::uint64_t seed) {
     const double all = static_cast<double>(size.x) * size.y;
@@ -115,38 +164,106 @@ bool SpotCheck::is_measured(glm::ivec2 at) const {
     return true;
 }
 
-void SpotCheck::add_round() {
+/// Those that are furthest from their neighbours and are measured, but for those that are known.
+std::vector<SpotCheck::Pixel> SpotCheck::new_sparks(std::span<const glm::vec4> picture) {
+    const glm::uvec2 size = camera_.size();
+    const std::vector<float> distances = distances_from_neighbours(picture, size);
+    std::vector<std::uint32_t> order(picture.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const std::size_t candidates = std::min(order.size(), most_candidates);
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(candidates),
+                      order.end(), [&](std::uint32_t a, std::uint32_t b) {
+                          return distances[a] > distances[b] ||
+                                 (distances[a] == distances[b] && a < b);
+                      });
+    std::vector<Pixel> found;
+    std::size_t sparks = 0;
+    std::size_t tests = 0;
+    for (std::size_t i = 0; i < candidates && sparks < most_sparks; ++i) {
+        const std::uint32_t number = order[i];
+        Known& known = known_[number];
+        if (known == Known::nothing && tests++ < most_tests) {
+            known =
+                is_measured({number % size.x, number / size.x}) ? Known::measured : Known::left_out;
+        }
+        sparks += known == Known::spark || known == Known::measured ? 1 : 0;
+        if (known == Known::measured) {
+            known = Known::spark;
+            found.push_back({number, 1.0});
+        }
+    }
+    return found;
+}
+
+void SpotCheck::forget_sparks() {
+    sparks_.clear();
+    spark_count_ = 0;
+    std::replace(known_.begin(), known_.end(), Known::spark, Known::measured);
+}
+
+void SpotCheck::look_for_sparks(std::span<const glm::vec4> picture) {
+    if (sampled_share_ >= 1.0) {
+        return;
+    }
+    known_.resize(picture.size(), Known::nothing);
+    if (spark_count_ > most_kept) {
+        forget_sparks();
+    }
+    std::vector<Pixel> found = new_sparks(picture);
+    ++looks_;
+    if (!found.empty()) {
+        spark_count_ += found.size();
+        add_round(sparks_.emplace_back(std::move(found), mixed_bits(seed_ + looks_)));
+    }
+}
+
+void SpotCheck::add_round(Part& part) const {
     for (std::uint32_t batch = 0; batch < ImageEstimate::batches; ++batch) {
-        paths_.add_pass(camera_, [this](const glm::dvec3& origin, const glm::dvec3& direction,
-                                        PixelSampler& sampler) {
+        part.paths.add_pass(camera_, [this](const glm::dvec3& origin, const glm::dvec3& direction,
+                                            PixelSampler& sampler) {
             return scene_->paths.radiance(origin, direction, sampler);
         });
     }
 }
 
-SquaredError SpotCheck::measure(std::span<const glm::vec4> picture) const {
-    std::vector<PixelError> errors(pixels_.size());
-    double square = 0.0;
-    double light = 0.0;
-    double noise = 0.0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        errors[i] = pixel_error(paths_, i, glm::dvec3(picture[pixels_[i].number]));
-        square += pixels_[i].weight * errors[i].square;
-        light += pixels_[i].weight * errors[i].light;
-        noise += pixels_[i].weight * pixels_[i].weight * errors[i].noise_variance;
+void SpotCheck::add_round() {
+    add_round(sample_);
+    for (Part& part : sparks_) {
+        add_round(part);
     }
+}
+
+SquaredError SpotCheck::measure(std::span<const glm::vec4> picture) const {
+    const auto add = [&](ErrorSums& sums, const Part& part, std::size_t i) {
+        const Pixel& pixel = part.pixels[i];
+        sums.add(pixel_error(part.paths, i, glm::dvec3(picture[pixel.number])), pixel.weight);
+    };
+    ErrorSums sparks;
+    for (const Part& part : sparks_) {
+        for (std::size_t i = 0; i < part.pixels.size(); ++i) {
+            add(sparks, part, i);
+        }
+    }
+    ErrorSums others;  // chosen ones stand for what is no spark
+    for (std::size_t i = 0; i < sample_.pixels.size(); ++i) {
+        if (known_.empty() || known_[sample_.pixels[i].number] != Known::spark) {
+            add(others, sample_, i);
+        }
+    }
+    const double light = sparks.light + others.light;
     if (rounds() == 0 || !(light > 0.0)) {
         return {0.0, std::numeric_limits<double>::infinity()};
     }
-    const double ratio = square / light;
+    const double ratio = (sparks.square + others.square) / light;
     // Of the ratio of two sums; what pixels scatter by contains the noise of their paths.
     double scatter = 0.0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const double deviation = pixels_[i].weight * (errors[i].square - ratio * errors[i].light);
+    for (const PixelError& pixel : others.weighted) {
+        const double deviation = pixel.square - ratio * pixel.light;
         scatter += deviation * deviation;
     }
-    const double variance =
-        sampled_share_ * std::max(noise, 0.0) + (1.0 - sampled_share_) * scatter;
+    const double variance = std::max(sparks.noise, 0.0) +
+                            sampled_share_ * std::max(others.noise, 0.0) +
+                            (1.0 - sampled_share_) * scatter;
     return {ratio, std::sqrt(variance) / light};
 }
 

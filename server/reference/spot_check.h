@@ -41,17 +41,25 @@ struct TracedScene {
 /// D_b = I - r_b (a U-statistic, Hoeffding 1948). So few paths say enough: with so many pixels the
 /// noise of each may be several times what is to be measured.
 ///
-/// One pixel of each square of pixels takes part, chosen at random; of small pictures all do. Those
+/// One pixel of each square of pixels takes part, chosen at random; of small pictures all do. Where
+/// few pixels hold most of the error, sparks of rare samples, they seldom are among them: the
+/// pixels that stand out from their neighbours most are all measured, apart from the others. Pixels
 /// that see an emitter or the sky, and their neighbours, are left out.
 class SpotCheck {
   public:
     SpotCheck(std::shared_ptr<const TracedScene> scene, const Camera& camera, glm::uvec2 size,
               std::uint64_t seed);
 
+    /// Looks for more pixels that stand out, in this picture (cd/m², row 0 at the top), and traces
+    /// the first round of their paths. What is measured stays unbiased in any picture, since no
+    /// path has a say in which they are. Does nothing where all pixels are checked.
+    void look_for_sparks(std::span<const glm::vec4> picture);
     /// One more path of each of its pixels for every batch.
     void add_round();
-    [[nodiscard]] std::uint64_t rounds() const { return paths_.passes() / ImageEstimate::batches; }
-    [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
+    [[nodiscard]] std::uint64_t rounds() const {
+        return sample_.paths.passes() / ImageEstimate::batches;
+    }
+    [[nodiscard]] std::size_t pixels() const { return sample_.pixels.size() + spark_count_; }
     /// Of a picture, cd/m², row 0 at the top. Nothing is known before the first round, or where no
     /// pixel is left: an infinite standard error.
     [[nodiscard]] SquaredError measure(std::span<const glm::vec4> picture) const;
@@ -62,14 +70,30 @@ class SpotCheck {
         double weight = 0.0;       ///< pixels that it stands for
     };
 
+    /// Some pixels and their paths.
+    struct Part {
+        Part(std::vector<Pixel> chosen, std::uint64_t seed);
+
+        std::vector<Pixel> pixels;
+        ImageEstimate paths;
+    };
+    enum class Known : std::uint8_t { nothing, measured, left_out, spark };
+
     [[nodiscard]] std::vector<Pixel> choose(glm::uvec2 size, std::uint64_t seed);
     [[nodiscard]] bool is_measured(glm::ivec2 at) const;
+    [[nodiscard]] std::vector<Pixel> new_sparks(std::span<const glm::vec4> picture);
+    void forget_sparks();
+    void add_round(Part& part) const;
 
     std::shared_ptr<const TracedScene> scene_;
     CameraRays camera_;
-    double sampled_share_ = 1.0;  ///< of the picture's pixels
-    std::vector<Pixel> pixels_;
-    ImageEstimate paths_;
+    std::uint64_t seed_;
+    double sampled_share_ = 1.0;  // of the picture's pixels
+    Part sample_;
+    std::vector<Part> sparks_;  // as they were found
+    std::size_t spark_count_ = 0;
+    std::uint64_t looks_ = 0;   // for them
+    std::vector<Known> known_;  // of all pixels, once one has looked
 };
 
 }  // namespace raybundle

@@ -97,6 +97,7 @@ const ImageStatistics& FinalPicture::measure() {
 /// Traces paths until the true error is known well, or as many as there is time for.
 void FinalPicture::measure_pixels() {
     const std::vector<glm::vec4> picture = read_radiance();
+    check_->look_for_sparks(picture);
     SquaredError square = check_->measure(picture);
     if (iterations_ >= next_check_) {
         next_check_ = static_cast<std::uint64_t>(

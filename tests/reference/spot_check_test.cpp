@@ -94,6 +94,50 @@ TEST(SpotCheck, MeasuresTheTrueErrorOfALargePicture) {
     EXPECT_GE(inside, 54);  // of 64; 95 % less 4 sigma
 }
 
+/// Three sparks hold nearly all of the error: a choice of pixels by chance seldom has one.
+TEST(SpotCheck, FindsTheFewPixelsThatHoldMostOfTheError) {
+    constexpr glm::uvec2 size(320, 200);
+    const SceneBuilder b = open_floor();
+    std::vector<glm::vec4> picture = wrong_picture(size);
+    for (const std::size_t pixel : {1234U, 33333U, 33334U}) {
+        picture[pixel] *= 100.0F;
+    }
+    const double truth = relative_square(picture, double{albedo} * sky);
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        SpotCheck check(traced(b), from_above(), size, seed);
+        check.add_round();
+        const std::size_t chosen = check.pixels();
+        check.look_for_sparks(picture);
+        EXPECT_EQ(check.pixels(), chosen + 128);
+        const SquaredError found = check.measure(picture);
+        EXPECT_NEAR(found.value, truth, 4.0 * found.standard_error + 1e-6 * truth);
+        EXPECT_LT(found.standard_error, 0.05 * truth);  // of the light that it is relative to
+        check.look_for_sparks(picture);  // the same
+        EXPECT_EQ(check.pixels(), chosen + 128);
+    }
+}
+
+/// Sparks of one picture are measured in the next as well, where they are nothing special.
+TEST(SpotCheck, StaysUnbiasedWhereSparksWereInAnotherPicture) {
+    constexpr glm::uvec2 size(320, 200);
+    constexpr int checks = 64;
+    const SceneBuilder b = open_floor();
+    const std::vector<glm::vec4> picture = wrong_picture(size);
+    std::vector<glm::vec4> earlier = picture;
+    for (std::size_t i = 0; i < earlier.size(); i += 500) {
+        earlier[i] *= 50.0F;
+    }
+    const double truth = relative_square(picture, double{albedo} * sky);
+    double mean = 0.0;
+    for (int i = 0; i < checks; ++i) {
+        SpotCheck check(traced(b), from_above(), size, 100 + static_cast<std::uint64_t>(i));
+        check.add_round();
+        check.look_for_sparks(earlier);
+        mean += (check.measure(picture).value / truth - 1.0) / checks;
+    }
+    EXPECT_LT(std::abs(mean), 5.0 * 0.3 / std::sqrt(checks));
+}
+
 /// Paths of a room are noisy; a picture that is as they say in the mean has no error to be found,
 /// and one that is 5 % too dark has that.
 TEST(SpotCheck, FindsWhatIsMissingThroughTheNoiseOfItsPaths) {
