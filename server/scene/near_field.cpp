@@ -4,12 +4,14 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "scene/environment.h"
 #include "scene/specular_surface.h"
+#include "scene/triangle_irradiance.h"
 #include "scene/world_triangle.h"
 
 namespace raybundle {
@@ -172,31 +174,39 @@ void NearField::place_emitters() {
     for (const Lamp& lamp : lamps) {
         all += lamp.power();
     }
+    std::size_t point_count = 0;
     for (const Lamp& lamp : lamps) {
         const double count =
             std::max(least_points, std::round(emitter_points * lamp.power() / all));
         const double step = lamp.area / count;
+        const bool exact = static_cast<double>(lamp.triangles.size()) <= count;
         double before = 0.0;
         unsigned placed = 0;
         for (const std::uint32_t t : lamp.triangles) {
             const auto corners = world_corners(scene_, scene_.triangles[t]);
-            const glm::dvec3 normal = glm::normalize(double_area(corners));
+            Emitter emitter{corners,        glm::normalize(double_area(corners)),
+                            lamp.luminance, two_sided(scene_, scene_.triangles[t]),
+                            exact,          {}};
             before += area(t);
             for (; (placed + 0.5) * step < before; ++placed) {
-                const glm::dvec2 at = triangle_point(emitters_.size());
-                emitters_.push_back({corners[0] + at.x * (corners[1] - corners[0]) +
-                                         at.y * (corners[2] - corners[0]),
-                                     normal, lamp.luminance * step, step,
-                                     two_sided(scene_, scene_.triangles[t])});
+                const glm::dvec2 at = triangle_point(point_count++);
+                emitter.points.push_back({corners[0] + at.x * (corners[1] - corners[0]) +
+                                              at.y * (corners[2] - corners[0]),
+                                          step});
+            }
+            if (exact || !emitter.points.empty()) {
+                emitters_.push_back(std::move(emitter));
             }
         }
     }
 }
 
-double NearField::from_emitters(const Place& place, bool shadows) const {
-    double sum = 0.0;
-    for (const EmitterPoint& emitter : emitters_) {
-        const glm::dvec3 way = emitter.position - place.position;
+/// lx, by one triangle of a lamp.
+double NearField::from_emitter(const Emitter& emitter, const Place& place, bool shadows) const {
+    double all = 0.0;
+    double visible = 0.0;
+    for (const EmitterPoint& point : emitter.points) {
+        const glm::dvec3 way = point.position - place.position;
         const double squared = glm::dot(way, way);
         const double distance = std::sqrt(squared);
         const double cosine = glm::dot(place.normal, way) / distance;
@@ -206,11 +216,28 @@ double NearField::from_emitters(const Place& place, bool shadows) const {
             continue;
         }
         // As of a disc of that area: finite close by.
-        const double value = emitter.intensity * cosine * sending / (squared + emitter.area / pi);
+        const double value = point.area * cosine * sending / (squared + point.area / pi);
         const glm::dvec3 origin = place.position + offset_ * place.normal;
-        if (!shadows || !hierarchy_->occluded(origin, emitter.position - origin, 1.0 - 1e-4)) {
-            sum += value;
+        all += value;
+        if (!shadows || !hierarchy_->occluded(origin, point.position - origin, 1.0 - 1e-4)) {
+            visible += value;
         }
+    }
+    if (!emitter.exact) {
+        return emitter.luminance * visible;
+    }
+    const bool behind = glm::dot(place.position - emitter.corners[0], emitter.normal) <= 0.0;
+    if (behind && !emitter.two_sided) {
+        return 0.0;
+    }
+    return emitter.luminance * (all > 0.0 ? visible / all : 1.0) *
+           triangle_irradiance(emitter.corners, place.position, place.normal);
+}
+
+double NearField::from_emitters(const Place& place, bool shadows) const {
+    double sum = 0.0;
+    for (const Emitter& emitter : emitters_) {
+        sum += from_emitter(emitter, place, shadows);
     }
     return sum;
 }
@@ -281,21 +308,26 @@ double NearField::misplaced_on_side(const Corners& corners, const glm::dvec3& no
     const double edge =
         std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                   glm::distance(corners[2], corners[0])});
-    const double flux_per_lux = reflecting_area * reflected_within({middle, normal}, edge);
-    if (!(flux_per_lux > 0.0)) {
+    // The face may reach into a slot whose depth its middle does not see.
+    constexpr int count = 4;
+    std::array<Place, count> places;
+    double reflected = 0.0;
+    for (int k = 0; k < count; ++k) {
+        places[static_cast<std::size_t>(k)] = {
+            k < 3 ? glm::mix(middle, corners[static_cast<std::size_t>(k)], 0.75) : middle, normal};
+        reflected += reflected_within(places[static_cast<std::size_t>(k)], edge) / count;
+    }
+    if (!(reflected > 0.0)) {
         return 0.0;
     }
     double sum = 0.0;
     double squares = 0.0;
-    constexpr int places = 4;
-    for (int k = 0; k < places; ++k) {
-        const glm::dvec3 place =
-            k < 3 ? glm::mix(middle, corners[static_cast<std::size_t>(k)], 0.75) : middle;
-        const double value = illuminance({place, normal});
-        sum += value / places;
-        squares += value * value / places;
+    for (const Place& place : places) {
+        const double value = illuminance(place);
+        sum += value / count;
+        squares += value * value / count;
     }
-    return flux_per_lux * std::sqrt(std::max(squares - sum * sum, 0.0));
+    return reflecting_area * reflected * std::sqrt(std::max(squares - sum * sum, 0.0));
 }
 
 double NearField::misplaced_flux(const Face& face, double least) const {

@@ -44,10 +44,17 @@ class NearField {
     struct Hierarchy;
     /// A point of a lamp, for a share of it.
     struct EmitterPoint {
-        glm::dvec3 position{0.0}, normal{0.0};  // m
-        double intensity = 0.0;                 // cd along the normal: luminance times area
-        double area = 0.0;                      // m²
-        bool two_sided = false;
+        glm::dvec3 position{0.0};  // m
+        double area = 0.0;         // m²
+    };
+    /// A triangle of a lamp. Where a lamp has few of them their illuminance is exact but for their
+    /// shadows; else it is that of points, which some of its triangles have.
+    struct Emitter {
+        Corners corners{};
+        glm::dvec3 normal{0.0};
+        double luminance = 0.0;  // cd/m²
+        bool two_sided = false, exact = false;
+        std::vector<EmitterPoint> points;
     };
     /// A point of one side of a surface.
     struct Place {
@@ -55,6 +62,8 @@ class NearField {
     };
 
     void place_emitters();
+    [[nodiscard]] double from_emitter(const Emitter& emitter, const Place& place,
+                                      bool shadows) const;
     [[nodiscard]] double from_emitters(const Place& place, bool shadows) const;
     [[nodiscard]] double from_punctual(const Place& place, bool shadows) const;
     [[nodiscard]] double from_sky(const Place& place, bool shadows) const;
@@ -65,7 +74,7 @@ class NearField {
                                            double area, double least) const;
 
     const Scene& scene_;
-    std::vector<EmitterPoint> emitters_;
+    std::vector<Emitter> emitters_;
     std::vector<PlacedLight> punctual_;
     std::vector<double> albedo_;  // by material, luminance
     bool sky_;

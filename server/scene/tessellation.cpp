@@ -27,7 +27,7 @@ constexpr double mean_area = 0.18;
 constexpr int max_search_steps = 7;
 constexpr double close_enough = 0.05;  // relative, of the patch count
 constexpr std::size_t max_named_materials = 8;
-constexpr double misplaced_share = 3e-6;     // of the direct flux, that a patch may misplace
+constexpr double misplaced_share = 1e-6;     // of the direct flux, that a patch may misplace
 constexpr std::size_t flux_samples = 1'000;  // patches that it is found from
 constexpr int max_rounds = 12;               // of splitting them
 

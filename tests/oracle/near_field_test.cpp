@@ -116,6 +116,39 @@ TEST(NearField, PatchesAreFinerThereAndNowhereElse) {
     }
 }
 
+/// A lamp of 1 m² that shines to both sides, 5 mm below a ceiling: what leaves a patch that lies
+/// half in the slot and half beside it would get out by half.
+TEST(NearField, CeilingsAreCutAlongTheRimOfALampBelow) {
+    SceneBuilder b;
+    Material lamp;
+    lamp.base_colour = glm::vec3(0.8F);
+    lamp.metallic = lamp.specular = 0.0F;
+    lamp.emission = glm::vec3(1000.0F);
+    lamp.double_sided = true;
+    b.add_quad({-2, 2, -2}, {4, 0, 0}, {0, 0, 4}, 1, 1, b.add_material(glm::vec3(albedo)));
+    b.add_quad({-0.47F, 1.995F, -0.53F}, {1, 0, 0}, {0, 0, 1}, 1, 1, b.add_material(lamp));
+    Scene scene = b.loaded_scene();
+    TessellationSettings settings;
+    settings.patch_size = 0.1F;
+    const PatchMesh mesh = tessellate(scene, settings);
+    double half_in = 0.0;  // m²
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+        int inside = 0;
+        for (const glm::vec3& corner : p) {
+            inside += corner.x > -0.47F && corner.x < 0.53F && corner.z > -0.53F &&
+                              corner.z < 0.47F && corner.y == 2.0F
+                          ? 1
+                          : 0;
+        }
+        if (inside == 1 || inside == 2) {
+            half_in += 0.5 * static_cast<double>(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
+        }
+    }
+    EXPECT_GT(half_in, 0.0);
+    EXPECT_LT(half_in, 0.09);  // seen: 0.071; 0.123 where the lamp was 48 points
+}
+
 TEST(NearField, NoLightNoWork) {
     SceneBuilder b;
     const auto paint = b.add_material(glm::vec3(albedo));
