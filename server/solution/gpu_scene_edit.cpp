@@ -45,8 +45,8 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
 
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const SpecularKind kind = specular_kind(scene.materials[material]);
-    const bool followed = kind == SpecularKind::none ||
-                          (kind == SpecularKind::coat ? coats_ : mirror_or_glass_);
+    const bool followed =
+        kind == SpecularKind::none || (kind == SpecularKind::coat ? coats_ : mirror_or_glass_);
     const bool passed = (glass_ || !is_glass(scene.materials[material])) &&
                         (absorbing_glass_ || !has_absorbing_glass(scene));
     const bool lit = caustics_ || !trace_caustics_ || !mirror_or_glass_ ||
