@@ -277,7 +277,8 @@ struct MaterialDetails {
 // A material's BRDF apart from its base colour, see scene/brdf.h.
 struct Reflectance {
     vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
-    vec4 lobe;   // alpha (max-Phong: exponent), f90, share of the base colour in lambert, 1/mean transmission
+    vec4 lobe;   // alpha (max-Phong: exponent), f90 (below 0: a lobe that view rays show, see traced_value), share of the
+                 // base colour in lambert, 1/mean transmission
     vec4 table;  // grazing scale q (LOBE_COATED: texel of the coat's first node, see brdf.glsl), texel of its first
                  // node, LOBE_*; w: 1: glossy, see ReflectanceTables
 };
@@ -299,14 +300,14 @@ struct PunctualData {
     vec4 axis_z;     // opposite to its direction
     vec4 intensity;  // cd or lx, in radiance units
     uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
-    uvec4 profile;   // x: IES profile, or NO_PROFILE
+    uvec4 profile;   // x: IES profile, or NO_PROFILE; y: 1: part of the sky, which view rays show
 };
 
 struct PixelSurface {
     vec3 position;   // world space
     uint patch_id;   // NO_PATCH: background
     uint normal;     // shading normal, octahedral snorm 2x16
-    uint albedo;     // at the angle of view, unorm 4x8, square-root encoded; w: place in the material's ReflectanceGrid
+    uint albedo;     // at the angle of view, see pixel_albedo.glsl
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
     uint facet;        // also of black backs; and flags, PIXEL_...
 };

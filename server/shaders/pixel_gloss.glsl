@@ -4,6 +4,7 @@
 // so that S is 0 under light that comes from everywhere alike, whatever the material. Accumulated like the
 // irradiance (pixel_sum.glsl): rgb = weighted sum, w = weight that came along when last resolved.
 #include "brdf.glsl"
+#include "pixel_albedo.glsl"
 #include "facets.glsl"
 
 /// The BRDF at a pixel whose directional albedo towards the eye is known; at_out: brdf_at() of that angle.

@@ -144,8 +144,7 @@ bool beside_receiver(Receiver x, uint surface, vec3 hit_offset, vec3 ahead, floa
 /// Adds to the glossy part what a sample of irradiance brings. Returns the irradiance that a surface without
 /// gloss would need to look the same.
 vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
-    vec3 root = unpackUnorm4x8(x.albedo).rgb;
-    vec3 albedo = root * root;
+    vec3 albedo = unpack_albedo(x.albedo);
 #ifdef CONTINUED
     vec3 w_out = continued_towards(index);
 #else

@@ -40,8 +40,7 @@ void main() {
         uint facet = q.w & PIXEL_FACET_MASK;
 #ifdef GLOSSY
         bool glossy = (q.w & PIXEL_GLOSSY) != 0u;
-        vec3 root = unpackUnorm4x8(q.y).rgb;
-        vec3 albedo = root * root;
+        vec3 albedo = unpack_albedo(q.y);
 #ifdef CONTINUED
         vec3 w_out = continued_towards(index);
 #else
@@ -60,7 +59,7 @@ void main() {
                 vec4 at_in = brdf_at(brdf, dot(normal, w_in));
                 vec3 value = brdf_value(brdf, normal, w_in, w_out, at_in.z * at_out.z);
 #ifdef COATS
-                value += traced_value(brdf, record, normal, w_in, w_out);
+                value += punctual[k].profile.y == 0u ? traced_value(brdf, record, normal, w_in, w_out) : vec3(0.0);
 #endif
                 gloss += arriving * (value - albedo * brdf_inverse_pi);
             }

@@ -5,6 +5,7 @@
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
 #endif
+#include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #include "view_place.glsl"
@@ -83,10 +84,7 @@ vec3 blended_irradiance(uint index, PixelSurface p) {
     return blended;
 }
 
-vec3 pixel_albedo(PixelSurface p) {
-    vec3 root = unpackUnorm4x8(p.albedo).rgb;
-    return root * root;
-}
+vec3 pixel_albedo(PixelSurface p) { return unpack_albedo(p.albedo); }
 
 /// Radiance of what a pixel sees beyond the scene.
 vec3 background(uint index) {

@@ -17,6 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "patch_seen.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
+#include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #include "view_place.glsl"
@@ -269,7 +270,7 @@ void main() {
     bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);
     pixels[2u * index + 1u] = uvec4(packSnorm2x16(octahedral_from_vector(shaded)),
-                                    packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), place)),
+                                    pack_albedo(albedo, place, index, 0u),
                                     packUnorm2x16(vec2(v1, v2)),
                                     surface >> 1 | (emitter ? PIXEL_EMITTER : 0u) | flags);
 #ifdef CONSTANT_RADIANCE

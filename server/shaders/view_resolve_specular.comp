@@ -8,6 +8,7 @@ layout(local_size_x = SPECULAR_GROUP) in;
 #include "facets.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
+#include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
 #include "brdf.glsl"
 #define SPECULAR_GROUPS_ACCESS readonly
@@ -29,6 +30,9 @@ layout(binding = UNIT_OLD_PIXEL_GLOSS) uniform samplerBuffer old_gloss_texels;
 /// Share of its weight that a glossy part keeps when the point is seen from another direction: what has turned
 /// by less than a lobe's width still looks about the same.
 float kept_gloss(vec3 from_eye, vec3 from_old_eye, Brdf brdf) {
+    if (brdf.kind == LOBE_GGX && brdf.f90 <= 0.0) {  // nothing but a Lambert part, which view rays show the lobe over
+        return 1.0;
+    }
     float alpha = brdf.kind == LOBE_MAX_PHONG ? sqrt(2.0 / (brdf.width + 2.0)) : brdf.width;
     vec3 turn = normalize(from_eye) - normalize(from_old_eye);
     return 1.0 / (1.0 + 16.0 * dot(turn, turn) / (alpha * alpha));
@@ -69,8 +73,7 @@ void main() {
         return;
     }
     vec3 position = uintBitsToFloat(p.xyz);
-    vec4 root = unpackUnorm4x8(q.y);
-    Brdf brdf = make_brdf(reflectance_record(material, q.y), root.rgb * root.rgb);
+    Brdf brdf = make_brdf(reflectance_record(material, q.y), unpack_albedo(q.y));
 #ifdef CONTINUED
     vec3 w_out = continued_towards(index);
 #else
@@ -78,7 +81,7 @@ void main() {
 #endif
     vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
     vec3 albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_out)));
-    pixels[2u * index + 1u].y = packUnorm4x8(vec4(sqrt(clamp(albedo, 0.0, 1.0)), root.w));
+    pixels[2u * index + 1u].y = pack_albedo(albedo, unpack_place(q.y), index, 1u);
 #ifdef GLOSSY
 #if defined(CONTINUED) && defined(REPROJECT)
     pixel_gloss[index] = kept_gloss_of(index) - vec4(0.0, 0.0, 0.0, common_weight);

@@ -194,6 +194,52 @@ TEST(ViewerImage, DrawnSmallerItsSurfacesAreThoseOfASmallPicture) {
     EXPECT_EQ(view.image->read_radiance(), small.image->read_radiance());
 }
 
+/// A pixel keeps its reflectance in 32 bits, as precisely as there is room for, and in the mean
+/// exactly: an unlit floor is white's radiance times it.
+TEST(ViewerImage, ReflectanceIsRightInTheMean) {
+    constexpr glm::uvec2 size(64, 64);
+    constexpr int pixels = 64 * 64;
+    for (const bool gridded : {false, true}) {  // with a texture of roughness in the scene
+        for (const float reflectance : {0.5F, 0.18F, 0.05F, 0.01F}) {
+            SceneBuilder b;
+            Material material;
+            material.base_colour = glm::vec3(reflectance, 0.7F * reflectance, 0.4F * reflectance);
+            material.metallic = 0.0F;
+            material.unlit = true;
+            b.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 2, 2, b.add_material(material));
+            const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1.0F));
+            b.add_quad({-1, 9, -1}, {2, 0, 0}, {0, 0, 2}, 1, 1, lamp);
+            if (gridded) {
+                b.scene.textures.push_back({"rough", 1, 1, true, true, {0, 128, 0, 255}});
+                Material rough;
+                rough.metallic_roughness_texture.texture = 0;
+                b.add_quad({-1, 8, -1}, {2, 0, 0}, {0, 0, 2}, 1, 1, b.add_material(rough));
+                b.mesh.metallic_roughness.resize(b.mesh.patch_count(), glm::vec2(0.0F, 0.5F));
+            }
+            const Solver solver(b.scene, b.mesh, {});
+            const ViewPrograms programs(solver.scene());
+            ViewerImage image(solver.scene(), solver.store(), programs, size);
+            Camera camera;
+            camera.eye = {0.1F, 1.5F, 0.0F};
+            camera.target = {0.0F, 0.0F, 0.1F};
+            camera.vertical_fov = 0.8F;
+            image.set_camera(camera);
+            glm::dvec3 mean(0.0);
+            for (const glm::vec4& pixel : image.read_radiance()) {
+                mean += glm::dvec3(pixel) / (double{unlit_white} * pixels);
+            }
+            for (int c = 0; c < 3; ++c) {
+                const double exact{material.base_colour[c]};
+                // Rounded at random, a root errs by up to a step: half of one in the standard
+                // deviation at most. Five of them.
+                const double step = gridded ? 1.0 / 255.0 : c < 2 ? 1.0 / 2047.0 : 1.0 / 1023.0;
+                const double bound = 5.0 * std::sqrt(exact) * step / 64.0 + step * step;
+                EXPECT_NEAR(mean[c], exact, bound) << gridded << " " << reflectance << " " << c;
+            }
+        }
+    }
+}
+
 TEST(ViewerImage, TinyAndOddSizesWork) {
     FurnaceView view(0.5F);
     for (const glm::uvec2 size :
