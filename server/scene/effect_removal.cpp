@@ -20,7 +20,9 @@ void remove_gloss(Scene& scene) {
 /// Mirrors and polished surfaces become the glossy ones next to them.
 void remove_mirrors(Scene& scene) {
     for (Material& material : scene.materials) {
-        if (has_smooth_lobe(material)) {
+        const SpecularKind kind = specular_kind(material);
+        if (kind == SpecularKind::mirror ||
+            (kind == SpecularKind::coat && shows_smooth_lobe(material))) {
             material.roughness = std::nextafter(mirror_roughness, 1.0F);
         }
     }

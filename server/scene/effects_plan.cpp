@@ -39,7 +39,7 @@ struct Survey {
     double specular_area = 0.0, other_area = 0.0;  // of sides of surfaces
     std::size_t punctual = 0, suns = 0;
     std::size_t mirrors = 0, polished = 0, panes = 0, bodies = 0;
-    double mirrored_share = 0.0;     // largest reflectance of a mirror at normal incidence
+    double mirrored_share = 0.0;     // largest of mirrors at normal incidence, of others at any
     double transmitted_share = 0.0;  // largest share that glass lets pass
     std::size_t glossy = 0, textured = 0, masked = 0, profiles = 0, bumpy = 0, transmitting = 0;
     std::size_t coats = 0, smooth_coats = 0;

@@ -184,7 +184,7 @@ class MaterialReader {
         if (material.transmission <= 0.0F) {
             return;
         }
-        if (specular_kind(material) == SpecularKind::none) {
+        if (!is_glass(material)) {
             document_.note("materials that transmit less than half of the light are opaque");
         } else if (material.transmission < 1.0F || material.roughness > mirror_roughness) {
             document_.note("glass is read as smooth and as transmitting all that it lets in");

@@ -226,8 +226,9 @@ double NearField::from_emitter(const Emitter& emitter, const Place& place, bool 
     if (!emitter.exact) {
         return emitter.luminance * visible;
     }
-    const bool behind = glm::dot(place.position - emitter.corners[0], emitter.normal) <= 0.0;
-    if (behind && !emitter.two_sided) {
+    // In its own plane a lamp is not lit by itself, wherever rounding puts the place.
+    const double height = glm::dot(place.position - emitter.corners[0], emitter.normal);
+    if ((emitter.two_sided ? std::abs(height) : height) <= offset_) {
         return 0.0;
     }
     return emitter.luminance * (all > 0.0 ? visible / all : 1.0) *

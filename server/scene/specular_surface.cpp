@@ -36,13 +36,6 @@ glm::vec3 absorption_of(const Material& material) {
     return -glm::log(left) / material.attenuation_distance;
 }
 
-/// Whether view rays see it: not where a map turns the normals, which they do not know, or below a
-/// rough coat.
-bool shows_smooth_lobe(const Material& material) {
-    const bool covered = material.clear_coat > 0.0F && !has_smooth_coat(material);
-    return has_smooth_lobe(material) && !covered && material.normal_texture.texture < 0;
-}
-
 }  // namespace
 
 SpecularKind specular_kind(const Material& material) {
@@ -82,13 +75,14 @@ SpecularSurface specular_surface(const Material& material, const glm::vec3& base
 }
 
 bool has_specular_surfaces(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& m) { return specular_kind(m) != SpecularKind::none; });
+    return has_coats(scene) || has_mirror_or_glass(scene);
 }
 
 bool has_coats(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& m) { return specular_kind(m) == SpecularKind::coat; });
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](Material m) {
+        m.emission = glm::vec3(0.0F);
+        return specular_kind(m) == SpecularKind::coat;
+    });
 }
 
 bool has_smooth_coat(const Material& material) {
@@ -100,6 +94,11 @@ bool has_smooth_lobe(const Material& material) {
            (material.metallic > 0.0F || material.specular > 0.0F) &&
            material.roughness <= mirror_roughness &&
            material.metallic_roughness_texture.texture < 0;
+}
+
+bool shows_smooth_lobe(const Material& material) {
+    const bool covered = material.clear_coat > 0.0F && !has_smooth_coat(material);
+    return has_smooth_lobe(material) && !covered && material.normal_texture.texture < 0;
 }
 
 bool has_mirror_or_glass(const Scene& scene) {

@@ -56,7 +56,11 @@ inline bool is_glass(const Material& material) {
 bool has_smooth_coat(const Material& material);
 /// Whether the lobe below it is, or that of a material without one, the same all over the surface.
 bool has_smooth_lobe(const Material& material);
-/// Whether any material has a kind; whether one is a coat, and whether one is more than that.
+/// Whether view rays see that, where the surface does not emit and nothing is cut out of it: not
+/// where a map turns the normals, which they do not know, or below a rough coat.
+bool shows_smooth_lobe(const Material& material);
+/// Whether any material has a kind; whether one is a coat, or would be were it no lamp, which can
+/// be put out; and whether one is more than that.
 bool has_specular_surfaces(const Scene& scene);
 bool has_coats(const Scene& scene);
 bool has_mirror_or_glass(const Scene& scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflectance of surfaces, as in scene/brdf.h and scene/reflectance_table.h, which say what is what.
-// MAX_PHONG and CLEAR_COAT are defined where the scene has such a material; else their code is not compiled.
+// MAX_PHONG, CLEAR_COAT and COATS (smooth ones, and polished surfaces) are defined where the scene has such a material;
+// else their code is not compiled.
 
 // Records of all materials (Reflectance), then rows of REFLECTANCE_NODES texels from grazing to normal
 // incidence: scale, bias, transmission, importance.
@@ -159,7 +160,7 @@ vec3 brdf_value(Brdf b, vec3 normal, vec3 w_in, vec3 w_out, float passed) {
 
 #ifdef COATS
 /// What a smooth coat or a polished surface reflects, 1/sr, and view rays show instead of f_r: for lights without
-/// extent, which no view ray meets. b: of that record.
+/// extent, which no view ray meets, but for those that stand for the sun. b: of that record.
 vec3 traced_value(Brdf b, uint record, vec3 normal, vec3 w_in, vec3 w_out) {
     float cos_in = dot(normal, w_in);
     float cos_out = dot(normal, w_out);

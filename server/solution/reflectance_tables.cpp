@@ -37,8 +37,8 @@ Material as_transported(const Material& material) {
     return rough;
 }
 
-/// As pixels do, which view rays show the reflections of mirrors and of smooth surfaces over others.
-/// Beside what a lamp sends its reflections are nothing.
+/// As pixels do, which view rays show the reflections of mirrors and of smooth surfaces over
+/// others. Beside what a lamp sends its reflections are nothing.
 Material as_shown(const Material& material) {
     const SpecularKind kind = specular_kind(material);
     if (kind == SpecularKind::mirror || material.emission != glm::vec3(0.0F)) {
@@ -46,14 +46,15 @@ Material as_shown(const Material& material) {
     }
     Material shown = material;
     shown.clear_coat_traced = has_smooth_coat(material);
-    shown.lobe_traced = kind == SpecularKind::coat && has_smooth_lobe(material);
+    shown.lobe_traced = kind == SpecularKind::coat && shows_smooth_lobe(material);
     return shown;
 }
 
 /// Whether patches and pixels may not know a material alike.
 bool has_two_models(const Material& material) {
-    return has_smooth_coat(material) ||
-           (has_smooth_lobe(material) && specular_kind(material) != SpecularKind::mirror);
+    const SpecularKind kind = specular_kind(material);
+    return !is_glass(material) && (has_smooth_coat(material) ||
+                                   (has_smooth_lobe(material) && kind != SpecularKind::mirror));
 }
 
 /// What a material's table is made for. All Lambert surfaces share one. Of a grid, its sharpest

@@ -121,7 +121,7 @@ void ShadowMaps::place_lights() {
         data.intensity = glm::vec4(light.intensity / scene_.radiance_unit(), 0.0F);
         data.map = {layer, layers_of(light), static_cast<unsigned>(light.kind),
                     static_cast<unsigned>(size_)};
-        data.profile.x = profile_of(i);
+        data.profile = {profile_of(i), light.of_sky ? 1U : 0U, 0U, 0U};
         layer += data.map.y;
         lights_.push_back(data);
     }

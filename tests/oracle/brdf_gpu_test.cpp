@@ -247,6 +247,13 @@ TEST(ReflectanceTables, PolishedDielectricsHaveARecordForPatches) {
     EXPECT_EQ(tables.patch_record(1, glm::vec2(0.0F)), 1U);
     // A lamp's reflections are those of its patches, in pictures too.
     EXPECT_FLOAT_EQ(tables.table(2).brdf().lobe.alpha, 0.16F);
+    // Below a smooth coat its lobe stays where a map turns the normals, which view rays do not
+    // know.
+    Scene flakes;
+    flakes.materials = {porcelain};
+    flakes.materials[0].clear_coat = 1.0F;
+    flakes.materials[0].normal_texture.texture = 0;
+    EXPECT_NEAR(ReflectanceTables(flakes).table(0).brdf().f0.g, 0.04F, 0.0005F);
     // What is polished later needs another set of records.
     EXPECT_TRUE(tables.covers(scene, 1));
     scene.materials[1].roughness = 0.05F;

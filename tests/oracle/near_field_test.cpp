@@ -149,6 +149,26 @@ TEST(NearField, CeilingsAreCutAlongTheRimOfALampBelow) {
     EXPECT_LT(half_in, 0.09);  // seen: 0.071; 0.123 where the lamp was 48 points
 }
 
+/// Wherever rounding puts a place on a lamp, it is not lit by that.
+TEST(NearField, ALampDoesNotLightItself) {
+    for (const float tilt : {0.0F, 0.1F, 0.7F}) {
+        SceneBuilder b;
+        Material lamp;
+        lamp.metallic = lamp.specular = 0.0F;
+        lamp.emission = glm::vec3(1000.0F);
+        lamp.double_sided = true;
+        const glm::dvec3 along(std::cos(tilt), std::sin(tilt), 0.3);
+        const glm::dvec3 across(-0.1, 0.4, 1.0);
+        b.add_quad({0, 0, 0}, glm::vec3(along), glm::vec3(across), 1, 1, b.add_material(lamp));
+        const Scene scene = b.loaded_scene();
+        const NearField field(scene);
+        const glm::dvec3 corner = 0.21 * along + 0.13 * across;
+        EXPECT_EQ(
+            field.direct_flux({{corner, corner + 0.3 * along, corner + 0.3 * across}, 0, true}),
+            0.0);
+    }
+}
+
 TEST(NearField, NoLightNoWork) {
     SceneBuilder b;
     const auto paint = b.add_material(glm::vec3(albedo));

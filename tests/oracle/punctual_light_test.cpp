@@ -246,6 +246,38 @@ TEST(FirstShot, SmoothSurfacesShowItsHighlight) {
     EXPECT_LT(brightest_deviation(both), 0.02);
 }
 
+/// View rays show the sun's disc, so that the lights that stand for it have no highlight there.
+TEST(FirstShot, OfTheSunIsNoHighlightInSmoothSurfaces) {
+    Material polished;
+    polished.base_colour = glm::vec3(0.0F);
+    polished.metallic = 0.0F;
+    polished.roughness = 0.08F;
+    SceneBuilder b;
+    b.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 4, 4, b.add_material(polished));
+    add_punctual_light(b, glm::mat4(1.0F), PunctualKind::directional, {0, 2, 1},
+                       {0.0F, -2.0F, -1.0F}, glm::vec3(1000.0F));
+    for (const bool of_sky : {false, true}) {
+        b.scene.punctual_lights[0].of_sky = of_sky;
+        Solver solver(b.scene, b.mesh);
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, {16, 16});
+        Camera camera;
+        camera.eye = {0.0F, 2.0F, -1.0F};
+        camera.target = glm::vec3(0.0F);
+        camera.vertical_fov = 0.02F;
+        image.set_camera(camera);
+        float brightest = 0.0F;
+        for (const glm::vec4& pixel : image.read_radiance()) {
+            brightest = std::max(brightest, pixel.g);
+        }
+        if (of_sky) {
+            EXPECT_LT(brightest, 1.0F);
+        } else {
+            EXPECT_GT(brightest, 1000.0F);
+        }
+    }
+}
+
 TEST(FirstShot, SameSeedGivesTheSameBits) {
     const auto bits = [](std::uint64_t seed) {
         Lit lit(odd_rotation(), 6, {16, 12}, seed);

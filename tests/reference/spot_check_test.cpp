@@ -112,7 +112,7 @@ TEST(SpotCheck, FindsTheFewPixelsThatHoldMostOfTheError) {
         const SquaredError found = check.measure(picture);
         EXPECT_NEAR(found.value, truth, 4.0 * found.standard_error + 1e-6 * truth);
         EXPECT_LT(found.standard_error, 0.05 * truth);  // of the light that it is relative to
-        check.look_for_sparks(picture);  // the same
+        check.look_for_sparks(picture);                 // the same
         EXPECT_EQ(check.pixels(), chosen + 128);
     }
 }
