@@ -82,7 +82,8 @@ std::vector<float> distances_from_neighbours(std::span<const glm::vec4> picture,
             std::nth_element(around.begin(), middle,
                              around.begin() + static_cast<std::ptrdiff_t>(count));
             const std::size_t i = std::size_t{y} * size.x + x;
-            distances[i] = std::abs(light[i] - *middle);
+            const float distance = std::abs(light[i] - *middle);
+            distances[i] = std::isfinite(distance) ? distance : 0.0F;
         }
     });
     return distances;
@@ -122,6 +123,7 @@ SpotCheck::SpotCheck(std::shared_ptr<const TracedScene> scene, const Camera& cam
       camera_(scene_->rays, camera, size),
       seed_(seed),
       sample_(choose(size, seed), mixed_bits(seed)) {}
+
 /// One of each square of pixels, without those that are not measured.
 std::vector<SpotCheck::Pixel> SpotCheck::choose(glm::uvec2 size, std::uint64_t seed) {
     const double all = static_cast<double>(size.x) * size.y;
