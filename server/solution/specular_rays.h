@@ -28,10 +28,10 @@ struct ContinuedRay {
     std::uint32_t surface = sky;  ///< 2 * facet + side (0 front, 1 back); sky: it leaves the scene
     glm::vec3 throughput{0.0F};   ///< share of the radiance there that arrives at the eye
     glm::vec3 towards{0.0F};      ///< unit, from the end back along the ray
-    bool added = false;           ///< beside what the first surface, below a clear coat, shows
+    bool added = false;           ///< beside what the first surface, below a coat, shows
 };
 
-/// Follows view rays from surface to surface where these are mirrors, glass or smooth clear coats
+/// Follows view rays from surface to surface where these are mirrors, glass or coats
 /// (scene/specular_surface.h), through the facets of the mesh at the present places of the objects.
 /// One hierarchy per object, so that a move costs no more than a matrix. Exists only in scenes that
 /// have such surfaces. Alpha MASK is not looked at: what it cuts out is whole behind a mirror.
@@ -50,13 +50,13 @@ class SpecularRays {
     /// Takes over a material that has changed.
     void update(const Scene& scene, std::size_t material);
 
-    /// Whether clear coats deflect a ray: for light, as bundles know them, they do not.
+    /// Whether coats deflect a ray: for light, as bundles know them, they do not.
     enum class Coats { passed, followed };
 
     /// Ends of a ray from a point in space, the strongest first; 0 where the first surface is not
     /// specular. Glass splits a ray into the reflected and the refracted one, both followed, until
     /// there are most_ends: then one of both is chosen at random, by what they carry, so that the
-    /// expected value is right. `seed` decides that; equal seeds, equal ends. A clear coat splits
+    /// expected value is right. `seed` decides that; equal seeds, equal ends. A coat splits
     /// it, too: what lies below is an end where the ray meets it, unless it is the first surface,
     /// which is seen without this. Rays stop after most_surfaces, or when they carry less than
     /// least_throughput. Usable by any number of threads.
