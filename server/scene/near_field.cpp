@@ -203,6 +203,16 @@ void NearField::place_emitters() {
 
 /// lx, by one triangle of a lamp.
 double NearField::from_emitter(const Emitter& emitter, const Place& place, bool shadows) const {
+    // In its own plane a lamp is not lit by itself, wherever rounding puts the place.
+    const double height = glm::dot(place.position - emitter.corners[0], emitter.normal);
+    if (emitter.exact && (emitter.two_sided ? std::abs(height) : height) <= offset_) {
+        return 0.0;
+    }
+    const double unshadowed =
+        emitter.exact ? triangle_irradiance(emitter.corners, place.position, place.normal) : 1.0;
+    if (!(unshadowed > 0.0)) {
+        return 0.0;
+    }
     double all = 0.0;
     double visible = 0.0;
     for (const EmitterPoint& point : emitter.points) {
@@ -226,13 +236,7 @@ double NearField::from_emitter(const Emitter& emitter, const Place& place, bool 
     if (!emitter.exact) {
         return emitter.luminance * visible;
     }
-    // In its own plane a lamp is not lit by itself, wherever rounding puts the place.
-    const double height = glm::dot(place.position - emitter.corners[0], emitter.normal);
-    if ((emitter.two_sided ? std::abs(height) : height) <= offset_) {
-        return 0.0;
-    }
-    return emitter.luminance * (all > 0.0 ? visible / all : 1.0) *
-           triangle_irradiance(emitter.corners, place.position, place.normal);
+    return emitter.luminance * unshadowed * (all > 0.0 ? visible / all : 1.0);
 }
 
 double NearField::from_emitters(const Place& place, bool shadows) const {
@@ -302,21 +306,24 @@ double NearField::reflected_within(const Place& place, double distance) const {
 double NearField::misplaced_on_side(const Corners& corners, const glm::dvec3& normal,
                                     double reflecting_area, double least) const {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    // The face may reach into a slot whose light or depth its middle does not see.
+    constexpr int count = 4;
+    std::array<Place, count> places;
+    double brightest = 0.0;  // lx, without shadows
+    for (std::size_t k = 0; k < count; ++k) {
+        places[k] = {k < 3 ? glm::mix(middle, corners[k], 0.75) : middle, normal};
+        brightest = std::max(brightest, illuminance(places[k], false));
+    }
     // A standard deviation is at most half of the largest value.
-    if (reflecting_area * illuminance({middle, normal}, false) < least) {
+    if (reflecting_area * brightest < least) {
         return 0.0;
     }
     const double edge =
         std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                   glm::distance(corners[2], corners[0])});
-    // The face may reach into a slot whose depth its middle does not see.
-    constexpr int count = 4;
-    std::array<Place, count> places;
     double reflected = 0.0;
-    for (int k = 0; k < count; ++k) {
-        places[static_cast<std::size_t>(k)] = {
-            k < 3 ? glm::mix(middle, corners[static_cast<std::size_t>(k)], 0.75) : middle, normal};
-        reflected += reflected_within(places[static_cast<std::size_t>(k)], edge) / count;
+    for (const Place& place : places) {
+        reflected += reflected_within(place, edge) / count;
     }
     if (!(reflected > 0.0)) {
         return 0.0;
