@@ -18,6 +18,10 @@ constexpr int rays_per_side = 8;
 
 bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::size_t pixel) {
     const glm::dvec2 corner = camera.corner(pixel);
+    if (has_sky(scene.scene()) &&
+        !scene.trace(camera.origin(), camera.direction(corner + glm::dvec2(0.5)))) {
+        return true;
+    }
     for (int k = 0; k < rays_per_side * rays_per_side; ++k) {
         const glm::dvec2 cell(k % rays_per_side, k / rays_per_side);
         const auto hit = scene.trace(
@@ -29,7 +33,20 @@ bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::si
     return false;
 }
 
-std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRays& camera) {
+bool pixel_is_measured(const RayScene& scene, const CameraRays& camera, glm::uvec2 at) {
+    const glm::uvec2 first = glm::max(at, 1U) - 1U;
+    const glm::uvec2 last = glm::min(at + 1U, camera.size() - 1U);
+    for (unsigned y = first.y; y <= last.y; ++y) {
+        for (unsigned x = first.x; x <= last.x; ++x) {
+            if (pixel_sees_emitter(scene, camera, std::size_t{y} * camera.size().x + x)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera) {
     const std::size_t width = camera.size().x;
     const std::size_t height = camera.size().y;
     std::vector<std::uint8_t> found(width * height, 0);  // bits of vector<bool> share bytes
@@ -38,18 +55,7 @@ std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRa
             found[y * width + x] = pixel_sees_emitter(scene, camera, y * width + x) ? 1 : 0;
         }
     });
-    return {found.begin(), found.end()};
-}
-
-std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera) {
-    std::vector<bool> left_out = pixels_that_see_emitters(scene, camera);
-    if (has_sky(scene.scene())) {
-        const auto centres = pixel_centres(scene, camera);
-        for (std::size_t i = 0; i < centres.size(); ++i) {
-            left_out[i] = left_out[i] || !centres[i];
-        }
-    }
-    return without_emitters(left_out, camera.size());
+    return without_emitters({found.begin(), found.end()}, camera.size());
 }
 
 std::vector<bool> reflecting_pixels(const RayScene& scene, const CameraRays& camera) {

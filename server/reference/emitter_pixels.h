@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "reference/camera_rays.h"
@@ -9,15 +11,14 @@
 namespace raybundle {
 
 /// Whether a pixel of a picture, numbered row by row from the top, sees an emitting surface
-/// anywhere in its area, as far as a grid of 8 x 8 rays finds it.
+/// anywhere in its area, as far as a grid of 8 x 8 rays finds it, or the sky at its centre.
 bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::size_t pixel);
 
-/// Which pixels of a picture see an emitting surface anywhere in their area, as far as a grid of
-/// 8 x 8 rays a pixel finds it; row by row from the top. For without_emitters().
-std::vector<bool> pixels_that_see_emitters(const RayScene& scene, const CameraRays& camera);
+/// Whether a pixel counts for the error of a picture (design.md, section 8): neither it nor one of
+/// its 8 neighbours sees an emitter or the sky.
+bool pixel_is_measured(const RayScene& scene, const CameraRays& camera, glm::uvec2 at);
 
-/// Mask of the pixels that count for the error of a picture (design.md, section 8): without those
-/// that see an emitter or the sky, and their neighbours.
+/// All pixels that do, row by row from the top.
 std::vector<bool> measured_pixels(const RayScene& scene, const CameraRays& camera);
 
 /// Pixels whose centre shows a surface that reflects and does not emit, row by row: those that

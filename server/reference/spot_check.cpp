@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "reference/emitter_pixels.h"
-#include "scene/environment.h"
 
 namespace raybundle {
 namespace {
@@ -139,31 +138,12 @@ std::vector<SpotCheck::Pixel> SpotCheck::choose(glm::uvec2 size, std::uint64_t s
         RandomStream random(seed, i);
         const glm::dvec2 within = random.next_pair() * glm::dvec2(extent);
         const glm::uvec2 at = corner + glm::min(glm::uvec2(within), extent - 1U);
-        if (is_measured(glm::ivec2(at))) {
+        if (pixel_is_measured(scene_->rays, camera_, at)) {
             chosen[i] = {at.y * size.x + at.x, static_cast<double>(extent.x) * extent.y};
         }
     });
     std::erase_if(chosen, [](const Pixel& pixel) { return pixel.weight == 0.0; });
     return chosen;
-}
-
-/// Neither the pixel nor one of its 8 neighbours sees an emitter or the sky.
-bool SpotCheck::is_measured(glm::ivec2 at) const {
-    const auto size = glm::ivec2(camera_.size());
-    const bool sky = has_sky(scene_->rays.scene());
-    for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, size.y - 1); ++y) {
-        for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, size.x - 1); ++x) {
-            const auto pixel =
-                static_cast<std::size_t>(y) * camera_.size().x + static_cast<std::size_t>(x);
-            const glm::dvec3 through_centre =
-                camera_.direction(camera_.corner(pixel) + glm::dvec2(0.5));
-            if ((sky && !scene_->rays.trace(camera_.origin(), through_centre)) ||
-                pixel_sees_emitter(scene_->rays, camera_, pixel)) {
-                return false;
-            }
-        }
-    }
-    return true;
 }
 
 /// Those that are furthest from their neighbours and are measured, but for those that are known.
@@ -185,8 +165,9 @@ std::vector<SpotCheck::Pixel> SpotCheck::new_sparks(std::span<const glm::vec4> p
         const std::uint32_t number = order[i];
         Known& known = known_[number];
         if (known == Known::nothing && tests++ < most_tests) {
+            const glm::uvec2 at(number % size.x, number / size.x);
             known =
-                is_measured({number % size.x, number / size.x}) ? Known::measured : Known::left_out;
+                pixel_is_measured(scene_->rays, camera_, at) ? Known::measured : Known::left_out;
         }
         sparks += known == Known::spark || known == Known::measured ? 1 : 0;
         if (known == Known::measured) {

@@ -80,7 +80,6 @@ class SpotCheck {
     enum class Known : std::uint8_t { nothing, measured, left_out, spark };
 
     [[nodiscard]] std::vector<Pixel> choose(glm::uvec2 size, std::uint64_t seed);
-    [[nodiscard]] bool is_measured(glm::ivec2 at) const;
     [[nodiscard]] std::vector<Pixel> new_sparks(std::span<const glm::vec4> picture);
     void forget_sparks();
     void add_round(Part& part) const;

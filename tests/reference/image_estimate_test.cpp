@@ -136,7 +136,7 @@ TEST(ImageEstimate, DropsAndCountsWhatIsNotFinite) {
     EXPECT_EQ(image.mean(3), glm::dvec3(0.0));
 }
 
-TEST(EmitterPixels, AreThoseWhoseAreaShowsAnEmitter) {
+TEST(EmitterPixels, AreThoseWhoseAreaShowsAnEmitterAndTheirNeighboursAreNotMeasured) {
     const SceneBuilder room = enclosure(0.5F);
     const View view(room);
     Camera up;
@@ -145,12 +145,17 @@ TEST(EmitterPixels, AreThoseWhoseAreaShowsAnEmitter) {
     up.up = glm::vec3(odd_rotation() * glm::vec4(0.0F, 0.0F, 1.0F, 0.0F));
     up.vertical_fov = 2.0F * std::atan(0.5F);  // shows 3 m of the ceiling
     // The lamp covers the middle third: pixels 4..7 of 12 and what overlaps by rounding.
-    const auto found =
-        pixels_that_see_emitters(view.tracing.scene, CameraRays(view.tracing.scene, up, {12, 12}));
-    for (std::size_t y = 0; y < 12; ++y) {
-        for (std::size_t x = 0; x < 12; ++x) {
+    const CameraRays rays(view.tracing.scene, up, {12, 12});
+    const std::vector<bool> measured = measured_pixels(view.tracing.scene, rays);
+    for (unsigned y = 0; y < 12; ++y) {
+        for (unsigned x = 0; x < 12; ++x) {
             const bool inside = x >= 4 && x < 8 && y >= 4 && y < 8;
-            EXPECT_EQ(found[12 * y + x], inside) << x << ", " << y;
+            const bool near = x >= 3 && x < 9 && y >= 3 && y < 9;
+            const std::size_t pixel = std::size_t{12} * y + x;
+            EXPECT_EQ(pixel_sees_emitter(view.tracing.scene, rays, pixel), inside)
+                << x << ", " << y;
+            EXPECT_EQ(pixel_is_measured(view.tracing.scene, rays, {x, y}), !near) << x << ", " << y;
+            EXPECT_EQ(measured[pixel], !near) << x << ", " << y;
         }
     }
 }
