@@ -4,10 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <map>
 
 #include "bundle/low_discrepancy.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle {
 
@@ -185,17 +187,25 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
 }
 
 void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
+    const auto material_of = [this](const PendingChange& p) {
+        const std::uint32_t id = subject_of(p.change).second;
+        return p.change.has_set_light() ? static_cast<std::uint32_t>(scene_.lights[id - 1].material)
+                                        : id - 1;
+    };
+    std::map<std::uint32_t, SpecularKind> before;
+    for (const PendingChange& p : pending) {
+        before.emplace(material_of(p), specular_kind(scene_.materials[material_of(p)]));
+    }
     std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
     std::vector<std::uint32_t> materials;
     std::vector<std::uint32_t> reflecting;
     bool covered = true;
     for (const PendingChange& p : pending) {
-        const std::uint32_t id = subject_of(p.change).second;
-        const bool light = p.change.has_set_light();
-        const std::uint32_t material =
-            light ? static_cast<std::uint32_t>(scene_.lights[id - 1].material) : id - 1;
+        const std::uint32_t material = material_of(p);
         materials.push_back(material);
-        if (!light) {
+        // A polished lamp that is put out is a mirror.
+        if (!p.change.has_set_light() ||
+            specular_kind(scene_.materials[material]) != before.at(material)) {
             reflecting.push_back(material);
             covered = covered && solver_->covers(scene_, material);
         }

@@ -4,10 +4,13 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "daemon.h"
 #include "json_viewer.h"
+#include "test_folder.h"
 
 namespace raybundle {
 namespace {
@@ -92,6 +95,84 @@ TEST_F(ChangesTest, WhatWaitsTogetherPassesOnePhase) {
     EXPECT_GE(surfaces.begun, 1);
     EXPECT_LE(surfaces.begun, 2);
     EXPECT_GE(surfaces.slices, bundles);
+}
+
+/// The room of effects/polished.gltf, where nothing is smooth but a metal floor that sends so much
+/// light, cd/m².
+std::string scene_with_metal_floor(double emission) {
+    std::ifstream file(scene_file("effects/polished.gltf"));
+    Json scene = Json::parse(file);
+    for (Json& material : scene.at("materials")) {
+        material["pbrMetallicRoughness"]["roughnessFactor"] = 1.0;
+        if (material.at("name") == "stone") {
+            material["pbrMetallicRoughness"]["roughnessFactor"] = 0.0;
+            material["pbrMetallicRoughness"]["metallicFactor"] = 1.0;
+            material["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.5, 0.5, 1.0};
+            material["emissiveFactor"] = {1.0, 1.0, 1.0};
+            material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
+                emission;
+        }
+    }
+    return scene.dump();
+}
+
+void wait_for_iterations(JsonViewer& viewer, int count) {
+    const Json first = viewer.next_frame([](const Json&) { return true; });
+    ASSERT_FALSE(viewer
+                     .next_frame([&](const Json& header) {
+                         return header.value("iterations", 0) >
+                                first.value("iterations", 0) + count;
+                     })
+                     .empty());
+}
+
+/// cd/m² that a grid of pixels of the lower half of a picture of 160x120 shows.
+std::vector<double> floor_luminance(JsonViewer& viewer) {
+    std::vector<double> shown;
+    for (int y = 80; y < 120; y += 12) {
+        for (int x = 8; x < 160; x += 16) {
+            const Json answer = viewer.request({{"probe", {{"pixel", {{"x", x}, {"y", y}}}}}});
+            shown.push_back(answer.at("probeResult").value("luminance", 0.0));
+        }
+    }
+    return shown;
+}
+
+TEST(PolishedLamp, ThatIsPutOutIsTheMirrorThatItWouldBe) {
+    const TestFolder folder;
+    folder.write("lamp.gltf", scene_with_metal_floor(50.0));
+    folder.write("mirror.gltf", scene_with_metal_floor(0.0));
+    std::vector<double> put_out;
+    {
+        const Daemon daemon(folder.path("lamp.gltf"));
+        JsonViewer viewer(daemon.port());
+        const Json welcome = viewer.join().at("welcome");
+        Json off;
+        for (const Json& light : welcome.at("scene").at("lights")) {
+            if (light.value("name", "") == "stone") {
+                off = {{"setLight", {{"light", light.at("id")}, {"on", false}}}};
+            }
+        }
+        ASSERT_FALSE(off.empty()) << welcome.dump();
+        wait_for_iterations(viewer, 16);
+        ASSERT_TRUE(viewer.request(off).contains("sceneChanged"));
+        wait_for_iterations(viewer, 192);
+        put_out = floor_luminance(viewer);
+    }
+    const Daemon daemon(folder.path("mirror.gltf"));
+    JsonViewer viewer(daemon.port());
+    viewer.join();
+    wait_for_iterations(viewer, 192);
+    const std::vector<double> never_lit = floor_luminance(viewer);
+    double difference = 0.0;
+    double light = 0.0;
+    for (std::size_t i = 0; i < put_out.size(); ++i) {
+        difference += (put_out[i] - never_lit[i]) * (put_out[i] - never_lit[i]);
+        light += never_lit[i] * never_lit[i];
+    }
+    EXPECT_GT(light, 0.0);
+    EXPECT_LE(std::sqrt(difference / light),
+              0.3);  // 0.55 where it stays as rough as bundles know it
 }
 
 }  // namespace
