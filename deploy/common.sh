@@ -37,7 +37,7 @@ as_root() {
 # Installs those of the given Debian packages that are missing; silent where none is.
 install_packages() {
     local -a missing
-    command -v dpkg-query >/dev/null || die "setup: needs Debian 12 or later (no dpkg found)"
+    command -v dpkg-query >/dev/null || die "setup: needs Debian 12 (no dpkg found)"
     mapfile -t missing < <(missing_packages "$@")
     ((${#missing[@]})) || return 0
     ((EUID == 0)) || command -v sudo >/dev/null ||

@@ -48,8 +48,8 @@ class ReferenceMethod {
     [[nodiscard]] virtual std::size_t bytes() const = 0;  ///< without the scene
 };
 
-/// Why a method cannot follow a scene's light at all; empty where it can. Only `path` knows diffuse
-/// transmission, and single rays no glass.
+/// Why a method cannot follow a scene's light at all; empty where it can. Only path tracing knows
+/// diffuse transmission, and single rays no glass.
 std::string reason_against(ReferenceKind kind, const RayScene& scene);
 
 /// Which light a method does not find in a picture, though it shows the rest of the light path

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the scatter of a picture's samples to its error: the share of it that their mean keeps, the
-// interval, and what more samples bring. README: "Error bars".
+// interval, and what more samples bring. tests/README.md, "Error bars".
 #pragma once
 
 #include <cstdint>
