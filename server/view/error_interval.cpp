@@ -161,21 +161,22 @@ double samples_factor(double noise, double discretisation, double target, std::u
     return high;
 }
 
-double samples_factor(const ErrorInterval& measured, double discretisation, double target,
-                      SampleOrder order) {
-    // high sqrt((1 - d^2) f^-2x + d^2) = target, with the width that there will be then: more paths
-    // will have been traced.
+double samples_factor(const ErrorInterval& measured, double discretisation,
+                      double discretisation_then, double target, SampleOrder order) {
+    // high sqrt((1 - d^2) f^-2x + d_then^2) = target, with the width that there will be then: more
+    // paths will have been traced.
     constexpr double widest_then = 1.25;  // high / error, as found in runs to 2 %
     const double high = std::min(measured.high, widest_then * measured.error);
-    const double d2 = std::min(discretisation * discretisation, 1.0);
-    const double wanted = target * target / (high * high) - d2;
+    const double noise = 1.0 - std::min(discretisation * discretisation, 1.0);
+    const double wanted =
+        target * target / (high * high) - discretisation_then * discretisation_then;
     if (measured.high <= target) {
         return 1.0;
     }
     if (wanted <= 0.0) {
         return std::numeric_limits<double>::infinity();
     }
-    return std::max(std::pow((1.0 - d2) / wanted, 0.5 / (0.5 + gain_of(order).exponent)), 1.0);
+    return std::max(std::pow(noise / wanted, 0.5 / (0.5 + gain_of(order).exponent)), 1.0);
 }
 
 }  // namespace raybundle

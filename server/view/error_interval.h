@@ -53,8 +53,9 @@ double samples_factor(double noise, double discretisation, double target, std::u
                       SampleOrder order);
 
 /// The same for an interval that was measured, and will be known at least to a quarter by then.
-/// discretisation: its share of the error, <= 1.
-double samples_factor(const ErrorInterval& measured, double discretisation, double target,
-                      SampleOrder order);
+/// discretisation: its share of the error, <= 1; discretisation_then: over the error as it is now,
+/// where pixels will be drawn more finely.
+double samples_factor(const ErrorInterval& measured, double discretisation,
+                      double discretisation_then, double target, SampleOrder order);
 
 }  // namespace raybundle

@@ -59,10 +59,8 @@ class FinalPicture {
     [[nodiscard]] std::vector<std::uint8_t> read_display();
 
     /// Factor of the samples that bring the upper end of the interval to a target, >= 1; infinite
-    /// where none do.
-    [[nodiscard]] double samples_factor_to(double target) const {
-        return measured_.samples_factor_to(target, by_samples_, image_.sample_order());
-    }
+    /// where none do. It foresees that pixels will be drawn more finely.
+    [[nodiscard]] double samples_factor_to(double target) const;
 
     [[nodiscard]] glm::uvec2 size() const { return size_; }
     /// Pixels that each pixel is drawn with along an edge.
@@ -71,6 +69,7 @@ class FinalPicture {
 
   private:
     [[nodiscard]] bool may_refine() const;
+    [[nodiscard]] bool finer_is_due(unsigned grid, double unresolved, double noise) const;
     void measure_pixels();
 
     glm::uvec2 size_;

@@ -53,14 +53,18 @@ ImageStatistics MeasuredError::with(const ImageStatistics& by_samples) const {
 }
 
 double MeasuredError::samples_factor_to(double target, const ImageStatistics& by_samples,
-                                        SampleOrder order) const {
+                                        SampleOrder order, double unresolved) const {
+    const double resolved = by_samples.discretisation * std::sqrt(1.0 - unresolved * unresolved);
     if (!square_ || !(by_samples.relative_error > 0.0)) {
-        return samples_factor(by_samples.noise, by_samples.discretisation, target,
+        return samples_factor(by_samples.noise, unresolved * by_samples.discretisation, target,
                               by_samples.samples, order);
     }
     const ImageStatistics s = with(by_samples);
+    const double then =
+        std::sqrt(std::max(s.discretisation * s.discretisation - resolved * resolved, 0.0));
     return samples_factor(ErrorInterval{s.relative_error, s.error_low, s.error_high},
-                          s.discretisation / s.relative_error, target, order);
+                          s.discretisation / s.relative_error, then / s.relative_error, target,
+                          order);
 }
 
 }  // namespace raybundle

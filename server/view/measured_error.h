@@ -27,9 +27,9 @@ class MeasuredError {
     /// The statistics of the picture with its error and interval as measured.
     [[nodiscard]] ImageStatistics with(const ImageStatistics& by_samples) const;
     /// Factor of the samples that bring the upper end of that interval to a target, >= 1; infinite
-    /// where none do.
+    /// where none do. unresolved: what will be left by then of what the pixels do not resolve.
     [[nodiscard]] double samples_factor_to(double target, const ImageStatistics& by_samples,
-                                           SampleOrder order) const;
+                                           SampleOrder order, double unresolved = 1.0) const;
 
   private:
     [[nodiscard]] SquaredError now(const ImageStatistics& by_samples) const;

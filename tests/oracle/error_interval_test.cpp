@@ -117,11 +117,14 @@ TEST(MeasuredInterval, IsWhatSamplesSayWhereNothingWasMeasured) {
 /// An error that falls like the samples' power is at the target after so many.
 TEST(SamplesFactor, OfWhatWasMeasuredLeadsToTheTarget) {
     const ErrorInterval measured{0.05, 0.04, 0.06};
-    const double factor = samples_factor(measured, 0.2, 0.03, SampleOrder::low_discrepancy);
+    const double factor = samples_factor(measured, 0.2, 0.2, 0.03, SampleOrder::low_discrepancy);
     const double share = std::sqrt(0.96 * std::pow(factor, -1.5) + 0.04);
     EXPECT_NEAR(share * measured.high, 0.03, 1e-9);
-    EXPECT_EQ(samples_factor(measured, 0.2, 0.07, SampleOrder::shuffled), 1.0);
-    EXPECT_TRUE(std::isinf(samples_factor(measured, 0.6, 0.03, SampleOrder::shuffled)));
+    EXPECT_EQ(samples_factor(measured, 0.2, 0.2, 0.07, SampleOrder::shuffled), 1.0);
+    EXPECT_TRUE(std::isinf(samples_factor(measured, 0.6, 0.6, 0.03, SampleOrder::shuffled)));
+    // Finer pixels bring within reach what was out of it.
+    const double finer = samples_factor(measured, 0.6, 0.2, 0.03, SampleOrder::shuffled);
+    EXPECT_NEAR(std::sqrt(0.64 * std::pow(finer, -1.1) + 0.04) * measured.high, 0.03, 1e-9);
 }
 
 ImageStatistics statistics_of(std::uint64_t samples, double noise, double discretisation) {
