@@ -53,7 +53,7 @@ class AccuracyMeasurement {
     CameraRays rays_;
     std::vector<bool> measured_;
     PictureStore pictures_;
-    AccuracyProgress progress_;
+    Progress progress_;
     std::vector<CurveRuns> curves_;
     ReferencePicture reference_;
     std::string reference_file_;

@@ -20,7 +20,7 @@ constexpr std::uint64_t least_passes = 2 * ImageEstimate::batches;
 
 class Refinement {
   public:
-    Refinement(const ReferenceJob& job, AccuracyProgress& progress)
+    Refinement(const ReferenceJob& job, Progress& progress)
         : job_(job),
           progress_(progress),
           maker_(job.scene, job.lights, job.camera, job.measured, job.key.filter, job.seed,
@@ -100,7 +100,7 @@ class Refinement {
     }
 
     const ReferenceJob& job_;
-    AccuracyProgress& progress_;
+    Progress& progress_;
     ReferenceMaker maker_;
     Stopwatch clock_;
     std::uint64_t passes_ = 0;
@@ -110,7 +110,7 @@ class Refinement {
 
 }  // namespace
 
-ReferencePicture make_reference(const ReferenceJob& job, AccuracyProgress& progress) {
+ReferencePicture make_reference(const ReferenceJob& job, Progress& progress) {
     progress.begin("reference by path tracing, pixel " + filter_name(job.key.filter));
     return Refinement(job, progress).run();
 }

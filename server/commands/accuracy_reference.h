@@ -5,7 +5,7 @@
 #include <string>
 
 #include "accuracy/reference_cache.h"
-#include "commands/accuracy_progress.h"
+#include "commands/progress.h"
 
 namespace raybundle {
 
@@ -27,6 +27,6 @@ struct ReferenceJob {
 /// The reference, taken from its file and made more accurate until it is `reference_margin` times
 /// more so than the best picture, or the time is over; then kept in the file again. Throws
 /// std::runtime_error where that cannot be read or written.
-ReferencePicture make_reference(const ReferenceJob& job, AccuracyProgress& progress);
+ReferencePicture make_reference(const ReferenceJob& job, Progress& progress);
 
 }  // namespace raybundle

@@ -8,7 +8,7 @@
 #include "accuracy/error_curve.h"
 #include "accuracy/picture_store.h"
 #include "commands/accuracy_job.h"
-#include "commands/accuracy_progress.h"
+#include "commands/progress.h"
 #include "reference/ray_scene.h"
 
 namespace raybundle {
@@ -35,7 +35,7 @@ struct RunSurroundings {
     glm::uvec2 size;
     double seconds;  ///< of solving
     PictureStore& pictures;
-    AccuracyProgress& progress;
+    Progress& progress;
     double seconds_after;  ///< of the runs after this one, for the time left
 };
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <variant>
 
 #include "commands/command.h"
+#include "commands/progress.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
@@ -25,7 +28,8 @@ struct Outcome {
 Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
     const StopRule rule(options);
     BundleReceiver* const receivers[] = {&picture.receiver()};
-    ProgressBar bar;
+    Progress bar;
+    bar.begin(options.output, {});
     Outcome outcome;
     const Stopwatch stopwatch;
     constexpr std::uint64_t statistics_interval = 16;  // iterations, at least
@@ -46,7 +50,15 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
         const double estimate =
             found.samples < believed_samples ? unknown : rule.estimate_of(picture);
         const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
-        bar.show(progress, solver.iterations(), outcome.statistics.relative_error);
+        if (bar.due()) {
+            const double factor = found.known && options.error
+                                      ? picture.samples_factor_to(*options.error)
+                                      : std::numeric_limits<double>::infinity();
+            const double left = rule.seconds_left(outcome.seconds, solver.iterations(), factor);
+            bar.show(outcome.seconds / (outcome.seconds + left), left,
+                     fmt::format("{} iterations, estimated error {:.1f} %", solver.iterations(),
+                                 100.0 * found.relative_error));
+        }
         if (progress >= 1.0) {
             break;
         }

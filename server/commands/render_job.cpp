@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/render_job.h"
 
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <filesystem>
+#include <limits>
 
 namespace raybundle {
 
@@ -81,34 +78,27 @@ double StopRule::progress(double elapsed, std::uint64_t done, double estimate) c
     return result;
 }
 
+double StopRule::seconds_left(double elapsed, std::uint64_t done, double samples_factor) const {
+    double left = std::numeric_limits<double>::infinity();
+    if (seconds_) {
+        left = std::min(left, *seconds_ - elapsed);
+    }
+    if (iterations_ && done > 0) {
+        left = std::min(
+            left, elapsed * (static_cast<double>(*iterations_) / static_cast<double>(done) - 1.0));
+    }
+    if (error_) {
+        left = std::min(left, elapsed * (samples_factor - 1.0));
+    }
+    return std::max(left, 0.0);
+}
+
 double StopRule::estimate_of(const ImageStatistics& statistics) const {
     return error_ && statistics.meets(*error_) ? 0.0 : statistics.error_high;
 }
 
 double StopRule::estimate_of(const FinalPicture& picture) const {
     return error_ && picture.meets(*error_) ? 0.0 : picture.statistics().error_high;
-}
-
-ProgressBar::ProgressBar() : shown_(isatty(STDERR_FILENO) != 0) {}
-
-ProgressBar::~ProgressBar() {
-    if (shown_) {
-        fmt::print(stderr, "\r\033[K");
-    }
-}
-
-bool ProgressBar::due() const {
-    return shown_ && (!last_ || last_->seconds() >= 0.2);
-}
-
-void ProgressBar::show(double progress, std::uint64_t iterations, double error) {
-    if (!due()) {
-        return;
-    }
-    last_.emplace();
-    fmt::print(stderr, "\r\033[K{:3.0f} %  {} iterations, estimated error {:.1f} %",
-               100.0 * std::min(progress, 1.0), iterations, 100.0 * error);
-    std::fflush(stderr);
 }
 
 }  // namespace raybundle

@@ -2,12 +2,12 @@
 // What all ways to render a picture to a file have in common.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "commands/stopwatch.h"
 #include "options/cli_options.h"
 #include "scene/scene.h"
 #include "view/final_picture.h"
@@ -25,16 +25,6 @@ bool is_exr(const std::string& path);
 std::unique_ptr<SpotCheck> spot_check(const Scene& scene, const PatchMesh& mesh,
                                       const Camera& camera, glm::uvec2 size, std::uint64_t seed);
 
-class Stopwatch {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// When to stop: whichever of the given limits comes first; 10 s where none is given.
 class StopRule {
   public:
@@ -42,6 +32,10 @@ class StopRule {
 
     /// How far the job is: done at 1. estimate: upper end of the estimated relative error.
     [[nodiscard]] double progress(double elapsed, std::uint64_t done, double estimate) const;
+    /// Time until then, s. samples_factor: of the samples that bring the error to its target;
+    /// infinite where none do.
+    [[nodiscard]] double seconds_left(double elapsed, std::uint64_t done,
+                                      double samples_factor) const;
     /// What progress() is told of a picture's error: 0 where no sample would bring it closer.
     [[nodiscard]] double estimate_of(const ImageStatistics& statistics) const;
     [[nodiscard]] double estimate_of(const FinalPicture& picture) const;
@@ -51,23 +45,6 @@ class StopRule {
     std::optional<double> seconds_;
     std::optional<std::uint64_t> iterations_;
     std::optional<double> error_;
-};
-
-/// Progress on the terminal, if standard error is one.
-class ProgressBar {
-  public:
-    ProgressBar();
-    ~ProgressBar();
-    ProgressBar(const ProgressBar&) = delete;
-    ProgressBar& operator=(const ProgressBar&) = delete;
-
-    /// Whether show() would draw now: five times a second.
-    [[nodiscard]] bool due() const;
-    void show(double progress, std::uint64_t iterations, double error);
-
-  private:
-    bool shown_;
-    std::optional<Stopwatch> last_;
 };
 
 }  // namespace raybundle

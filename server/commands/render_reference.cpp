@@ -3,10 +3,13 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "commands/command.h"
+#include "commands/progress.h"
 #include "commands/render_job.h"
 #include "reference/emitter_pixels.h"
 #include "reference/reference_method.h"
@@ -26,19 +29,30 @@ constexpr std::uint64_t error_interval = 8;
 
 Outcome solve(ReferenceMethod& method, const Options& options) {
     const StopRule rule(options);
-    ProgressBar bar;
+    Progress bar;
+    bar.begin(options.output, {});
     Outcome outcome;
     const Stopwatch stopwatch;
     double progress = 0.0;
     while (progress < 1.0) {
         method.iterate();
         outcome.seconds = stopwatch.seconds();
-        const bool wanted = rule.needs_error() || bar.due();
-        if (wanted && method.iterations() % error_interval == 0) {
+        const bool looks = method.iterations() % error_interval == 0;
+        if (looks && (rule.needs_error() || bar.due())) {
             outcome.error = method.error();
         }
         progress = rule.progress(outcome.seconds, method.iterations(), outcome.error.high);
-        bar.show(progress, method.iterations(), outcome.error.relative);
+        if (looks && bar.due()) {
+            // Paths are independent: the error falls like 1/sqrt(n).
+            const double ratio = outcome.error.high / options.error.value_or(1.0);
+            const double left = rule.seconds_left(outcome.seconds, method.iterations(),
+                                                  outcome.error.high > 0.0
+                                                      ? std::max(ratio * ratio, 1.0)
+                                                      : std::numeric_limits<double>::infinity());
+            bar.show(outcome.seconds / (outcome.seconds + left), left,
+                     fmt::format("{} iterations, estimated error {:.1f} %", method.iterations(),
+                                 100.0 * outcome.error.relative));
+        }
     }
     outcome.error = method.error();
     return outcome;
