@@ -134,20 +134,14 @@ bool reachable(double discretisation, double target) {
     return discretisation * std::exp(discretisation_half_width) < target;
 }
 
-double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
-                      SampleOrder order) {
-    if (!reachable(discretisation, target)) {
-        return std::numeric_limits<double>::infinity();
-    }
-    const double exponent = 0.5 + gain_of(order).exponent;
-    const auto high_after = [&](double factor) {
-        const double n = std::min(static_cast<double>(samples) * factor, 1e18);
-        return upper_end(noise * std::pow(factor, -exponent), discretisation,
-                         noise_half_width(static_cast<std::uint64_t>(n), order));
-    };
+namespace {
+
+/// Factor >= 1 from which on a falling function is at most a target that it reaches.
+template <typename Function>
+double first_factor(const Function& high_after, double target) {
     double low = 1.0;
     if (high_after(low) <= target) {
-        return 1.0;
+        return low;
     }
     double high = 2.0;
     while (high_after(high) > target) {
@@ -161,22 +155,47 @@ double samples_factor(double noise, double discretisation, double target, std::u
     return high;
 }
 
-double samples_factor(const ErrorInterval& measured, double discretisation,
-                      double discretisation_then, double target, SampleOrder order) {
-    // high sqrt((1 - d^2) f^-2x + d_then^2) = target, with the width that there will be then: more
-    // paths will have been traced.
-    constexpr double widest_then = 1.25;  // high / error, as found in runs to 2 %
-    const double high = std::min(measured.high, widest_then * measured.error);
-    const double noise = 1.0 - std::min(discretisation * discretisation, 1.0);
-    const double wanted =
-        target * target / (high * high) - discretisation_then * discretisation_then;
+}  // namespace
+
+double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
+                      SampleOrder order) {
+    if (!reachable(discretisation, target)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double exponent = 0.5 + gain_of(order).exponent;
+    return first_factor(
+        [&](double factor) {
+            const double n = std::min(static_cast<double>(samples) * factor, 1e18);
+            return upper_end(noise * std::pow(factor, -exponent), discretisation,
+                             noise_half_width(static_cast<std::uint64_t>(n), order));
+        },
+        target);
+}
+
+double samples_factor(const MeasuredPicture& picture, double target, SampleOrder order) {
+    // high / error when the interval first ends below a target: more paths will have been traced,
+    // and the error is rather lower than it was to be expected. 25 runs to 2 % and their lengths
+    // foreseen at a quarter of the way: in the mean 1.01 of them, standard deviation 12 %.
+    constexpr double width_then = 1.15;
+    const ErrorInterval& measured = picture.measured;
     if (measured.high <= target) {
         return 1.0;
     }
-    if (wanted <= 0.0) {
+    const double width = std::min(measured.high / measured.error, width_then);
+    if (width * picture.discretisation_then >= target) {
         return std::numeric_limits<double>::infinity();
     }
-    return std::max(std::pow(noise / wanted, 0.5 / (0.5 + gain_of(order).exponent)), 1.0);
+    const auto squared = [](double x) { return x * x; };
+    const double lucky = std::max(squared(measured.error) - squared(picture.discretisation), 0.0);
+    const double exponent = 0.5 + gain_of(order).exponent;
+    return first_factor(
+        [&](double factor) {
+            const double old = 1.0 / factor;
+            const double noise = (1.0 - old) * squared(picture.noise) + old * lucky;
+            return width * std::sqrt(noise * std::pow(factor, -2.0 * exponent) +
+                                     squared(picture.discretisation_then));
+        },
+        target);
 }
 
 }  // namespace raybundle

@@ -52,10 +52,17 @@ bool reachable(double discretisation, double target);
 double samples_factor(double noise, double discretisation, double target, std::uint64_t samples,
                       SampleOrder order);
 
-/// The same for an interval that was measured, and will be known at least to a quarter by then.
-/// discretisation: its share of the error, <= 1; discretisation_then: over the error as it is now,
-/// where pixels will be drawn more finely.
-double samples_factor(const ErrorInterval& measured, double discretisation,
-                      double discretisation_then, double target, SampleOrder order);
+/// A picture whose error was measured; all parts relative.
+struct MeasuredPicture {
+    ErrorInterval measured;
+    double noise = 0.0;                ///< to be expected, as its samples say
+    double discretisation = 0.0;       ///< part of the measured error, as it is
+    double discretisation_then = 0.0;  ///< when pixels are drawn more finely
+};
+
+/// The same for a measured error. What it is larger or smaller than expected is the luck of the
+/// samples so far, which have a share of 1/f in a picture of f times as many: of a squared error
+/// N_m^2 where N^2 was to be expected (1 - 1/f) N^2 / f^2x + N_m^2 / f^(2x + 1) is left.
+double samples_factor(const MeasuredPicture& picture, double target, SampleOrder order);
 
 }  // namespace raybundle

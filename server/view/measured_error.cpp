@@ -62,9 +62,10 @@ double MeasuredError::samples_factor_to(double target, const ImageStatistics& by
     const ImageStatistics s = with(by_samples);
     const double then =
         std::sqrt(std::max(s.discretisation * s.discretisation - resolved * resolved, 0.0));
-    return samples_factor(ErrorInterval{s.relative_error, s.error_low, s.error_high},
-                          s.discretisation / s.relative_error, then / s.relative_error, target,
-                          order);
+    return samples_factor(
+        MeasuredPicture{
+            {s.relative_error, s.error_low, s.error_high}, s.noise, s.discretisation, then},
+        target, order);
 }
 
 }  // namespace raybundle

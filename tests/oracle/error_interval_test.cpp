@@ -114,17 +114,25 @@ TEST(MeasuredInterval, IsWhatSamplesSayWhereNothingWasMeasured) {
     EXPECT_EQ(black.error, 0.0);
 }
 
-/// An error that falls like the samples' power is at the target after so many.
+/// What was measured counts by the share that its samples have then, and the rest is as expected.
 TEST(SamplesFactor, OfWhatWasMeasuredLeadsToTheTarget) {
-    const ErrorInterval measured{0.05, 0.04, 0.06};
-    const double factor = samples_factor(measured, 0.2, 0.2, 0.03, SampleOrder::low_discrepancy);
-    const double share = std::sqrt(0.96 * std::pow(factor, -1.5) + 0.04);
-    EXPECT_NEAR(share * measured.high, 0.03, 1e-9);
-    EXPECT_EQ(samples_factor(measured, 0.2, 0.2, 0.07, SampleOrder::shuffled), 1.0);
-    EXPECT_TRUE(std::isinf(samples_factor(measured, 0.6, 0.6, 0.03, SampleOrder::shuffled)));
+    constexpr double target = 0.03;
+    constexpr double width = 1.1;
+    const ErrorInterval measured{0.05, 0.045, width * 0.05};
+    for (const double noise : {0.03, 0.049, 0.07}) {
+        const double factor =
+            samples_factor({measured, noise, 0.01, 0.005}, target, SampleOrder::low_discrepancy);
+        ASSERT_GT(factor, 1.0);
+        const double mix = (1.0 - 1.0 / factor) * noise * noise + 0.0024 / factor;
+        const double error = std::sqrt(mix * std::pow(factor, -1.5) + 0.005 * 0.005);
+        EXPECT_NEAR(width * error, target, 1e-8);
+    }
+    EXPECT_EQ(samples_factor({measured, 0.05, 0.01, 0.01}, 0.07, SampleOrder::shuffled), 1.0);
     // Finer pixels bring within reach what was out of it.
-    const double finer = samples_factor(measured, 0.6, 0.2, 0.03, SampleOrder::shuffled);
-    EXPECT_NEAR(std::sqrt(0.64 * std::pow(finer, -1.1) + 0.04) * measured.high, 0.03, 1e-9);
+    EXPECT_TRUE(
+        std::isinf(samples_factor({measured, 0.04, 0.03, 0.03}, 0.03, SampleOrder::shuffled)));
+    EXPECT_TRUE(
+        std::isfinite(samples_factor({measured, 0.04, 0.03, 0.01}, 0.03, SampleOrder::shuffled)));
 }
 
 ImageStatistics statistics_of(std::uint64_t samples, double noise, double discretisation) {
