@@ -25,6 +25,12 @@ int list_gpus() {
     if (devices.empty()) {
         fmt::print("no EGL devices\n");
     }
+    try {
+        const raybundle::EglContext context = raybundle::create_egl_context();
+        fmt::print("without --gpu: {}\n", context.renderer());
+    } catch (const raybundle::GpuError& error) {
+        fmt::print("without --gpu: {}\n", error.what());
+    }
     return raybundle::exit_done;
 }
 

@@ -138,6 +138,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
 
 int run_render(const Options& options) {
     require_picture_format(options.output);
+    check_camera(options);
     const glm::uvec2 size = parse_size(options.size);
     const RenderMethod method = parse_method(options.method);
     const bool variant =
@@ -179,10 +180,14 @@ int run_render(const Options& options) {
     if (!options.stats.empty()) {
         write_statistics(options, context, solver, loaded, picture, outcome);
     }
-    spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} % ({:.2f} to {:.2f} %)",
-                 options.output, solver.iterations(), outcome.seconds,
-                 100.0 * outcome.statistics.relative_error, 100.0 * outcome.statistics.error_low,
-                 100.0 * outcome.statistics.error_high);
+    const ImageStatistics& found = outcome.statistics;
+    const std::string error = found.known
+                                  ? fmt::format("estimated error {:.2f} % ({:.2f} to {:.2f} %)",
+                                                100.0 * found.relative_error,
+                                                100.0 * found.error_low, 100.0 * found.error_high)
+                                  : "error not known";
+    spdlog::info("{}: {} iterations in {:.2f} s, {}", options.output, solver.iterations(),
+                 outcome.seconds, error);
     return exit_done;
 }
 

@@ -8,19 +8,35 @@
 
 namespace raybundle {
 
+namespace {
+
+/// The camera of --eye and --target; nothing where they are not given.
+std::optional<Camera> free_camera(const Options& options) {
+    if (options.eye.empty() && options.target.empty()) {
+        return std::nullopt;
+    }
+    if (options.eye.empty() || options.target.empty()) {
+        throw UsageError("--eye and --target belong together");
+    }
+    Camera camera;
+    camera.eye = parse_vector("--eye", options.eye);
+    camera.target = parse_vector("--target", options.target);
+    camera.vertical_fov = glm::radians(options.fov);
+    if (camera.eye == camera.target) {
+        throw UsageError("--target: is the eye itself");
+    }
+    return camera;
+}
+
+}  // namespace
+
+void check_camera(const Options& options) {
+    free_camera(options);
+}
+
 Camera choose_camera(const Scene& scene, const Options& options) {
-    if (!options.eye.empty() || !options.target.empty()) {
-        if (options.eye.empty() || options.target.empty()) {
-            throw UsageError("--eye and --target belong together");
-        }
-        Camera camera;
-        camera.eye = parse_vector("--eye", options.eye);
-        camera.target = parse_vector("--target", options.target);
-        camera.vertical_fov = glm::radians(options.fov);
-        if (camera.eye == camera.target) {
-            throw UsageError("--target: is the eye itself");
-        }
-        return camera;
+    if (const std::optional<Camera> camera = free_camera(options)) {
+        return *camera;
     }
     if (options.camera.empty()) {
         return scene.cameras.front();

@@ -14,6 +14,8 @@
 
 namespace raybundle {
 
+/// Throws UsageError where --eye, --target or --fov make no camera; before a scene is read.
+void check_camera(const Options& options);
 /// The camera that --camera, or --eye and --target, ask for. Throws UsageError.
 Camera choose_camera(const Scene& scene, const Options& options);
 

@@ -54,6 +54,33 @@ const MethodRow method_table[] = {
     {"photon-map", ReferenceKind::photon_map},
 };
 
+/// Check of a number that has to be above 0.
+CLI::Validator positive() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            double value = 0.0;
+            const char* const end = text.data() + text.size();
+            const bool number = std::from_chars(text.data(), end, value).ptr == end;
+            return number && value > 0.0 && std::isfinite(value) ? std::string()
+                                                                 : "'" + text + "' is not above 0";
+        },
+        "above 0");
+}
+
+/// Check of a relative error, which people may give in percent.
+CLI::Validator relative_error() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            double value = 0.0;
+            const char* const end = text.data() + text.size();
+            const bool number = std::from_chars(text.data(), end, value).ptr == end;
+            return number && value > 0.0 && value < 1.0
+                       ? std::string()
+                       : "'" + text + "' is not above 0 and below 1: 0.05 is 5 %";
+        },
+        "0 to 1");
+}
+
 /// Adds a row of the table of `serve`.
 void add_row(CLI::App& app, Options& o, const ServeOption& row) {
     const auto add = [&](const auto member) {
@@ -96,7 +123,7 @@ void add_scene(CLI::App& app, Options& o, bool required) {
            "--patch-size", o.patch_size,
            "Target edge of the patches, m; smaller where light changes beside other surfaces "
            "(default: about 25 000 patches)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();
 }
 
@@ -148,14 +175,16 @@ void add_render(CLI::App& app, Options& o) {
         ->required();
     add_camera(app, o);
     app.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--seconds", o.seconds, "Solving time")->check(CLI::PositiveNumber);
+    app.add_option("--seconds", o.seconds,
+                   "Solving time (default: 10, without --iterations and --error)")
+        ->check(positive());
     app.add_option("--iterations", o.iterations, "Number of iterations; no clock decides anything")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option("--error", o.error,
                    "Stop when the estimated relative error is below, e.g. 0.02; "
                    "caustics that cannot be a tenth of it are skipped (not with --script, where "
                    "things move)")
-        ->check(CLI::PositiveNumber);
+        ->check(relative_error());
     app.add_option("--method", o.method,
                    "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
                    "CPU, as references, "
@@ -199,7 +228,7 @@ void add_accuracy(CLI::App& app, Options& o) {
                    "Reference to compare with, .exr (default: path-traced, kept in the folder)");
     app.add_option("--reference-seconds", o.reference_seconds,
                    "At most for each reference (default: 60 times --seconds)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
 }
 
 float parse_float(const std::string& option, const std::string& text) {
@@ -248,7 +277,7 @@ void define_options(CLI::App& app, Options& options) {
                 ->add_option("--error", options.error,
                              "Plan for pictures of this relative error: effects that cannot be a "
                              "tenth of it are skipped, as render --error does")
-                ->check(CLI::PositiveNumber);
+                ->check(relative_error());
             CLI::Option* const sheet =
                 command->add_option("--contact-sheet", options.contact_sheet,
                                     "PNG of the scene with --effect and without, and its cost");

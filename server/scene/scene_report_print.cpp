@@ -92,8 +92,9 @@ void print_lists(std::ostream& out, const Scene& scene) {
     }
     out << fmt::format("cameras     {}\n", scene.cameras.size());
     for (const Camera& camera : scene.cameras) {
-        out << fmt::format("       {}  eye {}  target {}  vertical fov {:.4g} rad\n", camera.name,
-                           text_of(camera.eye), text_of(camera.target), camera.vertical_fov);
+        out << fmt::format("       {}  eye {}  target {}  vertical fov {:.4g} degrees\n",
+                           camera.name, text_of(camera.eye), text_of(camera.target),
+                           glm::degrees(camera.vertical_fov));
     }
     out << fmt::format("textures    {}\n", scene.textures.size());
     for (const Texture& texture : scene.textures) {
