@@ -106,7 +106,7 @@ TEST(ErrorIntervalHeavy, PredictsWhenATargetIsMet) {
                     static_cast<unsigned>(early.iterations), static_cast<unsigned>(end), ratio);
         right += ratio >= 1.0 / 1.5 && ratio <= 1.5 ? 1 : 0;
     }
-    EXPECT_GE(right, runs * 8 / 10);
+    EXPECT_GE(right, runs * 9 / 10);
 }
 
 }  // namespace
