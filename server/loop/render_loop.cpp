@@ -227,6 +227,12 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
             case v1::ClientMessage::kSnapshot:
                 add_snapshot(session, event);
                 return;  // answered when it is done
+            case v1::ClientMessage::kCancelSnapshot:
+                if (snapshots_.is_making(event.viewer, message.cancel_snapshot().request())) {
+                    std::erase(receivers_, snapshots_.picture_of(event.viewer));
+                }
+                snapshots_.cancel(event);
+                return;
             case v1::ClientMessage::kListScenes:
             case v1::ClientMessage::kOpenScene:
                 request_scenes(session, event);

@@ -90,9 +90,10 @@ void RenderLoop::choose_receivers() {
         receivers_.push_back(&session.image());
         receiver_pixels_ += session.drawn_pixels();
     }
-    const bool alone = !watched || nobody_waits();
-    ViewerImage* const snapshot =
-        snapshots_.next_receiver(solver_->scene(), solver_->store(), *programs_, epoch_, alone);
+    // Who watches a picture at rest waits for it as whoever has asked for a snapshot does.
+    const bool undisturbed = !watched || moving_ms == 0.0 || nobody_waits();
+    ViewerImage* const snapshot = snapshots_.next_receiver(solver_->scene(), solver_->store(),
+                                                           *programs_, epoch_, undisturbed);
     if (snapshot != nullptr) {
         receivers_.push_back(snapshot);
         receiver_pixels_ += static_cast<double>(snapshot->size().x) * snapshot->size().y;

@@ -121,6 +121,8 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
     out->set_unit(directional ? v1::Light::LX : v1::Light::CD);
     to_message(light.intensity / intensity, out->mutable_colour());
     out->set_on(true);
+    out->set_loaded_intensity(intensity);
+    to_message(light.intensity / intensity, out->mutable_loaded_colour());
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
@@ -221,6 +223,9 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_unit(v1::Light::CD_PER_M2);
         to_message(light.colour, out->mutable_colour());
         out->set_on(light.on);
+        const float loaded = luminance(light.loaded);
+        out->set_loaded_intensity(loaded);
+        to_message(light.loaded / std::max(loaded, 1e-30F), out->mutable_loaded_colour());
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         describe_light(light, message);

@@ -4,11 +4,13 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gpu/egl_context.h"
 #include "stream/elapsed.h"
 #include "stream/image_encoder.h"
+#include "view/error_interval.h"
 #include "view/image_file.h"
 
 namespace raybundle {
@@ -18,6 +20,7 @@ namespace {
 constexpr std::uint64_t least_samples = 32;  // before an error is believed
 constexpr std::chrono::hours most_time(1);
 constexpr std::chrono::milliseconds statistics_interval(100);
+constexpr std::chrono::seconds report_interval(1);
 constexpr double earlier_slice_ms = 40.0;          // of iterations of an earlier scene at once
 constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
 
@@ -55,6 +58,72 @@ const ViewerImage* SnapshotDesk::picture_of(ViewerId viewer) const {
     return !requests_.empty() && requests_.front().event.viewer == viewer ? image_.get() : nullptr;
 }
 
+bool SnapshotDesk::is_making(ViewerId viewer, std::uint32_t request) const {
+    return picture_of(viewer) != nullptr && requests_.front().event.message.has_id() &&
+           requests_.front().event.message.id() == request;
+}
+
+void SnapshotDesk::cancel(const ClientEvent& request) {
+    const std::uint32_t id = request.message.cancel_snapshot().request();
+    const auto found = std::find_if(requests_.begin(), requests_.end(), [&](const Request& r) {
+        return r.event.viewer == request.viewer && r.event.message.has_id() &&
+               r.event.message.id() == id;
+    });
+    if (found == requests_.end()) {
+        server_.reply_error(request, v1::Error::NOT_FOUND,
+                            "cancelSnapshot.request: no snapshot " + std::to_string(id) +
+                                " of this viewer is being made");
+        return;
+    }
+    server_.reply_error(found->event, v1::Error::CANCELLED, "the snapshot was taken back");
+    if (found == requests_.begin()) {
+        drop_picture();
+    }
+    requests_.erase(found);
+    server_.reply_ok(request);
+}
+
+/// What is known of the picture that is being made.
+v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
+    v1::SnapshotProgress progress;
+    if (!image_ || image_->samples() < least_samples || !image_->statistics().known) {
+        return progress;
+    }
+    const ImageStatistics& statistics = image_->statistics();
+    progress.set_relative_error(static_cast<float>(statistics.error_high));
+    const double factor =
+        samples_factor(statistics.noise, statistics.discretisation, requests_.front().error(),
+                       statistics.samples, image_->sample_order());
+    if (std::isfinite(factor)) {
+        progress.set_seconds_left(
+            static_cast<float>((factor - 1.0) * seconds(Clock::now() - begun_)));
+    }
+    return progress;
+}
+
+/// Tells those who wait how far their pictures are.
+void SnapshotDesk::report() {
+    const auto now = Clock::now();
+    if (requests_.empty() || now - last_report_ < report_interval) {
+        return;
+    }
+    last_report_ = now;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        const ClientEvent& event = requests_[i].event;
+        if (!event.message.has_id() || now - requests_[i].since < report_interval) {
+            continue;
+        }
+        v1::ServerMessage message;
+        v1::SnapshotProgress& progress = *message.mutable_snapshot_progress();
+        if (i == 0) {
+            progress = progress_of_first();
+        }
+        progress.set_request(event.message.id());
+        progress.set_ahead(static_cast<std::uint32_t>(i));
+        server_.send(event.viewer, message);
+    }
+}
+
 void SnapshotDesk::forget(ViewerId viewer) {
     if (picture_of(viewer) != nullptr) {
         drop_picture();
@@ -90,6 +159,7 @@ bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
         image_ = std::make_unique<ViewerImage>(scene, store, programs,
                                                glm::uvec2(wanted.width(), wanted.height()));
         image_->set_camera(requests_.front().camera);
+        begun_ = Clock::now();
         return true;
     } catch (const GpuError& error) {
         drop(error);
@@ -113,24 +183,24 @@ bool SnapshotDesk::done() {
         return false;
     }
     const ImageStatistics& statistics = image_->statistics();
-    const auto wanted = static_cast<double>(request.event.message.snapshot().relative_error());
     return Clock::now() - request.since > most_time ||
            (image_->samples() >= least_samples && statistics.samples >= least_samples &&
-            statistics.meets(wanted));
+            statistics.meets(request.error()));
 }
 
 ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceStore& store,
                                          const ViewPrograms& programs, std::uint32_t epoch,
-                                         bool alone) {
+                                         bool undisturbed) {
     taking_part_ = false;
+    report();
     if (earlier_ && requests_.empty() && Clock::now() - earlier_used_ > earlier_kept) {
         earlier_.reset();
     }
-    if (requests_.empty() || (!alone && !share_.may())) {
+    if (requests_.empty() || (!undisturbed && !share_.may())) {
         return nullptr;
     }
     if (wants_earlier(epoch)) {
-        work_on_earlier(alone);
+        work_on_earlier(undisturbed);
         return nullptr;
     }
     const auto start = Clock::now();
@@ -200,7 +270,7 @@ bool SnapshotDesk::prepare_earlier() {
 }
 
 /// Some iterations of the earlier scene, as far as there is time for them.
-void SnapshotDesk::work_on_earlier(bool alone) {
+void SnapshotDesk::work_on_earlier(bool undisturbed) {
     if (!image_) {
         if (!prepare_earlier() ||
             !begin(earlier_->solver().scene(), earlier_->solver().store(), earlier_->programs())) {
@@ -221,7 +291,8 @@ void SnapshotDesk::work_on_earlier(bool alone) {
             if (earlier_->between_groups() && finish_earlier()) {
                 return;
             }
-        } while ((alone || share_.may()) && milliseconds_since(earlier_used_) < earlier_slice_ms);
+        } while ((undisturbed || share_.may()) &&
+                 milliseconds_since(earlier_used_) < earlier_slice_ms);
     } catch (const GpuError& error) {
         drop(error);
     }

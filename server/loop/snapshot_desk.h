@@ -21,13 +21,14 @@
 namespace raybundle {
 
 /// Pictures that viewers have asked for, rendered off-screen one after the other. A picture takes
-/// part in whole groups of iterations, and only as often as keeps what it costs below a share of
-/// the time while anybody watches; on its own it may have all of it. One of an earlier epoch has
-/// iterations of its own, in the same share of the time. Thread of the GL context.
+/// part in whole groups of iterations; while anybody moves, only as often as keeps what it costs
+/// below a share of the time. One of an earlier epoch has iterations of its own: while somebody
+/// moves in the same share of the time, while all rest in turns with the present scene, and all of
+/// the time where nobody needs it. Thread of the GL context.
 class SnapshotDesk {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr double time_share = 0.18;     ///< of the solver's time while somebody watches
+    static constexpr double time_share = 0.18;     ///< of the solver's time while somebody moves
     static constexpr std::size_t max_waiting = 8;  ///< requests, of all viewers
 
     /// Makes the scene as it was after a change; null where that is not known any more.
@@ -40,6 +41,10 @@ class SnapshotDesk {
 
     /// Takes a request for what `camera` sees, or refuses it. look: of PNG.
     void add(const ClientEvent& request, const Camera& camera, const PictureLook& look);
+    /// Whether picture_of() a viewer is that of its request with this id.
+    [[nodiscard]] bool is_making(ViewerId viewer, std::uint32_t request) const;
+    /// Takes a request back that the viewer has made; what is_making() it is destroyed.
+    void cancel(const ClientEvent& request);
     /// A viewer has left: what it has asked for is dropped.
     void forget(ViewerId viewer);
     /// The picture that is being made for a viewer, null where there is none. forget() destroys it.
@@ -54,10 +59,9 @@ class SnapshotDesk {
     [[nodiscard]] bool apart() const { return apart_; }
 
     /// Between two groups of iterations: delivers the picture where it is done, else says whether
-    /// it takes part in the next group. Null where it does not. `alone`: nobody else needs the
-    /// time.
+    /// it takes part in the next group. Null where it does not. undisturbed: nobody moves.
     ViewerImage* next_receiver(const GpuScene& scene, const RadianceStore& store,
-                               const ViewPrograms& programs, std::uint32_t epoch, bool alone);
+                               const ViewPrograms& programs, std::uint32_t epoch, bool undisturbed);
     /// An iteration has taken so long, ms.
     void note_iteration(double cost_ms);
 
@@ -67,6 +71,10 @@ class SnapshotDesk {
         Camera camera;
         PictureLook look;
         Clock::time_point since = Clock::now();
+
+        [[nodiscard]] double error() const {
+            return static_cast<double>(event.message.snapshot().relative_error());
+        }
     };
     struct Finished;
 
@@ -94,9 +102,11 @@ class SnapshotDesk {
     bool begin(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs);
     [[nodiscard]] bool wants_earlier(std::uint32_t epoch) const;
     bool prepare_earlier();
-    void work_on_earlier(bool alone);
+    void work_on_earlier(bool undisturbed);
     bool finish_earlier();
     void refresh_statistics();
+    void report();
+    [[nodiscard]] v1::SnapshotProgress progress_of_first() const;
     void drop_picture();
     [[nodiscard]] bool done();
     void deliver(std::uint32_t epoch);
@@ -110,7 +120,9 @@ class SnapshotDesk {
     Clock::time_point earlier_used_;
     bool apart_ = false;  ///< image_ is, or will be, of earlier_
     std::unique_ptr<ViewerImage> image_;
+    Clock::time_point begun_;  ///< image_
     bool taking_part_ = false;
+    Clock::time_point last_report_;
     Clock::time_point last_statistics_;
     TimeShare share_{time_share};
     Delivery delivery_{server_};

@@ -329,6 +329,7 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
         case Body::kUndo:
         case Body::kListScenes:
         case Body::kMeasureEffects:
+        case Body::kCancelSnapshot:
         case Body::BODY_NOT_SET:
             return;
     }

@@ -65,7 +65,8 @@ std::vector<Light> find_lights(const Scene& scene) {
         }
         lights.push_back({static_cast<std::uint32_t>(lights.size() + 1),
                           name.empty() ? emitter.object->name : name, static_cast<int>(m), radiance,
-                          radiance / std::max(luminance(radiance), 1e-30F), texture});
+                          radiance / std::max(luminance(radiance), 1e-30F), texture, true,
+                          radiance});
     }
     return lights;
 }

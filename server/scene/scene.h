@@ -148,6 +148,7 @@ struct Light {
     glm::vec3 colour{1.0F};    ///< of luminance 1, kept while radiance is 0
     glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
     bool on = true;
+    glm::vec3 loaded{0.0F};  ///< radiance as the file has it
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
