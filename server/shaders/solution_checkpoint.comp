@@ -21,7 +21,7 @@ void main() {
         checkpoint[i] = vec4(now, pack_pair(vec2(weight, 0.0)), 0.0, 0.0);
         return;
     }
-    float error = sqrt(correction_left(c, now, weight)) / max(now, 1e-20);
+    float error = sqrt(correction_left(c, now, weight)) / correction_scale(c, now);
     vec2 before = vec2(unpack_pair(c.y).x, correction_size(c, now));
     checkpoint[i] = vec4(c.x, pack_pair(before), 0.0, pack_left(error, weight));
 }

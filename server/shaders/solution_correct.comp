@@ -62,8 +62,8 @@ void main() {
     // What the phase leaves, as it is to be expected: few bundles differ by less than they are wrong, and a weight is
     // more careful about what is not seen.
     float unseen = likely_unseen * sample_deviation * sample_deviation * after * after / most_weight;
-    float before_this = earlier.x * before;
-    float left = sqrt(wrong * error + unseen + before_this * before_this) / max(after, 1e-20);
+    float before_this = earlier.x * correction_scale(checkpoint[i], before);
+    float left = sqrt(wrong * error + unseen + before_this * before_this) / correction_scale(checkpoint[i], after);
     checkpoint[i].w = pack_left(left, mean.w);
     irradiance[i] = mean;
     vec4 iterate = source[i];

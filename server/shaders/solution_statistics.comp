@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partial sums behind `settled`, in a fixed order, over patches by area: x = squared size of the correction
-// since the last settled state (since loading: of everything), y = its squared error that is left (checkpoint.glsl).
+// since the last settled state (since loading: of everything), y = its squared error that is left (checkpoint.glsl),
+// both relative to the patch's light: a few patches beside a lamp hold a thousand times that of the room, and
+// would decide alone.
 // And the squared irradiance (z), with the squared distance of the iterate from the mean (w): how noisy
 // samples are.
 #include "layouts.glsl"
@@ -27,9 +29,11 @@ void main() {
         sum.w += patches[i].area * astray * astray;
         vec4 c = checkpoint[i];
         float correction = correction_size(c, now);
-        if (weight > 0.0 && correction > relevance * max(now, c.x)) {
-            sum.x += patches[i].area * correction * correction;
-            sum.y += patches[i].area * correction_left(c, now, weight);
+        float scale = correction_scale(c, now);
+        if (weight > 0.0 && correction > relevance * scale) {
+            float relative_area = patches[i].area / (scale * scale);
+            sum.x += relative_area * correction * correction;
+            sum.y += relative_area * correction_left(c, now, weight);
         }
     }
     vec4 total = group_sum(sum);
