@@ -239,6 +239,9 @@ PictureLook ViewerSession::look() const {
 }
 
 float ViewerSession::exposure(const ViewerImage& image) {
+    if (auto_exposure_ && shown_exposure_ && !image.brightness_known()) {
+        return *shown_exposure_;  // of another size, or of other shaders: as bright as the last one
+    }
     const float wanted = (auto_exposure_ ? image.automatic_exposure() : 0.0F) + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
     const float follow = shown_exposure_ ? 0.15F : 1.0F;

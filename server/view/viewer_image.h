@@ -186,6 +186,8 @@ class ViewerImage : public BundleReceiver {
     static float display_factor(float exposure);
     /// Exposure that puts the mean logarithm of luminance at mid-grey.
     [[nodiscard]] float automatic_exposure() const;
+    /// Whether it has been measured how bright this picture is: a new one knows nothing.
+    [[nodiscard]] bool brightness_known() const { return statistics_.rms_luminance > 0.0; }
 
   private:
     static constexpr std::size_t statistics_groups = 64;  // of 64 invocations

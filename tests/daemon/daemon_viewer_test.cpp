@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -160,6 +161,25 @@ TEST_F(ViewersTest, APictureInMotionMayBeSmallerAndIsFullAgainAtRest) {
         expect_whole(viewer.next_frame([&](const Json& f) { return f["epoch"] == epoch; }));
     }
     EXPECT_FALSE(viewer.next_frame(is_full).empty());
+}
+
+/// A picture of another size knows nothing of its brightness, and is as bright as the last one.
+TEST_F(ViewersTest, APictureOfAnotherSizeDoesNotFlash) {
+    JsonViewer viewer(daemon_->port());
+    viewer.join("", 320, 240);
+    const Json before =
+        viewer.next_frame([](const Json& header) { return header.value("iterations", 0) >= 64; });
+    const double exposure = before.at("exposure").get<double>();
+    EXPECT_GT(std::abs(exposure), 2.0) << "the room is not lit for 0 EV";
+    for (const int width : {200, 400, 240}) {
+        viewer.send({{"setViewport", {{"width", width}, {"height", 240}}}});
+        for (int frames = 0; frames < 4; ++frames) {
+            const Json header = viewer.next_frame(
+                [&](const Json& frame) { return frame.value("width", 0) == width; });
+            ASSERT_FALSE(header.empty());
+            EXPECT_NEAR(header.at("exposure").get<double>(), exposure, 0.5) << width;
+        }
+    }
 }
 
 TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
