@@ -245,6 +245,7 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         to_message(scene.materials[i].base_colour, out->mutable_base_colour());
         out->set_roughness(scene.materials[i].roughness);
         out->set_metallic(scene.materials[i].metallic);
+        out->set_matt(scene.materials[i].specular == 0.0F);
     }
     describe_effects(scene, message);
 }
