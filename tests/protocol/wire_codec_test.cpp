@@ -204,7 +204,7 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         SameJson, to_json(message),
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
-        R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true}],"cameras":[],)"
+        R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0}],"cameras":[],)"
         R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}]},)"
         R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
