@@ -2,7 +2,7 @@
 // The page's application: connection, camera, picture, scene and selection. Everything else in the
 // page (tools, panels, review) is built on it by main.js. `window.raybundle` is the one instance.
 
-import {framedFov, project, rayThrough} from './camera.js';
+import {framedFov, framing, project, rayThrough} from './camera.js';
 import {CameraControl} from './camera_control.js';
 import {CameraLink, askForDepths} from './camera_link.js';
 import {ObjectMover} from './drag.js';
@@ -38,7 +38,8 @@ const NO_VIEW = {
 };
 
 /**
- * Events: `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
+ * Events: `anew`, before `welcome`, when the server knows nothing of the changes seen so far (another scene,
+ * another start); `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
  * `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
  * message of the server), `upload` (somebody has dropped a scene on the page).
  */
@@ -61,6 +62,8 @@ export class RaybundleApp extends EventTarget {
     #authorFov = NO_VIEW.verticalFov;
     /** View to start with instead of the first camera, as a shared link has it. */
     #firstView = /** @type {View | null} */ (null);
+    /** This viewer's number at the last connection. */
+    #number = 0;
 
     /** @param {{url: string, name: string, token: string, view?: View | null}} settings */
     constructor(settings) {
@@ -213,6 +216,14 @@ export class RaybundleApp extends EventTarget {
         }
     }
 
+    /** Flies to where all of the selected object is seen, or of the scene: from within a room, as far as it goes. */
+    frameSelected() {
+        const bounds = (this.selected ?? this.scene)?.bounds;
+        if (bounds) {
+            this.camera.flyAround(framing(this.view, bounds, this.picture.aspect, this.camera.space));
+        }
+    }
+
     /**
      * Shows a view that the server knows of already, because another viewer leads.
      *
@@ -298,16 +309,21 @@ export class RaybundleApp extends EventTarget {
 
     /** @param {Welcome} welcome */
     #welcomed(welcome) {
-        const sameScene = this.scene?.name === welcome.scene.name;
-        const anew = sameScene && welcome.epoch < (this.scene?.epoch ?? 0);
+        const before = this.scene;
+        const sameScene = before?.name === welcome.scene.name;
         this.scene = new SceneModel(welcome.scene, welcome.epoch);
+        // Within one run of a server the numbers of viewers only grow.
+        const sameRun = welcome.viewer > this.#number;
+        this.#number = welcome.viewer;
+        const goesOn = before !== null && sameScene && this.scene.goesOnFrom(before, sameRun);
+        const anew = before !== null && sameScene && !goesOn && before.epoch > 0;
         this.picture.limits = welcome.limits ?? this.picture.limits;
         this.#viewportChanged();
         this.mover.forget();
         this.link.reset();
         askForDepths(this.client, this.picture);
         this.readouts.reset();
-        this.camera.fit(welcome.scene.bounds);
+        this.camera.fit(welcome.scene);
         this.status.showWelcome(welcome, this.scene.title, this.frame !== null && sameScene);
         if (!sameScene && this.#firstView) {
             this.camera.set(this.#firstView);
@@ -317,6 +333,9 @@ export class RaybundleApp extends EventTarget {
         }
         if (anew) {
             this.status.notify('The server has started anew: changes of the scene may be gone.');
+        }
+        if (!goesOn) {
+            this.#emit('anew', null);
         }
         this.#emit('welcome', welcome);
         this.select(sameScene ? (this.selected?.id ?? null) : null);

@@ -3,11 +3,14 @@
 // Points of the picture are in normalised coordinates: (0, 0) is its top left, (1, 1) its bottom
 // right corner.
 
-import {UP, add, clamp, cross, dot, length, mix, normalise, scale, sub, vec3} from './vector.js';
+import {
+    UP, add, boundsOf, centre, clamp, cross, diagonal, dot, intersectBounds, length, mix, normalise, scale, sub, vec3,
+} from './vector.js';
 
 /**
  * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {import('./protocol.js').View} View
+ * @typedef {import('./protocol.js').Bounds} Bounds
  * @typedef {import('./vector.js').Ray} Ray
  */
 
@@ -142,6 +145,105 @@ function turned(view, left, upwards) {
 export function orbit(view, left, upwards) {
     const sight = turned(view, left, upwards);
     return {...view, eye: sub(view.target, scale(sight, distance(view))), up: UP};
+}
+
+/** An eye that circles within walls keeps this far from them and from what hangs there, metres, or this share of the room. */
+const WALL_MARGIN = {metres: 0.75, share: 0.12};
+/** Walls bring it no nearer to the target than this share of the distance. */
+const NEAREST_SHARE = 0.6;
+/** What is smaller than this in any direction is no room, metres. */
+const SMALLEST_ROOM = 1.5;
+
+/** @type {(bounds: Bounds, point: Vec3) => boolean} */
+const contains = ({min, max}, {x, y, z}) =>
+    x > min.x && x < max.x && y > min.y && y < max.y && z > min.z && z < max.z;
+
+/**
+ * What is around an eye: the smallest of the parts of a building that it is inside of, or else the whole
+ * scene.
+ *
+ * @param {Vec3} eye
+ * @param {Bounds} scene
+ * @param {Bounds[]} parts  that cannot be moved
+ * @returns {Bounds | null}  null: it looks at the scene from outside
+ */
+export function roomAround(eye, scene, parts) {
+    const rooms = parts.filter(({min, max}) => {
+        const {x, y, z} = sub(max, min);
+        return Math.min(x, y, z) >= SMALLEST_ROOM;
+    });
+    const around = [scene, ...rooms].filter((bounds) => contains(bounds, eye));
+    around.sort((a, b) => diagonal(a) - diagonal(b));
+    return around[0] ?? null;
+}
+
+/**
+ * Where an eye that is in a room may go: not near the walls, unless it is there already.
+ *
+ * @param {Bounds} room
+ * @param {Vec3} eye
+ * @returns {Bounds}
+ */
+export function spaceIn({min, max}, eye) {
+    const margin = (/** @type {'x' | 'y' | 'z'} */ axis) =>
+        Math.min(WALL_MARGIN.metres, WALL_MARGIN.share * (max[axis] - min[axis]));
+    const off = vec3(margin('x'), margin('y'), margin('z'));
+    return boundsOf([add(min, off), sub(max, off), eye]);
+}
+
+/**
+ * A view whose eye has come nearer to the target where it would leave a space.
+ *
+ * @param {View} view
+ * @param {Bounds} space
+ * @returns {View | null}  null: nothing of the space is between the two
+ */
+export function keptIn(view, space) {
+    const away = sub(view.eye, view.target);
+    const hit = intersectBounds({origin: view.target, direction: away}, space);
+    if (!hit || hit.enter > 1) {
+        return null;
+    }
+    return hit.leave < 1 ? {...view, eye: add(view.target, scale(away, hit.leave))} : view;
+}
+
+/**
+ * Circles the eye around the target, nearer where a wall is in the way; but where it would come very near, or the
+ * target is in the wall, it does not go on.
+ *
+ * @param {View} view
+ * @param {number} left  radians, as orbit() has it
+ * @param {number} upwards  radians
+ * @param {number} reach  distance from the target, where there is room, metres
+ * @param {Bounds} space
+ * @returns {View}
+ */
+export function orbitIn(view, left, upwards, reach, space) {
+    for (const [x, y] of [[left, upwards], [left, 0], [0, upwards]]) {
+        const free = dolly(orbit(view, x, y), reach / distance(view), Infinity);
+        const kept = keptIn(free, space);
+        if (kept && distance(kept) >= NEAREST_SHARE * reach) {
+            return kept;
+        }
+    }
+    return view;
+}
+
+/**
+ * A view of the whole of a box, looking the same way.
+ *
+ * @param {View} view
+ * @param {Bounds} bounds
+ * @param {number} aspect  width over height
+ * @param {Bounds | null} space  that the eye does not leave
+ * @returns {View}
+ */
+export function framing(view, bounds, aspect, space) {
+    const half = Math.min(view.verticalFov / 2, Math.atan(Math.tan(view.verticalFov / 2) * aspect));
+    const away = Math.max(diagonal(bounds) / 2 / Math.sin(half), MIN_DISTANCE);
+    const target = centre(bounds);
+    const framed = {...view, target, eye: sub(target, scale(turned(view, 0, 0), away)), up: UP};
+    return (space && keptIn(framed, space)) ?? framed;
 }
 
 /**

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The user's camera: held keys, flights to named cameras, and the two ways to move, orbit and walk.
+//
+// To orbit is to circle around what is looked at from outside. Whoever is inside, with walls around, looks around
+// instead, since the eye would go through them; but around what he has chosen to look at (a double click, F) he
+// circles there too, as far as the walls let him.
 
-import {between, dolly, look, orbit, pan, sameView, walk} from './camera.js';
-import {clamp, diagonal} from './vector.js';
+import {between, dolly, look, orbit, orbitIn, pan, roomAround, sameView, spaceIn, walk} from './camera.js';
+import {clamp, diagonal, length, sub} from './vector.js';
 
 /**
  * @typedef {import('./protocol.js').View} View
  * @typedef {import('./protocol.js').Bounds} Bounds
+ * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {'orbit' | 'walk'} Mode
  */
 
@@ -17,6 +22,8 @@ const FLIGHT_MS = 700;
 const EASING_S = 0.07;
 /** Slower than this share of the full speed is standing. */
 const STANDING = 0.004;
+/** Targets nearer to one another are the same, metres. */
+const SAME_TARGET = 1e-6;
 /** Motion that a key press is worth at once, seconds. */
 const FIRST_STEP_S = 0.05;
 
@@ -44,6 +51,12 @@ const ARROW_KEYS = {
         ['ArrowLeft', {left: -1}],
         ['ArrowRight', {left: 1}],
     ]),
+    look: new Map([
+        ['ArrowUp', {tilt: 1}],
+        ['ArrowDown', {tilt: -1}],
+        ['ArrowLeft', {left: 1}],
+        ['ArrowRight', {left: -1}],
+    ]),
 };
 
 /**
@@ -62,7 +75,7 @@ const strength = (motion) => Math.max(...Object.values(motion).map(Math.abs));
  * Sum of what held keys ask for, each -1..1.
  *
  * @param {Iterable<string>} codes  KeyboardEvent.code
- * @param {Mode} mode
+ * @param {Mode | 'look'} mode  look: to orbit from inside, where that is to look around
  */
 export function motionOf(codes, mode) {
     const motion = noMotion();
@@ -86,6 +99,9 @@ export function walkingSpeed(bounds) {
     return clamp(diagonal(bounds) / 6, 0.01, 2);
 }
 
+/** @type {(view: View) => number} */
+const away = ({eye, target}) => length(sub(eye, target));
+
 /** Event: `change`, after the view has changed. */
 export class CameraControl extends EventTarget {
     /** @type {Set<string>} */
@@ -97,6 +113,14 @@ export class CameraControl extends EventTarget {
     #flight = null;
     /** What sticks ask for, by the name of the source. @type {Map<string, Motion>} */
     #sticks = new Map();
+    /**
+     * What is circled around: within which space, how far away where it lets the eye, and the view that came of it.
+     *
+     * @type {{target: Vec3, space: Bounds | null, reach: number, view: View} | null}
+     */
+    #circle = null;
+    /** Where an eye may circle. @type {(eye: Vec3) => Bounds | null} */
+    #space = () => null;
     /** What moves now, on its way to what is asked for. */
     #motion = noMotion();
 
@@ -118,9 +142,15 @@ export class CameraControl extends EventTarget {
     /**
      * Suits speeds and limits to a scene.
      *
-     * @param {Bounds} bounds
+     * @param {{bounds: Bounds, objects?: {movable: boolean, bounds: Bounds}[]}} scene
      */
-    fit(bounds) {
+    fit({bounds, objects = []}) {
+        const parts = objects.filter(({movable}) => !movable).map((object) => object.bounds);
+        this.#circle = null;
+        this.#space = (eye) => {
+            const room = roomAround(eye, bounds, parts);
+            return room && spaceIn(room, eye);
+        };
         this.speed = walkingSpeed(bounds);
         this.farthest = Math.max(diagonal(bounds) * 10, 1);
     }
@@ -149,6 +179,53 @@ export class CameraControl extends EventTarget {
         this.#tickSoon();
     }
 
+    /** Where the eye may circle, with walls around it; null: it looks at the scene from outside. */
+    get space() {
+        return this.#space(this.view.eye);
+    }
+
+    /** Whether turning goes around what is looked at; otherwise the head turns. */
+    get circles() {
+        return this.mode === 'orbit' && (this.#circleOf(this.view) !== null || this.space === null);
+    }
+
+    /**
+     * What is circled around, if that is what a view looks at.
+     *
+     * @param {View} view
+     */
+    #circleOf({target}) {
+        const circle = this.#circle;
+        return circle && length(sub(circle.target, target)) < SAME_TARGET ? circle : null;
+    }
+
+    /**
+     * Flies to a view of something that is to be circled around, also inside a room.
+     *
+     * @param {View} view
+     */
+    flyAround(view) {
+        this.#circle = {target: view.target, space: this.#space(view.eye), reach: away(view), view};
+        this.flyTo(view);
+    }
+
+    /**
+     * Circles around the target, as far as the walls let it.
+     *
+     * @param {View} view
+     * @param {number} left  radians
+     * @param {number} upwards  radians
+     * @returns {View}
+     */
+    #orbit(view, left, upwards) {
+        const circle = this.#circleOf(view);
+        const space = circle ? circle.space : this.#space(view.eye);
+        const reach = circle && sameView(circle.view, view) ? circle.reach : away(view);
+        const now = space ? orbitIn(view, left, upwards, reach, space) : orbit(view, left, upwards);
+        this.#circle = {target: view.target, space, reach, view: now};
+        return now;
+    }
+
     /**
      * Turns by a way of the pointer: around the target, or the head.
      *
@@ -157,8 +234,8 @@ export class CameraControl extends EventTarget {
      */
     turn(x, y) {
         const angle = Math.PI;
-        if (this.mode === 'orbit') {
-            this.set(orbit(this.view, -x * angle, -y * angle));
+        if (this.circles) {
+            this.set(this.#orbit(this.view, -x * angle, -y * angle));
         } else {
             const scale = this.view.verticalFov;
             this.set(look(this.view, x * scale, y * scale));
@@ -207,6 +284,9 @@ export class CameraControl extends EventTarget {
     zoom(factor) {
         if (this.mode === 'orbit') {
             this.set(dolly(this.view, factor, this.farthest));
+            if (this.#circle?.space === null && this.space) {
+                this.#circle = null;  // who has come in looks around
+            }
         } else {
             this.set(walk(this.view, -Math.log(factor) * 2 * this.speed, 0, 0));
         }
@@ -267,9 +347,13 @@ export class CameraControl extends EventTarget {
         this.#ticking = busy ? requestAnimationFrame((next) => this.#tick(next)) : 0;
     }
 
+    get #keyMode() {
+        return this.mode === 'orbit' && !this.circles ? 'look' : this.mode;
+    }
+
     /** @returns {Motion} sum of keys and sticks */
     #asked() {
-        const sum = motionOf(this.#keys, this.mode);
+        const sum = motionOf(this.#keys, this.#keyMode);
         for (const motion of this.#sticks.values()) {
             for (const name of /** @type {(keyof Motion)[]} */ (Object.keys(sum))) {
                 sum[name] = clamp(sum[name] + motion[name], -1, 1);
@@ -292,7 +376,7 @@ export class CameraControl extends EventTarget {
 
     /** @param {number} seconds */
     #moveByKeys(seconds) {
-        this.#moveBy(motionOf(this.#keys, this.mode), seconds);
+        this.#moveBy(motionOf(this.#keys, this.#keyMode), seconds);
     }
 
     /**
@@ -308,12 +392,9 @@ export class CameraControl extends EventTarget {
             motion.upwards * metres,
         );
         if (motion.left || motion.tilt) {
-            const turnBy = this.mode === 'orbit' ? orbit : look;
-            view = turnBy(
-                view,
-                motion.left * TURN_SPEED * seconds,
-                motion.tilt * TURN_SPEED * seconds,
-            );
+            const left = motion.left * TURN_SPEED * seconds;
+            const upwards = motion.tilt * TURN_SPEED * seconds;
+            view = this.circles ? this.#orbit(view, left, upwards) : look(view, left, upwards);
         }
         this.#show(view);
     }

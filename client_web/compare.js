@@ -17,6 +17,8 @@ import {snapshotSize} from './snapshot_panel.js';
 
 /** Changes that can be chosen, the newest ones. */
 const MOST_CHOICES = 30;
+/** A side of the wiped picture that is narrower than this has no room for its name, CSS pixels. */
+const NARROWEST_SIDE = 72;
 /** Errors to ask an earlier picture for: that of the one on screen, within these. */
 const ERRORS = {least: 0.03, most: 0.15};
 
@@ -61,12 +63,13 @@ export class Compare {
         this.#button.addEventListener('click', () => this.show(this.#wipe.hidden));
         this.#earlier.addEventListener('click', () => this.showEarlier(Number(this.#choice.value)));
         this.#at.addEventListener('input', () => this.#cut());
+        this.#dragLine(byId('wipe-line', HTMLElement));
         app.on('view', (/** @type {View} */ view) => {
             if (!this.#wipe.hidden && this.kept && !sameView(view, this.kept.view)) {
-                this.show(false);
+                this.#end('The camera has moved: the comparison is over.');
             }
         });
-        app.picture.addEventListener('resize', () => this.show(false));
+        app.picture.addEventListener('resize', () => this.#end('The picture has another size: the comparison is over.'));
         app.on('sceneChanged', () => this.#list());
         app.on('welcome', () => this.#list());
     }
@@ -154,6 +157,50 @@ export class Compare {
     }
 
     /**
+     * Ends the comparison, and says why.
+     *
+     * @param {string} why
+     */
+    #end(why) {
+        if (!this.#wipe.hidden) {
+            this.show(false);
+            this.app.status.notify(why, 'notice', {label: 'Compare again', run: () => this.show(true)});
+        }
+    }
+
+    /**
+     * The line can be taken hold of everywhere.
+     *
+     * @param {HTMLElement} line
+     */
+    #dragLine(line) {
+        /** From the pointer to the line. @type {number | null} */
+        let off = null;
+        const place = (/** @type {PointerEvent} */ {clientX}) => {
+            const {left, width} = this.#wipe.getBoundingClientRect();
+            return (clientX - left) / Math.max(width, 1);
+        };
+        line.addEventListener('pointerdown', (event) => {
+            if (event.button === 0) {
+                event.preventDefault();
+                line.setPointerCapture(event.pointerId);
+                off = Number(this.#at.value) - place(event);
+            }
+        });
+        line.addEventListener('pointermove', (event) => {
+            if (off !== null) {
+                this.#at.value = String(place(event) + off);
+                this.#cut();
+            }
+        });
+        for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) {
+            line.addEventListener(type, () => {
+                off = null;
+            });
+        }
+    }
+
+    /**
      * @param {HTMLCanvasElement | ImageBitmap} image
      * @param {KeptPicture} kept
      */
@@ -205,6 +252,9 @@ export class Compare {
         this.#canvas.style.clipPath = `inset(0 ${(100 * (1 - share)).toFixed(1)}% 0 0)`;
         this.#wipe.style.setProperty('--at', `${(100 * share).toFixed(1)}%`);
         this.#at.setAttribute('aria-valuetext', `${Math.round(100 * share)} % earlier`);
+        const width = this.#wipe.clientWidth;
+        byId('wipe-before', HTMLElement).hidden = share * width < NARROWEST_SIDE;
+        byId('wipe-now', HTMLElement).hidden = (1 - share) * width < NARROWEST_SIDE;
     }
 }
 

@@ -101,6 +101,71 @@ export function announce(text) {
 }
 
 /**
+ * A field that shows what is true, except while somebody changes it: from the first key or move to the `change`
+ * that comes of it, or to leaving the field.
+ */
+export class LiveField {
+    #text = '';
+    #held = false;
+
+    /** @param {HTMLInputElement} input */
+    constructor(input) {
+        this.input = input;
+        input.addEventListener('input', () => {
+            this.#held = true;
+        });
+        for (const type of ['change', ...(input.type === 'range' ? ['pointerup', 'keyup'] : [])]) {
+            input.addEventListener(type, () => {
+                this.#held = false;
+            });
+        }
+        input.addEventListener('blur', () => this.#held && this.reset());
+        input.addEventListener('keydown', (event) => {
+            if (event.key === 'Escape' && this.#held) {
+                this.reset();  // what has been typed is not meant
+            }
+        });
+    }
+
+    /**
+     * @param {string} text  that is true now
+     */
+    show(text) {
+        this.#text = text;
+        if (!this.#held) {
+            this.input.value = text;
+        }
+    }
+
+    /** Shows what is true again, whatever has been typed. */
+    reset() {
+        this.#held = false;
+        this.input.value = this.#text;
+    }
+}
+
+/**
+ * A line below fields that says why something has not been done. It is gone with the next thing typed.
+ *
+ * @param {HTMLElement} line
+ * @param {string} text  empty: nothing is wrong
+ * @param {HTMLInputElement | null} input  that it is about
+ * @param {{label: string, run: () => void} | null} action  offered as a button
+ */
+export function fieldNote(line, text, input = null, action = null) {
+    line.textContent = text;
+    line.hidden = text === '';
+    if (action) {
+        const button = smallButton(action.label, action.label, () => {
+            fieldNote(line, '');
+            action.run();
+        });
+        line.append(' ', button);
+    }
+    input?.addEventListener('input', () => fieldNote(line, ''), {once: true});
+}
+
+/**
  * A small button.
  *
  * @param {string} label  its text

@@ -2,9 +2,12 @@
 // Undo and redo of this viewer's own changes, and the log of everybody's.
 
 import {byId, showValue} from './elements.js';
+import {deedOf} from './placement.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
+ * @typedef {import('./protocol.js').Transform} Transform
  * @typedef {object} Step
  * @property {string} label  what was done, e.g. "move short box"
  * @property {() => Promise<unknown>} undo
@@ -12,6 +15,8 @@ import {byId, showValue} from './elements.js';
  */
 
 const MAX_STEPS = 200;
+/** What has been done to an object, in the past tense. */
+const DONE = {move: 'moved', turn: 'turned', resize: 'resized', 'put back': 'put back'};
 
 /** Two stacks. Event: `change`. */
 export class History extends EventTarget {
@@ -85,13 +90,15 @@ export class History extends EventTarget {
  * @property {number} before  epoch of the scene before it, and before the steps of a drag
  * @property {string} by
  * @property {string} text
+ *
+ * @typedef {{epoch: number, place: Required<Transform> | null}} Before  the scene's epoch, and the object's place
  */
 const MAX_ENTRIES = 1000;
 
 export class ChangeList {
     /** @type {LogEntry[]} */
     entries = [];
-    /** Epochs before the drags that are under way, by object. @type {Map<number, number>} */
+    /** What was before the drags that are under way, by object. @type {Map<number, Before>} */
     #dragged = new Map();
 
     /**
@@ -100,27 +107,35 @@ export class ChangeList {
      */
     constructor(app, nameOf) {
         app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
-            const before = this.#before(change);
+            const object = app.scene?.object(change.moveObject?.object) ?? null;
+            const before = this.#before(change, object);
             if (before === null) {
                 return;
             }
-            const text = describeChange(app, change);
+            const text = describeChange(app, change, before);
             const by = nameOf(change.by);
-            this.entries.push({time: new Date(), epoch: change.epoch, before, by, text});
+            this.entries.push({time: new Date(), epoch: change.epoch, before: before.epoch, by, text});
             this.entries.splice(0, this.entries.length - MAX_ENTRIES);
             showValue('lastChange', `${by}: ${text}`);
+        });
+        app.on('anew', () => {
+            this.entries = [];
+            this.#dragged.clear();
+            showValue('lastChange', '');
         });
     }
 
     /**
      * @param {import('./protocol.js').SceneChanged} change
-     * @returns {number | null} epoch before it; null: a step of a drag that goes on
+     * @param {PlacedObject | null} object  that it moves
+     * @returns {Before | null} null: a step of a drag that goes on
      */
-    #before({epoch, moveObject}) {
+    #before({epoch, moveObject}, object) {
+        const last = {epoch: epoch - 1, place: object?.earlier ?? null};
         if (!moveObject) {
-            return epoch - 1;
+            return last;
         }
-        const before = this.#dragged.get(moveObject.object) ?? epoch - 1;
+        const before = this.#dragged.get(moveObject.object) ?? last;
         if (moveObject.final === false) {
             this.#dragged.set(moveObject.object, before);
             return null;
@@ -133,11 +148,14 @@ export class ChangeList {
 /**
  * @param {RaybundleApp} app
  * @param {import('./protocol.js').SceneChanged} change
+ * @param {Before} before
  * @returns {string} e.g. "moved short box"
  */
-function describeChange({scene}, {moveObject, setLight, setMaterial}) {
+function describeChange({scene}, {moveObject, setLight, setMaterial}, {place}) {
     if (moveObject) {
-        return `moved ${scene?.object(moveObject.object)?.name ?? 'an object'}`;
+        const object = scene?.object(moveObject.object);
+        const deed = object && place ? deedOf(place, object.confirmed, object.original) : 'move';
+        return `${DONE[deed]} ${object?.name ?? 'an object'}`;
     }
     if (setLight) {
         const name = scene?.lights.find(({id}) => id === setLight.light)?.name ?? 'a light';
@@ -171,14 +189,10 @@ export function addHistory(app, history) {
             const now = app.scene?.object(object.id);
             return now ? app.mover.move(now, transform, null) : Promise.resolve();
         };
-        history.add({label: `move ${object.name}`, undo: move(from), redo: move(to)});
+        history.add({label: `${deedOf(from, to, object.original)} ${object.name}`, undo: move(from), redo: move(to)});
     });
-    let scene = '';
+    app.on('anew', () => history.clear());
     app.on('welcome', () => {
         byId('history', HTMLElement).hidden = !app.mayEdit;
-        if (app.scene && app.scene.name !== scene) {
-            scene = app.scene.name;
-            history.clear();
-        }
     });
 }

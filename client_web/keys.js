@@ -16,6 +16,7 @@ import {byId} from './elements.js';
  * @property {(tool: string) => void} setTool
  * @property {() => void} clickMiddle  as a click on the middle of the picture
  * @property {() => boolean} cancel  ends what is going on; whether there was anything
+ * @property {() => void} showKeys  the list of them
  * @property {() => void} leave  the focus goes from a control back to the picture
  */
 
@@ -39,6 +40,7 @@ const COMMANDS = new Map([
     ['KeyM', ({walking}) => walking.switchMode()],
     ['KeyL', ({walking}) => walking.lookWithMouse()],
     ['KeyH', ({walking}) => walking.stand()],
+    ['KeyF', ({app}) => app.frameSelected()],
     ['KeyV', ({display}) => display.nextMode()],
     ['KeyG', ({gizmo}) => gizmo.setMode('move')],
     ['KeyR', ({gizmo}) => gizmo.setMode('turn')],
@@ -89,6 +91,10 @@ function press(targets, event) {
         if (!targets.cancel()) {
             app.select(null);
         }
+        return true;
+    }
+    if (event.key === '?') {
+        targets.showKeys();
         return true;
     }
     if (event.key === '+' || event.key === '-') {

@@ -3,7 +3,7 @@
 // time is on its way, and the newest follows it.
 
 import {blackBody, fromHex, temperatureOf, toHex} from './colour.js';
-import {byId} from './elements.js';
+import {LiveField, byId, fieldNote} from './elements.js';
 import {ServerError} from './protocol.js';
 import {sentence} from './status.js';
 import {threeDigits} from './units.js';
@@ -36,6 +36,19 @@ export function dimmerPosition(share) {
 
 /** @type {(position: number) => number} */
 export const dimmerShare = (position) => DIMMEST * (BRIGHTEST / DIMMEST) ** position;
+
+/**
+ * What is wrong with an intensity that somebody has typed.
+ *
+ * @param {number} value  not a number: nothing, or no number
+ * @returns {string} empty: nothing
+ */
+export function intensityProblem(value) {
+    if (!Number.isFinite(value)) {
+        return 'That is no number.';
+    }
+    return value < 0 ? 'A light cannot have less than 0.' : '';
+}
 
 /** Sends the newest of many changes, one at a time. */
 export class NewestOnly {
@@ -105,6 +118,9 @@ export class LightPanel {
     constructor(app, history) {
         this.app = app;
         this.history = history;
+        app.on('anew', () => {
+            this.#scene = '';
+        });
         app.on('welcome', () => this.#showScene());
         app.on('sceneChanged', () => this.#refresh.forEach((show) => show()));
     }
@@ -157,6 +173,8 @@ export class LightPanel {
         const unitText = document.createElement('span');
         unitText.className = 'unit';
         unitText.textContent = unit;
+        const fields = {dimmer: new LiveField(dimmer), value: new LiveField(value), kelvin: new LiveField(kelvin)};
+        const shown = () => String(Number(light.intensity.toPrecision(4)));
         const loaded = () => this.#loaded.get(light.id) || 1;
         const change = this.#changes('setLight', {light: light.id}, name, () => {
             const {intensity, on: lit, colour} = light;
@@ -166,9 +184,19 @@ export class LightPanel {
         const dimmed = () => ({intensity: loaded() * dimmerShare(Number(dimmer.value))});
         dimmer.addEventListener('input', () => change.going(dimmed()));
         dimmer.addEventListener('change', () => change.done(dimmed()));
+        const note = document.createElement('p');
+        note.className = 'field-note';
+        note.setAttribute('role', 'status');
+        note.hidden = true;
         value.addEventListener('change', () => {
-            if (value.valueAsNumber >= 0) {
-                change.done({intensity: value.valueAsNumber});
+            const wrong = intensityProblem(value.valueAsNumber);
+            fieldNote(note, wrong && `${wrong} It stays at ${shown()} ${unit}.`, value);
+            if (wrong) {
+                fields.value.reset();
+            } else {
+                change.done({intensity: value.valueAsNumber}, (why) => {
+                    fieldNote(note, `${why} It stays at ${shown()} ${unit}.`, value);
+                });
             }
         });
         const tinted = () => ({colour: blackBody(Number(kelvin.value))});
@@ -176,17 +204,11 @@ export class LightPanel {
         kelvin.addEventListener('change', () => change.done(tinted()));
         this.#refresh.push(() => {
             on.checked = light.on;
-            if (document.activeElement !== dimmer) {
-                dimmer.value = String(dimmerPosition(light.intensity / loaded()));
-            }
+            fields.dimmer.show(String(dimmerPosition(light.intensity / loaded())));
             dimmer.setAttribute('aria-valuetext', `${threeDigits(light.intensity)} ${unit}`);
-            if (document.activeElement !== value) {
-                value.value = String(Number(light.intensity.toPrecision(4)));
-            }
+            fields.value.show(shown());
             const temperature = temperatureOf(light.colour);
-            if (document.activeElement !== kelvin) {
-                kelvin.value = String(temperature);
-            }
+            fields.kelvin.show(String(temperature));
             kelvinText.textContent = `${temperature} K`;
             kelvin.setAttribute('aria-valuetext', `${temperature} kelvin`);
         });
@@ -199,7 +221,7 @@ export class LightPanel {
         lit.append(on);
         head.append(title, lit);
         const card = document.createElement('li');
-        card.append(head, field('Dimmer', dimmer, value, unitText), field('Colour', kelvin, kelvinText));
+        card.append(head, field('Dimmer', dimmer, value, unitText), note, field('Colour', kelvin, kelvinText));
         return card;
     }
 
@@ -209,6 +231,7 @@ export class LightPanel {
         const colour = input('color', {'aria-label': `${name}, colour`});
         const attributes = {min: '0', max: '1', step: '0.01', 'aria-label': `${name}, roughness`};
         const roughness = input('range', attributes);
+        const roughnessField = new LiveField(roughness);
         const known = document.createElement('output');
         const change = this.#changes('setMaterial', {material: material.id}, name, () => {
             const {baseColour, roughness: rough} = material;
@@ -222,9 +245,7 @@ export class LightPanel {
         roughness.addEventListener('change', () => change.done(rough()));
         this.#refresh.push(() => {
             colour.value = toHex(material.baseColour ?? {x: 0.5, y: 0.5, z: 0.5});
-            if (document.activeElement !== roughness) {
-                roughness.value = String(material.roughness ?? 1);
-            }
+            roughnessField.show(String(material.roughness ?? 1));
             known.textContent = material.roughness?.toFixed(2) ?? '–';
             // What is not told cannot be changed with sense.
             colour.hidden = material.baseColour === undefined;
@@ -251,27 +272,36 @@ export class LightPanel {
     #changes(kind, subject, name, state) {
         /** What it was when the user took hold of it. @type {object | null} */
         let before = null;
-        const send = async (/** @type {object} */ values) => {
+        /**
+         * @param {object} values
+         * @param {(why: string) => void} [refused]
+         */
+        const send = async (values, refused) => {
             try {
                 await this.app.client.request({[kind]: {...subject, ...values}}).answer;
                 return true;
             } catch (error) {
-                this.#refused(kind, error);
+                this.#refused(kind, error, refused);
                 return false;
             }
         };
-        const newest = new NewestOnly(send);
+        const newest = new NewestOnly((values) => send(values));
         return {
             /** @param {object} values  while a slider moves */
             going: (values) => {
                 before ??= state();
                 newest.push(values);
             },
-            /** @param {object} values  when it is let go */
-            done: async (values) => {
+            /**
+             * When it is let go.
+             *
+             * @param {object} values
+             * @param {(why: string) => void} [refused]  says so, instead of a notice
+             */
+            done: async (values, refused) => {
                 const from = before ?? state();
                 before = null;
-                if (await send(values)) {
+                if (await send(values, refused)) {
                     this.history.add({
                         label: `set ${name}`,
                         undo: () => send(from),
@@ -285,8 +315,9 @@ export class LightPanel {
     /**
      * @param {'setLight' | 'setMaterial'} kind
      * @param {unknown} error
+     * @param {(why: string) => void} say
      */
-    #refused(kind, error) {
+    #refused(kind, error, say = (why) => this.app.status.notify(why, 'problem')) {
         this.#refresh.forEach((show) => show());
         if (!(error instanceof ServerError)) {
             return;
@@ -300,7 +331,7 @@ export class LightPanel {
                 control.disabled = true;
             }
         } else {
-            this.app.status.notify(sentence(error.message), 'problem');
+            say(sentence(error.message));
         }
     }
 }

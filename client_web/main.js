@@ -5,7 +5,7 @@ import {RaybundleApp} from './app.js';
 import {Compare} from './compare.js';
 import {DisplayPanel} from './display_panel.js';
 import {addEffects} from './effects.js';
-import {byId, fileName, returnFocus, saveFile} from './elements.js';
+import {announce, byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
 import {GridPanel} from './grid_panel.js';
@@ -67,7 +67,7 @@ new MeasuredStrip(app, measuring, () => {
     showTab('tab-measure');
     byId('tab-measure', HTMLElement).focus({preventScroll: true});
 });
-new ScenePanel(app, grabbing);
+new ScenePanel(app, grabbing, history);
 new SceneFiles(app);
 new SnapshotPanel(app);
 new LightPanel(app, history);
@@ -77,6 +77,11 @@ new FirstHint(app);
 new Lost(app, display);
 addHistory(app, history);
 addEffects(app);
+
+/** What was selected before each of the last two clicks. @type {(number | null)[]} */
+let selectedBefore = [];
+/** Of clicks that select, the newest holds. */
+let clicks = 0;
 
 /**
  * What a click on the picture does, by tool.
@@ -89,8 +94,27 @@ async function clickAt(at) {
     } else if (app.tool === 'pin') {
         await pins.askAt(at);
     } else {
+        selectedBefore = [...selectedBefore.slice(-1), app.selected?.id ?? null];
+        const click = ++clicks;
         const object = await app.pickAt(at.x, at.y);
-        app.select(object?.movable ? object.id : null);
+        if (click === clicks) {
+            app.select(object?.movable ? object.id : null);
+        }
+    }
+}
+
+/**
+ * A double click goes there; what its two clicks have selected is as it was.
+ *
+ * @param {import('./pointer_control.js').Point} at
+ */
+function doubleClickAt(at) {
+    if (app.tool === 'select') {
+        ++clicks;
+        if (selectedBefore.length > 0 && (app.selected?.id ?? null) !== selectedBefore[0]) {
+            app.select(selectedBefore[0]);
+        }
+        walking.goTo(at);
     }
 }
 
@@ -171,6 +195,18 @@ function setPanel(open) {
     byId('panel-toggle', HTMLElement).setAttribute('aria-expanded', String(open));
 }
 
+/** Shows the list of keys, or closes it again. */
+function showKeys() {
+    const help = byId('help', HTMLDetailsElement);
+    const seen = help.open && help.checkVisibility();
+    help.open = !seen;
+    if (!seen) {
+        setPanel(true);
+        help.scrollIntoView({block: 'start'});
+        announce('The keys are listed at the end of the panel.');
+    }
+}
+
 /** On a phone the panel, which takes half of the picture, closes too. */
 function leave() {
     const panel = byId('panel', HTMLElement);
@@ -246,9 +282,7 @@ const pointers = new PointerControl(app.picture.element, {
 });
 app.picture.element.addEventListener('dblclick', (event) => {
     const box = app.picture.element.getBoundingClientRect();
-    if (app.tool === 'select') {
-        walking.goTo({x: event.clientX - box.left, y: event.clientY - box.top});
-    }
+    doubleClickAt({x: event.clientX - box.left, y: event.clientY - box.top});
 });
 addButtons();
 addKeys({
@@ -264,6 +298,7 @@ addKeys({
         clickAt({x: clientWidth / 2, y: clientHeight / 2});
     },
     cancel: () => pins.cancel() || gizmo.cancel() || pointers.cancel() || compare.close(),
+    showKeys,
     leave,
 });
 restoreShared();

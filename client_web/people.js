@@ -49,6 +49,19 @@ const initials = (name) => {
 };
 
 /**
+ * A few letters for each that tell all apart: initials, or the number of who has no name or the same ones.
+ *
+ * @param {{viewer: number, name: string}[]} viewers
+ * @returns {string[]}
+ */
+export function avatarTexts(viewers) {
+    const letters = viewers.map(({viewer, name}) => (name.trim() ? initials(name) : String(viewer)));
+    return letters.map((text, i) =>
+        letters.indexOf(text) === letters.lastIndexOf(text) ? text : String(viewers[i].viewer),
+    );
+}
+
+/**
  * Corners of a pyramid that shows where a camera stands and looks.
  *
  * @param {Viewer} viewer
@@ -227,12 +240,13 @@ export class People {
             return row;
         });
         replaceRows(byId('people', HTMLElement), rows);
-        const avatars = others.slice(0, 5).map((viewer) => {
+        const texts = avatarTexts(others);
+        const avatars = others.slice(0, 5).map((viewer, i) => {
             const item = document.createElement('li');
             const on = this.following === viewer.viewer;
             const name = nameOf(viewer);
             const label = `${on ? 'Stop following' : 'Follow'} ${name}`;
-            const button = smallButton(initials(name), label, () =>
+            const button = smallButton(texts[i], label, () =>
                 this.follow(on ? 0 : viewer.viewer),
             );
             button.style.setProperty('--person', colourOf(viewer.viewer));
@@ -261,7 +275,7 @@ export class People {
         const {view} = this.app;
         this.app.status.notify(`${name}: look here.`, 'notice', {
             label: 'Look',
-            run: () => this.app.camera.flyTo({...view, target: position}),
+            run: () => this.app.camera.flyAround({...view, target: position}),
         });
     }
 

@@ -69,6 +69,8 @@ export class Picture extends EventTarget {
     #size = 'standard';
     /** @type {HTMLCanvasElement} */
     #backdrop;
+    /** @type {CanvasRenderingContext2D | null} */
+    #small;
     /** Draws pictures that have depths, where the browser can. @type {DepthWarp | null} */
     #warp = null;
     /** Of the picture on screen. @type {Depths | null} */
@@ -101,6 +103,8 @@ export class Picture extends EventTarget {
         this.#backdrop = document.createElement('canvas');
         this.#backdrop.className = 'backdrop';
         this.#backdrop.width = this.#backdrop.height = BACKDROP_SIDE;
+        // It is read again and again, to know how bright the picture is.
+        this.#small = this.#backdrop.getContext('2d', {alpha: false, willReadFrequently: true});
         element.prepend(this.#backdrop);
         this.#addWarp();
         new ResizeObserver(() => this.#resized()).observe(element);
@@ -149,8 +153,7 @@ export class Picture extends EventTarget {
 
     /** Mean of the pixels of the frame on screen, 0..255 as encoded. */
     get brightness() {
-        const small = this.#backdrop.getContext('2d', {alpha: false});
-        const pixels = small?.getImageData(0, 0, BACKDROP_SIDE, BACKDROP_SIDE).data ?? [];
+        const pixels = this.#small?.getImageData(0, 0, BACKDROP_SIDE, BACKDROP_SIDE).data ?? [];
         const colours = [...pixels].filter((_, i) => i % 4 !== 3);
         return colours.reduce((sum, value) => sum + value, 0) / Math.max(colours.length, 1);
     }
@@ -168,8 +171,7 @@ export class Picture extends EventTarget {
             this.canvas.height = image.height;
         }
         this.context.drawImage(image, 0, 0);
-        const small = this.#backdrop.getContext('2d', {alpha: false});
-        small?.drawImage(image, 0, 0, BACKDROP_SIDE, BACKDROP_SIDE);
+        this.#small?.drawImage(image, 0, 0, BACKDROP_SIDE, BACKDROP_SIDE);
         this.#depths = depths;
         this.#loaded = false;
         this.element.classList.add('has-picture');

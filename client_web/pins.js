@@ -129,7 +129,7 @@ export class Pins {
             y: target.y + offset.y * nearer,
             z: target.z + offset.z * nearer,
         };
-        this.app.camera.flyTo({...view, eye, target});
+        this.app.camera.flyAround({...view, eye, target});
     }
 
     /** @param {import('./protocol.js').ProbeResult} probe */

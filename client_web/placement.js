@@ -157,3 +157,33 @@ export function turnBetween(from, to) {
     const angle = 2 * Math.atan2(q.y, q.w);
     return Math.atan2(Math.sin(angle), Math.cos(angle));
 }
+
+/** Places that are the same but for rounding. */
+const SAME = {metres: 1e-4, radians: 1e-4, share: 1e-4};
+
+/**
+ * What somebody has done to an object.
+ *
+ * @param {Required<Transform>} from
+ * @param {Required<Transform>} to
+ * @param {Required<Transform>} original  as it was loaded
+ * @returns {'move' | 'turn' | 'resize' | 'put back'}
+ */
+export function deedOf(from, to, original) {
+    const turned = (/** @type {Required<Transform>} */ a, /** @type {Required<Transform>} */ b) => {
+        const {rotation: p} = a;
+        const {rotation: q} = b;
+        // The sign of a quaternion means nothing.
+        return Math.abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < Math.cos(SAME.radians / 2);
+    };
+    const resized = (/** @type {Required<Transform>} */ a, /** @type {Required<Transform>} */ b) =>
+        length(sub(a.scale, b.scale)) > SAME.share * length(a.scale);
+    const shifted = length(sub(to.translation, original.translation)) > SAME.metres;
+    if (!shifted && !turned(to, original) && !resized(to, original)) {
+        return 'put back';
+    }
+    if (resized(from, to)) {
+        return 'resize';
+    }
+    return turned(from, to) ? 'turn' : 'move';
+}

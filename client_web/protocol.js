@@ -196,6 +196,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
 
 /**
  * @typedef {{name: string, bytes: number, changedAtMs: number}} SceneFile
+ * @typedef {{scenes: SceneFile[], current: string, maxUploadBytes: number}} SceneList
  * @typedef {object} SceneOpening
  * @property {string} name
  * @property {number} by  viewer
@@ -219,7 +220,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{by: number, position: Vec3}} [pointed]
  * @property {{viewers: Viewer[]}} [presence]
  * @property {ProbeGridResult} [probeGridResult]
- * @property {{scenes: SceneFile[], current: string, maxUploadBytes: number}} [sceneList]
+ * @property {SceneList} [sceneList]
  * @property {SceneOpening} [sceneOpening]
  * @property {{effects: Effect[]}} [effectCosts]
  * @property {{url: string, relativeError: number, epoch: number, exposure: number}} [snapshotReady]

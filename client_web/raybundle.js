@@ -120,7 +120,7 @@ export class RaybundleView extends HTMLElement {
         client.addEventListener('welcome', (event) => {
             const welcome = /** @type {Welcome} */ (/** @type {CustomEvent} */ (event).detail);
             picture.limits = welcome.limits;
-            control.fit(welcome.scene.bounds);
+            control.fit(welcome.scene);
             note.textContent = drawn ? '' : 'Drawing the first picture';
             link.reset();
             askForDepths(client, picture);

@@ -14,8 +14,8 @@ import {byId, listRow, replaceRows} from './elements.js';
 const STAGES = /** @type {Record<string, string>} */ ({
     READING: 'is being read',
     PREPARING: 'is being cut into patches',
-    COMPILING: 'is about to be shown',
-    READY: 'is shown',
+    COMPILING: 'is being made ready',
+    READY: 'is about to be shown',
 });
 
 /**
@@ -46,6 +46,30 @@ const STEPS = /** @type {Record<string, string>} */ ({
 export function progressText({name, byName, stage}, mine) {
     const who = mine ? 'You open' : `${byName || 'Somebody'} opens`;
     return STEPS[stage] ? `${who} ${name}: ${STEPS[stage]}` : '';
+}
+
+/**
+ * What the list of scenes says of one.
+ *
+ * @param {string} name
+ * @param {string} current  scene that is shown
+ * @param {string} coming  scene that somebody opens; empty: none
+ * @returns {string} empty: nothing
+ */
+export function listTag(name, current, coming) {
+    if (name === coming) {
+        return 'being opened';
+    }
+    return name === current ? (coming ? 'still shown' : 'shown') : '';
+}
+
+/**
+ * @param {string} name  of a scene
+ * @param {number} others  who are here
+ */
+export function openingQuestion(name, others) {
+    const who = others === 1 ? 'somebody else is' : `${others} others are`;
+    return `Open ${name}? It replaces the scene for everybody, and ${who} here.`;
 }
 
 /**
@@ -80,12 +104,31 @@ export class SceneFiles {
     #chooser = byId('scene-file', HTMLInputElement);
     #add = byId('add-scene', HTMLButtonElement);
     #maxBytes = 0;
+    /** What the server said last of its folder. @type {import('./protocol.js').SceneList | null} */
+    #known = null;
+    /** Scene that somebody opens; empty: none. */
+    #coming = '';
+    /** How many others are here. */
+    #others = 0;
+    /** Scene that the user is asked about. */
+    #asked = '';
+    #question = byId('scene-file-question', HTMLElement);
 
     /** @param {RaybundleApp} app */
     constructor(app) {
         this.app = app;
-        app.on('welcome', () => this.#refresh());
-        app.on('message', ({sceneOpening}) => sceneOpening && this.#opening(sceneOpening));
+        app.on('welcome', () => this.#welcomed());
+        app.on('message', (/** @type {import('./protocol.js').ServerMessage} */ {sceneOpening, presence}) => {
+            if (sceneOpening) {
+                this.#opening(sceneOpening);
+            }
+            if (presence) {
+                const own = app.client.welcome?.viewer;
+                this.#others = presence.viewers.filter(({viewer}) => viewer !== own).length;
+            }
+        });
+        byId('scene-file-cancel', HTMLElement).addEventListener('click', () => this.#ask(''));
+        byId('scene-file-open', HTMLElement).addEventListener('click', () => this.#open(this.#asked));
         this.#add.addEventListener('click', () => this.#chooser.click());
         this.#chooser.addEventListener('change', () => {
             this.#upload(this.#chooser.files?.[0]);
@@ -145,20 +188,69 @@ export class SceneFiles {
         }
         this.#maxBytes = list.maxUploadBytes;
         this.#add.hidden = this.#maxBytes === 0;
-        const rows = list.scenes.map(({name, bytes}) => {
-            const shown = name === list.current;
-            const row = listRow(name, () => this.#open(name), shown ? 'shown' : sizeText(bytes));
-            row.firstElementChild?.setAttribute('aria-pressed', String(shown));
+        this.#known = list;
+        this.#showList();
+    }
+
+    #showList() {
+        const {scenes = [], current = ''} = this.#known ?? {};
+        const rows = scenes.map(({name, bytes}) => {
+            const tag = listTag(name, current, this.#coming) || sizeText(bytes);
+            const row = listRow(name, () => this.#choose(name), tag);
+            row.firstElementChild?.setAttribute('aria-pressed', String(name === current));
             return row;
         });
         replaceRows(this.#list, rows);
         byId('scene-files-none', HTMLElement).hidden = rows.length > 0;
     }
 
+    /** A connection begins anew, and what was coming is there. */
+    #welcomed() {
+        if (this.#coming) {
+            this.#say('');
+        }
+        this.#coming = '';
+        this.#ask('');
+        this.#refresh();
+    }
+
+    /** @param {string} name */
+    #choose(name) {
+        if (name === this.#known?.current) {
+            this.#ask('');
+            this.#say(`${name} is shown already.`);
+        } else if (this.#others > 0) {
+            this.#ask(name);
+        } else {
+            this.#open(name);
+        }
+    }
+
+    /**
+     * Asks whether to open a scene, since everybody will see it.
+     *
+     * @param {string} name  empty: not any more
+     */
+    #ask(name) {
+        this.#asked = name;
+        this.#question.hidden = name === '';
+        if (name) {
+            this.#say('');
+            byId('scene-file-asked', HTMLElement).textContent = openingQuestion(name, this.#others);
+            byId('scene-file-open', HTMLElement).focus();
+            this.#question.scrollIntoView({block: 'nearest'});
+        }
+    }
+
     /** @param {string} name */
     async #open(name) {
-        this.#say(`${name} is being opened.`);
-        await this.app.ask({openScene: {name}});
+        this.#ask('');
+        const text = `${name} is being opened.`;
+        this.#say(text);
+        const opened = await this.app.ask({openScene: {name}});
+        if (!opened && this.#state.textContent === text) {
+            this.#say('');
+        }
     }
 
     /** @param {SceneOpening} opening */
@@ -166,6 +258,8 @@ export class SceneFiles {
         const text = openingText(opening);
         const mine = opening.by === this.app.client.welcome?.viewer;
         this.#say(text, opening.stage === 'REJECTED');
+        this.#coming = opening.stage === 'REJECTED' ? '' : opening.name;
+        this.#showList();
         const progress = progressText(opening, mine);
         this.app.status.showOpening(progress ? opening.name : '', progress);
         if (!mine && opening.stage === 'REJECTED') {

@@ -61,6 +61,14 @@ export function shifted(transform, shift, worldFromParent = IDENTITY) {
     return {...complete, translation: add(complete.translation, inParent)};
 }
 
+/**
+ * For JSON: numbers as far as 32 bits carry them.
+ *
+ * @param {string} _
+ * @param {unknown} value
+ */
+const roundedNumbers = (_, value) => (typeof value === 'number' ? Number(value.toPrecision(5)) : value);
+
 /** One object, with its place now and its place as the server last told. */
 export class PlacedObject {
     /** @type {Bounds} */
@@ -81,6 +89,8 @@ export class PlacedObject {
         this.transform = completeTransform(transform);
         /** Local transform that the server has confirmed. */
         this.confirmed = this.transform;
+        /** The one that it has confirmed before that. */
+        this.earlier = this.transform;
         /** World bounds at `transform`. */
         this.bounds = bounds;
     }
@@ -98,6 +108,7 @@ export class PlacedObject {
 
     /** @param {Transform} transform */
     confirm(transform) {
+        this.earlier = this.confirmed;
         this.confirmed = completeTransform(transform);
     }
 
@@ -194,6 +205,25 @@ export class SceneModel {
      */
     object(id) {
         return this.objects.find((object) => object.id === id) ?? null;
+    }
+
+    /**
+     * Whether this scene has come of an earlier one, so that its changes are still known here: on the same run of the
+     * server by more changes or none; of another run, which may have a journal, if it is just the same.
+     *
+     * @param {SceneModel} before
+     * @param {boolean} sameRun
+     */
+    goesOnFrom(before, sameRun) {
+        return sameRun
+            ? this.epoch >= before.epoch
+            : this.epoch === before.epoch && this.#state === before.#state;
+    }
+
+    /** All that can be changed, as the server has told it. */
+    get #state() {
+        const objects = this.objects.map(({id, confirmed}) => [id, confirmed]);
+        return JSON.stringify([objects, this.lights, this.materials], roundedNumbers);
     }
 
     /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras, objects, and the selected object with its place in numbers.
 
-import {announce, byId, listRow, showValue} from './elements.js';
+import {LiveField, announce, byId, fieldNote, listRow, showValue} from './elements.js';
 import {basePoint, limitedSize, resizedAbout, turnBetween, turnedAbout} from './placement.js';
 import {shifted} from './scene_model.js';
 import {centre, completeTransform, sub} from './vector.js';
@@ -10,6 +10,8 @@ import {centre, completeTransform, sub} from './vector.js';
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./scene_model.js').SceneModel} SceneModel
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
+ * @typedef {import('./history.js').History} History
+ * @typedef {import('./protocol.js').Bounds} Bounds
  */
 
 /** Share of the size as loaded. */
@@ -60,19 +62,52 @@ export function placedAt(object, name, value) {
     return shifted(object.transform, sub(wanted, pivot), parent);
 }
 
+/**
+ * What is wrong with a number that somebody has typed.
+ *
+ * @param {string} name  of placeOf()
+ * @param {number} value  not a number: nothing, or no number
+ * @returns {string} empty: nothing
+ */
+export function placeProblem(name, value) {
+    if (!Number.isFinite(value)) {
+        return 'That is no number: nothing has been changed.';
+    }
+    return name === 'size' && value <= 0 ? 'A size is more than 0 %: nothing has been changed.' : '';
+}
+
+/**
+ * Whether nothing of an object is in the scene any more.
+ *
+ * @param {Bounds} object
+ * @param {Bounds} scene
+ */
+export function isOutside(object, scene) {
+    return /** @type {const} */ (['x', 'y', 'z']).some(
+        (axis) => object.min[axis] > scene.max[axis] || object.max[axis] < scene.min[axis],
+    );
+}
+
 export class ScenePanel {
     #cameras = byId('cameras', HTMLUListElement);
     #objects = byId('objects', HTMLUListElement);
     #fixed = byId('fixed-objects', HTMLUListElement);
     #selection = byId('selection', HTMLElement);
     #placement = byId('placement', HTMLElement);
+    #note = byId('place-note', HTMLElement);
+    /** Object whose place the fields show. @type {number | null} */
+    #shown = null;
+    /** By name of placeOf(). @type {Map<string, LiveField>} */
+    #fields = new Map();
 
     /**
      * @param {RaybundleApp} app
      * @param {import('./grabbing.js').Grabbing} grabbing
+     * @param {History} history
      */
-    constructor(app, grabbing) {
+    constructor(app, grabbing, history) {
         this.app = app;
+        this.history = history;
         this.#addButtons(grabbing);
         app.on('welcome', () => this.#showScene());
         app.on('selection', () => this.#showSelection());
@@ -94,15 +129,51 @@ export class ScenePanel {
             }
         });
         for (const input of this.#inputs()) {
+            const name = input.dataset.place ?? '';
+            const field = new LiveField(input);
+            this.#fields.set(name, field);
             input.addEventListener('change', () => {
-                const value = input.valueAsNumber;
-                if (app.selected && Number.isFinite(value)) {
-                    const name = input.dataset.place ?? '';
-                    app.mover.move(app.selected, placedAt(app.selected, name, value));
+                const wrong = placeProblem(name, input.valueAsNumber);
+                fieldNote(this.#note, wrong, input);
+                if (wrong || !app.selected) {
+                    field.reset();
                 } else {
-                    this.#showPlace();
+                    this.#place(app.selected, name, input);
                 }
             });
+        }
+    }
+
+    /**
+     * Puts an object where a number says, and says what has become of that.
+     *
+     * @param {PlacedObject} object
+     * @param {string} name  of placeOf()
+     * @param {HTMLInputElement} input
+     */
+    async #place(object, name, input) {
+        const before = this.history.last;
+        const wanted = input.valueAsNumber;
+        await this.app.mover.move(object, placedAt(object, name, wanted));
+        this.#showPlace();
+        const step = this.history.last;
+        if (this.app.selected !== object || step === before) {
+            return;  // refused, as a notice has told
+        }
+        const {scene} = this.app;
+        const action = {
+            label: 'Undo',
+            run: () => {
+                if (this.history.last === step) {
+                    this.history.undo();
+                }
+            },
+        };
+        if (scene && isOutside(object.bounds, scene.bounds)) {
+            fieldNote(this.#note, `${object.name} is outside the scene now.`, input, action);
+        } else if (Math.abs(placeOf(object)[name] - wanted) > Math.max(0.01 * Math.abs(wanted), 0.01)) {
+            const limit = name === 'size' ? 'A size changes by a factor of 20 at most at once.' : '';
+            fieldNote(this.#note, limit, input);
         }
     }
 
@@ -142,6 +213,11 @@ export class ScenePanel {
                 row.querySelector('button')?.setAttribute('aria-pressed', String(selected));
             }
         }
+        if (this.#shown !== object?.id) {
+            this.#shown = object?.id ?? null;
+            this.#fields.forEach((field) => field.reset());
+            fieldNote(this.#note, '');
+        }
         this.#selection.hidden = object === null;
         byId('selection-none', HTMLElement).hidden = object !== null;
         if (!object) {
@@ -166,9 +242,11 @@ export class ScenePanel {
             const name = input.dataset.place ?? '';
             const digits = name === 'turn' || name === 'size' ? 0 : 2;
             const text = place[name].toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
-            if (document.activeElement !== input || this.app.mover.held !== null) {
-                input.value = text;
+            const field = this.#fields.get(name);
+            if (this.app.mover.held === object.id) {
+                field?.reset();  // what is in the hand shows where it is, whatever has been typed
             }
+            field?.show(text);
         }
     }
 }

@@ -182,11 +182,12 @@ export class Status {
      * @param {string} text
      * @param {'notice' | 'problem'} kind
      * @param {{label: string, run: () => void} | null} action  offered as a button
+     * @returns {() => void} takes it away, where it is no longer true
      */
     notify(text, kind = 'notice', action = null) {
-        const same = [...this.#notices.children].some((n) => n.firstChild?.textContent === text);
+        const same = [...this.#notices.children].find((n) => n.firstChild?.textContent === text);
         if (same) {
-            return;
+            return () => same.remove();
         }
         const notice = document.createElement('div');
         notice.className = `notice ${kind}`;
@@ -205,10 +206,10 @@ export class Status {
             notice.append(button);
             return button;
         };
-        if (action) {
-            addButton(action.label, action.run);
-        }
         addButton('×', () => {}).setAttribute('aria-label', 'Dismiss');
+        if (action) {
+            addButton(action.label, action.run).className = 'notice-action';
+        }
         this.#notices.append(notice);
         while (this.#notices.children.length > MAX_NOTICES) {
             this.#notices.firstElementChild?.remove();
@@ -221,6 +222,7 @@ export class Status {
             }
         };
         setTimeout(expire, NOTICE_MS);
+        return () => notice.remove();
     }
 
     #tick() {

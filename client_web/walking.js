@@ -90,7 +90,12 @@ export class Walking {
         const probe = await this.app.probeAt(at);
         if (probe?.position && probe.normal) {
             const walking = this.app.camera.mode === 'walk';
-            this.app.camera.flyTo(goTo(this.app.view, probe.position, probe.normal, walking));
+            const there = goTo(this.app.view, probe.position, probe.normal, walking);
+            if (walking) {
+                this.app.camera.flyTo(there);
+            } else {
+                this.app.camera.flyAround(there);
+            }
         }
     }
 
@@ -186,6 +191,22 @@ export class Walking {
     }
 }
 
+/**
+ * How to begin.
+ *
+ * @param {boolean} touch
+ * @param {boolean} circles  a drag circles around the scene; otherwise it turns the head
+ * @param {boolean} movable  there is something that this user can move
+ */
+export function hintText(touch, circles, movable) {
+    const parts = [
+        circles ? 'Drag to circle around' : 'Drag to look around',
+        touch ? 'double-tap to go there' : 'W A S D to walk',
+        ...(movable ? [`${touch ? 'tap' : 'click'} an object to move it`] : []),
+    ];
+    return parts.join(' · ');
+}
+
 /** Tells a newcomer how to move, until he has. */
 export class FirstHint {
     #pill = byId('hint', HTMLElement);
@@ -193,9 +214,6 @@ export class FirstHint {
     /** @param {RaybundleApp} app */
     constructor(app) {
         const touch = matchMedia('(pointer: coarse)').matches;
-        const text = touch
-            ? 'Drag to look around · double-tap to go there · tap an object to move it'
-            : 'Drag to look around · W A S D to walk · click an object to move it';
         if (remembered('moved')) {
             return;
         }
@@ -203,7 +221,8 @@ export class FirstHint {
         app.on('picture', () => {
             if (first) {
                 first = false;
-                this.#pill.textContent = text;
+                const movable = app.mayEdit && app.scene?.objects.some((object) => object.movable);
+                this.#pill.textContent = hintText(touch, app.camera.circles, Boolean(movable));
                 this.#pill.hidden = false;
                 document.addEventListener('pointerup', () => this.#done());
                 document.addEventListener('keyup', () => this.#done());

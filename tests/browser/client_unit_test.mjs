@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import {describe, it} from 'node:test';
 
 import * as camera from '../../client_web/camera.js';
-import {motionOf, walkingSpeed} from '../../client_web/camera_control.js';
+import {CameraControl, motionOf, walkingSpeed} from '../../client_web/camera_control.js';
 import {carried, grip, keptInside} from '../../client_web/drag.js';
 import {layOut} from '../../client_web/error_plot.js';
 import * as format from '../../client_web/format.js';
@@ -134,6 +134,113 @@ describe('camera', () => {
         assert.equal(motionOf(['ArrowUp'], 'orbit').tilt, -1);
         assert.equal(motionOf(['KeyX'], 'orbit').forwards, 0);
         assert.equal(walkingSpeed({min: vec3(0, 0, 0), max: vec3(900, 9, 900)}), 2);
+    });
+});
+
+describe('a drag in Orbit', () => {
+    const HOUSE = {min: vec3(0, 0, 0), max: vec3(20, 6, 12)};
+    const STUDY = {min: vec3(4, 0, 4), max: vec3(9, 3, 8)};
+    const SHELF = {min: vec3(5, 0, 5), max: vec3(6, 2, 7)};
+    const INSIDE = {...FRONT, eye: vec3(8, 1.6, 7), target: vec3(5, 1, 5)};
+    const scene = {
+        bounds: HOUSE,
+        objects: [
+            {movable: false, bounds: STUDY},
+            {movable: true, bounds: SHELF},
+        ],
+    };
+    /** A camera that is where it flies to at once. */
+    const controlAt = (view) => {
+        globalThis.matchMedia = () => ({matches: true});
+        const control = new CameraControl(view);
+        control.fit(scene);
+        return control;
+    };
+    const isIn = ({min, max}, {x, y, z}) =>
+        x > min.x && x < max.x && y > min.y && y < max.y && z > min.z && z < max.z;
+
+    it('knows the room that the eye is in, and furniture from rooms', () => {
+        assert.equal(camera.roomAround(INSIDE.eye, HOUSE, [STUDY, SHELF]), STUDY);
+        assert.equal(camera.roomAround(vec3(5.5, 1, 6), HOUSE, [STUDY, SHELF]), STUDY);
+        assert.equal(camera.roomAround(vec3(15, 2, 6), HOUSE, [STUDY]), HOUSE);
+        assert.equal(camera.roomAround(vec3(15, 2, -6), HOUSE, [STUDY]), null);
+    });
+
+    it('circles around what is looked at from outside', () => {
+        const control = controlAt({...FRONT, eye: vec3(10, 4, -20), target: vec3(10, 2, 6)});
+        assert.ok(control.circles);
+        control.turn(0.3, 0.1);
+        near(control.view.target, vec3(10, 2, 6));
+        close(vector.length(vector.sub(control.view.eye, control.view.target)), Math.hypot(2, 26));
+        // Also once the eye has come within the scene's bounds, and out again.
+        control.turn(-0.3, 0.2);
+        control.turn(0, -0.3);
+        near(control.view.target, vec3(10, 2, 6));
+    });
+
+    it('looks around from inside a room: the eye stays', () => {
+        const control = controlAt(INSIDE);
+        assert.ok(!control.circles);
+        for (const [x, y] of [[0.5, 0], [-2, 0.3], [0, -1]]) {
+            control.turn(x, y);
+            near(control.view.eye, INSIDE.eye);
+        }
+        control.set(INSIDE);
+        control.turn(0.1, 0);
+        const {heading} = camera.angles(INSIDE);
+        close(camera.angles(control.view).heading - heading, 0.1 * INSIDE.verticalFov);
+    });
+
+    it('circles inside around what has been chosen, and never through a wall', () => {
+        const control = controlAt(INSIDE);
+        control.flyAround({...INSIDE, target: vec3(6.5, 0.8, 6)});
+        assert.ok(control.circles);
+        const first = vector.length(vector.sub(INSIDE.eye, vec3(6.5, 0.8, 6)));
+        for (let i = 0; i < 60; ++i) {
+            control.turn(0.05, i % 2 ? 0.1 : -0.1);
+            const {eye, target} = control.view;
+            near(target, vec3(6.5, 0.8, 6));
+            assert.ok(isIn(STUDY, eye), JSON.stringify(eye));
+            const away = vector.length(vector.sub(eye, target));
+            assert.ok(away > 0.59 * first && away < 1.001 * first, `${away} of ${first}`);
+        }
+        control.set({...control.view, target: vec3(6, 1, 6)});
+        assert.ok(!control.circles, 'another target has not been chosen');
+    });
+
+    it('looks around once the wheel has brought the eye inside', () => {
+        const control = controlAt({...FRONT, eye: vec3(10, 4, -20), target: vec3(10, 2, 6)});
+        control.turn(0.1, 0);
+        assert.ok(control.circles);
+        control.zoom(0.1);
+        assert.ok(!control.circles);
+        control.zoom(20);
+        assert.ok(control.circles);
+    });
+
+    it('goes on from where another view has the same target', () => {
+        const control = controlAt({...FRONT, eye: vec3(10, 4, -20), target: vec3(10, 2, 6)});
+        control.turn(0.1, 0);
+        control.set({...FRONT, eye: vec3(10, 4, -8), target: vec3(10, 2, 6)});
+        control.turn(0.1, 0);
+        close(vector.length(vector.sub(control.view.eye, control.view.target)), Math.hypot(2, 14));
+    });
+
+    it('frames a thing as far back as the walls let it', () => {
+        const free = camera.framing(INSIDE, SHELF, 1.5, null);
+        near(free.target, vector.centre(SHELF));
+        for (const corner of vector.corners(SHELF)) {
+            const {x, y, depth} = camera.project(free, 1.5, corner);
+            assert.ok(depth > 0 && x > 0 && x < 1 && y > 0 && y < 1, JSON.stringify({x, y, depth}));
+        }
+        const kept = camera.framing(INSIDE, STUDY, 1.5, camera.spaceIn(STUDY, INSIDE.eye));
+        assert.ok(isIn(STUDY, kept.eye), JSON.stringify(kept.eye));
+    });
+
+    it('has arrow keys that turn the head where it does', () => {
+        assert.equal(motionOf(['ArrowUp'], 'look').tilt, 1);
+        assert.equal(motionOf(['ArrowLeft'], 'look').left, 1);
+        assert.equal(motionOf(['ArrowLeft'], 'orbit').left, -1);
     });
 });
 

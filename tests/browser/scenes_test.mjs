@@ -79,6 +79,7 @@ describe('the list of scenes', () => {
 
     it('says why a scene cannot be opened, and keeps the one that is shown', async () => {
         await ann.page.click('#scene-file-list button[title="broken.gltf"]');
+        await ann.page.click('#scene-file-open');
         await stateIs('broken.gltf cannot be opened: scenes');
         await ben.page.waitForSelector('.notice:has-text("Ann: broken.gltf cannot be opened")');
         assert.equal(await ann.page.textContent('#connection-text'), 'Connected');
@@ -100,6 +101,7 @@ describe('the list of scenes', () => {
             }
         });
         await ann.page.click('#scene-file-list button[title="Atelier Süd.glb"]');
+        await ann.page.click('#scene-file-open');
         for (const {page} of [ann, ben]) {
             await page.waitForFunction(() =>
                 document.getElementById('scene-name').textContent.includes('Atelier'),

@@ -15,21 +15,22 @@ import {
 import {stateOf} from '../../client_web/grid_panel.js';
 import {History} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
-import {NewestOnly, dimmerPosition, dimmerShare} from '../../client_web/light_panel.js';
-import {frustumOf} from '../../client_web/people.js';
+import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem} from '../../client_web/light_panel.js';
+import {DarkViews} from '../../client_web/lost.js';
+import {avatarTexts, frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
 import * as placement from '../../client_web/placement.js';
 import {escaped, reportHtml} from '../../client_web/report.js';
-import {openingText, progressText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
+import {listTag, openingQuestion, openingText, progressText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
 import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene_model.js';
-import {placeOf, placedAt} from '../../client_web/scene_panel.js';
+import {isOutside, placeOf, placeProblem, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
 import {adviceOf, bannerOf, sentence} from '../../client_web/status.js';
 import {duration, targetAt} from '../../client_web/target_panel.js';
 import * as units from '../../client_web/units.js';
 import {centre, length, sub, vec3} from '../../client_web/vector.js';
 import {cssMatrix, homography} from '../../client_web/view_warp.js';
-import {outsideDeadZone} from '../../client_web/walking.js';
+import {hintText, outsideDeadZone} from '../../client_web/walking.js';
 
 const VIEW = {eye: vec3(1, 1.6, 4), target: vec3(0, 1, 0), up: vec3(0, 1, 0), verticalFov: 0.8};
 const close = (actual, expected, bound, what) =>
@@ -58,6 +59,21 @@ describe('a scene that somebody opens', () => {
         assert.match(progressText({...opening, stage: 'READING'}, true), /^You open a.glb: step 1 of 3/);
         assert.match(progressText({...opening, byName: ''}, false), /^Somebody opens/);
         assert.equal(progressText({...opening, stage: 'REJECTED'}, false), '');
+    });
+
+    it('is said to be shown only once it is, in the list too', () => {
+        for (const stage of ['COMPILING', 'READY']) {
+            assert.doesNotMatch(openingText({...opening, stage}), /is shown/);
+        }
+        assert.equal(listTag('b.glb', 'b.glb', ''), 'shown');
+        assert.equal(listTag('b.glb', 'b.glb', 'a.glb'), 'still shown');
+        assert.equal(listTag('a.glb', 'b.glb', 'a.glb'), 'being opened');
+        assert.equal(listTag('c.glb', 'b.glb', 'a.glb'), '');
+    });
+
+    it('is asked about where others are here', () => {
+        assert.match(openingQuestion('a.glb', 1), /^Open a\.glb\?.* somebody else is here\.$/);
+        assert.match(openingQuestion('a.glb', 3), /3 others are here\.$/);
     });
 
     it('is no lost connection', () => {
@@ -409,6 +425,94 @@ describe('changes', () => {
         assert.equal(changeOf({change: 0.09}), '');
         assert.equal(changeOf({}), '');
         assert.equal(changeOf({change: -0.24}), '−24 % since');
+    });
+});
+
+describe('a connection that begins anew', () => {
+    const room = {min: vec3(0, 0, 0), max: vec3(4, 3, 5)};
+    const sceneOf = (epoch, x, intensity = 100) => {
+        const transform = {translation: vec3(x, 0, 0)};
+        const objects = [{id: 1, name: 'a', movable: true, bounds: room, transform}];
+        return new SceneModel({name: 's', bounds: room, objects, lights: [{id: 1, intensity}]}, epoch);
+    };
+
+    it('goes on where the server knows of the changes', () => {
+        assert.ok(sceneOf(3, 1).goesOnFrom(sceneOf(3, 1), true));
+        assert.ok(sceneOf(5, 2).goesOnFrom(sceneOf(3, 1), true), 'others have changed something meanwhile');
+        assert.ok(sceneOf(3, 0.1 + 0.2).goesOnFrom(sceneOf(3, 0.3), false), 'another run with a journal');
+    });
+
+    it('does not after another start', () => {
+        assert.ok(!sceneOf(0, 0).goesOnFrom(sceneOf(3, 1), false));
+        assert.ok(!sceneOf(0, 0).goesOnFrom(sceneOf(3, 1), true), 'the scene has been opened anew');
+        assert.ok(!sceneOf(3, 0).goesOnFrom(sceneOf(3, 1), false), 'as many changes, but others');
+        assert.ok(!sceneOf(3, 1, 50).goesOnFrom(sceneOf(3, 1), false));
+        assert.ok(!sceneOf(9, 1).goesOnFrom(sceneOf(3, 1), false));
+    });
+});
+
+describe('a change of an object', () => {
+    const still = {translation: vec3(1, 0, 2), rotation: {x: 0, y: 0, z: 0, w: 1}, scale: vec3(1, 1, 1)};
+    const moved = {...still, translation: vec3(2, 0, 2)};
+    const turned = placement.turnedAbout(moved, vec3(0, 0, 0), 0.5);
+    const larger = placement.resizedAbout(moved, vec3(0, 0, 0), 1.2);
+
+    it('is called what it is', () => {
+        assert.equal(placement.deedOf(still, moved, still), 'move');
+        assert.equal(placement.deedOf(moved, turned, still), 'turn');
+        assert.equal(placement.deedOf(moved, larger, still), 'resize');
+        assert.equal(placement.deedOf(turned, still, still), 'put back');
+        const {x, y, z, w} = moved.rotation;
+        const same = {...turned, rotation: {x: -x, y: -y, z: -z, w: -w}};
+        assert.equal(placement.deedOf(moved, same, still), 'move', 'the same rotation');
+    });
+});
+
+describe('what is typed into a field of numbers', () => {
+    it('is refused with a reason', () => {
+        assert.equal(intensityProblem(0), '');
+        assert.match(intensityProblem(-5), /less than 0/);
+        assert.match(intensityProblem(NaN), /no number/);
+        assert.equal(placeProblem('x', -99), '');
+        assert.match(placeProblem('x', NaN), /no number/);
+        assert.match(placeProblem('size', 0), /more than 0/);
+    });
+
+    it('may lead out of the scene, which is told', () => {
+        const scene = {min: vec3(0, 0, 0), max: vec3(7, 3, 5)};
+        const at = (x) => ({min: vec3(x, 0, 1), max: vec3(x + 1, 1, 2)});
+        assert.ok(!isOutside(at(-0.5), scene));
+        assert.ok(isOutside(at(99), scene));
+        assert.ok(isOutside(at(-1.5), scene));
+    });
+});
+
+describe('a picture in which nothing is seen', () => {
+    it('is told of each time, once, and taken back when there is something again', () => {
+        const views = new DarkViews();
+        const other = {...VIEW, eye: vec3(9, 9, 9)};
+        assert.equal(views.seen(VIEW, false), 'take back');
+        assert.equal(views.seen(other, true), 'tell');
+        assert.equal(views.seen(other, true), 'nothing');
+        assert.equal(views.seen({...other, eye: vec3(9, 9, 8)}, true), 'tell');
+        assert.equal(views.good, VIEW);
+        assert.equal(views.seen(VIEW, false), 'take back');
+        assert.equal(views.seen(other, true), 'tell');
+    });
+});
+
+describe('the first hint', () => {
+    it('says what a drag does here, and nothing of moving where nothing can be moved', () => {
+        assert.equal(hintText(false, false, true), 'Drag to look around · W A S D to walk · click an object to move it');
+        assert.equal(hintText(true, true, false), 'Drag to circle around · double-tap to go there');
+    });
+});
+
+describe('avatars', () => {
+    it('tell everybody apart', () => {
+        const of = (...viewers) => avatarTexts(viewers.map(([viewer, name]) => ({viewer, name})));
+        assert.deepEqual(of([14, ''], [15, '']), ['14', '15']);
+        assert.deepEqual(of([1, 'Ann Lee'], [2, 'ben'], [3, 'Al Low']), ['1', 'BE', '3']);
     });
 });
 

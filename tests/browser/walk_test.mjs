@@ -40,8 +40,17 @@ describe('between two pictures of the server', () => {
             const {view} = window.raybundle;
             window.raybundle.view = {...view, eye: {...view.eye, z: 8}, target: {...view.target, z: 20}};
         });
-        await page.click('.notice:has-text("through a wall") button:has-text("Back")');
+        const notice = '.notice:has-text("nothing to see from here")';
+        await page.click(`${notice} button:has-text("Back")`);
         await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.z + 7.5) < 1e-6);
+        // Each time anew, and no longer than it is so.
+        await page.evaluate(() => {
+            const {view} = window.raybundle;
+            window.raybundle.view = {...view, eye: {...view.eye, z: 9}, target: {...view.target, z: 20}};
+        });
+        await page.waitForSelector(notice);
+        await page.keyboard.press('Home');
+        await page.waitForSelector(notice, {state: 'detached'});
         await context.close();
     });
 
