@@ -5,6 +5,7 @@
 import {sameView} from './camera.js';
 import {byId, showValue} from './elements.js';
 import {snapshotSize} from './snapshot_panel.js';
+import {requestSnapshot} from './snapshot_request.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -98,7 +99,9 @@ export class Compare {
         const name = this.#choice.selectedOptions[0]?.textContent ?? `epoch ${epoch}`;
         this.#fixExposure();
         this.#earlier.disabled = true;
-        showValue('compareState', `The light ${name} is being computed; go on meanwhile.`);
+        const tell = (/** @type {string} */ how) =>
+            showValue('compareState', `The light ${name} is being computed: ${how}. Go on meanwhile.`);
+        tell('it has just begun');
         await this.display.carriedOut();
         const {limits, viewport} = app.picture;
         const error = app.stats.errorHigh ?? ERRORS.most;
@@ -108,12 +111,12 @@ export class Compare {
             format: 'PNG',
             epoch,
         };
-        const ready = (await app.ask({snapshot}))?.snapshotReady;
+        const ready = await requestSnapshot(app, snapshot, byId('earlier-cancel', HTMLButtonElement), tell);
         const image = ready ? await imageAt(ready.url) : null;
         this.#list();
         if (!ready || !image) {
             this.#releaseExposure();
-            showValue('compareState', 'The earlier light could not be had.');
+            showValue('compareState', 'The earlier light is not there.');
             return;
         }
         this.#take(image, {view, epoch: ready.epoch, exposure: ready.exposure, name});

@@ -50,6 +50,40 @@ export function intensityProblem(value) {
     return value < 0 ? 'A light cannot have less than 0.' : '';
 }
 
+/** @typedef {{intensity: number, colour: import('./protocol.js').Vec3}} LoadedLight */
+
+/**
+ * What the scene file gives a light; of servers that do not tell, what it has now.
+ *
+ * @param {Light} light
+ * @returns {LoadedLight}
+ */
+export const loadedLight = ({intensity, colour, loadedIntensity, loadedColour}) => ({
+    intensity: loadedIntensity ?? intensity,
+    colour: loadedColour ?? colour,
+});
+
+/** Relative difference that numbers may have that went through texts. */
+const SAME = 1e-3;
+
+/**
+ * Whether a light is on, and as the file has it.
+ *
+ * @param {Light} light
+ * @param {LoadedLight} loaded
+ */
+export function sameLight(light, loaded) {
+    const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) <= SAME * Math.max(a, b);
+    const {colour} = light;
+    return (
+        light.on &&
+        near(light.intensity, loaded.intensity) &&
+        near(colour.x, loaded.colour.x) &&
+        near(colour.y, loaded.colour.y) &&
+        near(colour.z, loaded.colour.z)
+    );
+}
+
 /** Sends the newest of many changes, one at a time. */
 export class NewestOnly {
     /** @type {object | null} */
@@ -105,7 +139,7 @@ function field(text, ...parts) {
 }
 
 export class LightPanel {
-    /** Intensities as this page was told first, by id. @type {Map<number, number>} */
+    /** Lights as the file has them, or as this page was told first, by id. @type {Map<number, LoadedLight>} */
     #loaded = new Map();
     /** Refreshes the controls of a light or material. @type {(() => void)[]} */
     #refresh = [];
@@ -132,7 +166,7 @@ export class LightPanel {
         }
         if (scene.name !== this.#scene) {
             this.#scene = scene.name;
-            this.#loaded = new Map(scene.lights.map(({id, intensity}) => [id, intensity]));
+            this.#loaded = new Map(scene.lights.map((light) => [light.id, loadedLight(light)]));
         }
         this.#refresh = [];
         byId('lights-note', HTMLElement).hidden = true;
@@ -175,7 +209,8 @@ export class LightPanel {
         unitText.textContent = unit;
         const fields = {dimmer: new LiveField(dimmer), value: new LiveField(value), kelvin: new LiveField(kelvin)};
         const shown = () => String(Number(light.intensity.toPrecision(4)));
-        const loaded = () => this.#loaded.get(light.id) || 1;
+        const asLoaded = this.#loaded.get(light.id) ?? loadedLight(light);
+        const loaded = () => asLoaded.intensity || 1;
         const change = this.#changes('setLight', {light: light.id}, name, () => {
             const {intensity, on: lit, colour} = light;
             return {intensity, on: lit, colour};
@@ -202,7 +237,12 @@ export class LightPanel {
         const tinted = () => ({colour: blackBody(Number(kelvin.value))});
         kelvin.addEventListener('input', () => change.going(tinted()));
         kelvin.addEventListener('change', () => change.done(tinted()));
+        const reset = document.createElement('button');
+        reset.type = 'button';
+        reset.textContent = 'As in the file';
+        reset.addEventListener('click', () => change.done({...asLoaded, on: true}));
         this.#refresh.push(() => {
+            reset.hidden = !this.app.mayEdit || sameLight(light, asLoaded);
             on.checked = light.on;
             fields.dimmer.show(String(dimmerPosition(light.intensity / loaded())));
             dimmer.setAttribute('aria-valuetext', `${threeDigits(light.intensity)} ${unit}`);
@@ -221,7 +261,7 @@ export class LightPanel {
         lit.append(on);
         head.append(title, lit);
         const card = document.createElement('li');
-        card.append(head, field('Dimmer', dimmer, value, unitText), note, field('Colour', kelvin, kelvinText));
+        card.append(head, field('Dimmer', dimmer, value, unitText), note, field('Colour', kelvin, kelvinText), reset);
         return card;
     }
 
@@ -233,10 +273,16 @@ export class LightPanel {
         const roughness = input('range', attributes);
         const roughnessField = new LiveField(roughness);
         const known = document.createElement('output');
+        const metallic = input('range', {...attributes, 'aria-label': `${name}, metallic`});
+        const metallicField = new LiveField(metallic);
+        const metallicKnown = document.createElement('output');
         const change = this.#changes('setMaterial', {material: material.id}, name, () => {
-            const {baseColour, roughness: rough} = material;
-            return {baseColour, roughness: rough};
+            const {baseColour, roughness: rough, metallic: metal} = material;
+            return {baseColour, roughness: rough, metallic: metal};
         });
+        const metal = () => ({metallic: Number(metallic.value)});
+        metallic.addEventListener('input', () => change.going(metal()));
+        metallic.addEventListener('change', () => change.done(metal()));
         const painted = () => ({baseColour: fromHex(colour.value)});
         colour.addEventListener('input', () => change.going(painted()));
         colour.addEventListener('change', () => change.done(painted()));
@@ -249,7 +295,13 @@ export class LightPanel {
             known.textContent = material.roughness?.toFixed(2) ?? '–';
             // What is not told cannot be changed with sense.
             colour.hidden = material.baseColour === undefined;
-            roughness.disabled = !this.app.mayEdit || material.roughness === undefined;
+            // Nor can what has no effect.
+            const matt = material.matt === true && !((material.metallic ?? 0) > 0);
+            roughness.disabled = !this.app.mayEdit || material.roughness === undefined || matt;
+            roughness.title = matt ? 'The file makes this material matt: without metallic it has no gloss' : '';
+            metallicField.show(String(material.metallic ?? 0));
+            metallicKnown.textContent = material.metallic?.toFixed(2) ?? '–';
+            metallic.disabled = !this.app.mayEdit || material.metallic === undefined;
         });
         const title = document.createElement('b');
         title.textContent = name;
@@ -257,7 +309,7 @@ export class LightPanel {
         head.className = 'card-head';
         head.append(title, colour);
         const card = document.createElement('li');
-        card.append(head, field('Roughness', roughness, known));
+        card.append(head, field('Roughness', roughness, known), field('Metallic', metallic, metallicKnown));
         return card;
     }
 

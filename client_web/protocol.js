@@ -38,6 +38,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {string} unit
  * @property {Vec3} colour  of luminance 1
  * @property {boolean} on
+ * @property {number} [loadedIntensity]  as the scene file has it
+ * @property {Vec3} [loadedColour]  likewise
  */
 
 /**
@@ -47,6 +49,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Vec3} [baseColour]  linear Rec. 709; absent: not told
  * @property {number} [roughness]  0..1
  * @property {number} [metallic]  0..1
+ * @property {boolean} [matt]  without gloss as long as metallic is 0
  */
 
 /**
@@ -223,8 +226,13 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {SceneList} [sceneList]
  * @property {SceneOpening} [sceneOpening]
  * @property {{effects: Effect[]}} [effectCosts]
- * @property {{url: string, relativeError: number, epoch: number, exposure: number}} [snapshotReady]
+ * @property {SnapshotReady} [snapshotReady]
+ * @property {SnapshotProgress} [snapshotProgress]
  */
+
+/** @typedef {{url: string, relativeError: number, epoch: number, exposure: number}} SnapshotReady */
+
+/** @typedef {{request: number, ahead: number, relativeError?: number, secondsLeft?: number}} SnapshotProgress */
 
 /** An `error` message of the server, as an exception. */
 export class ServerError extends Error {

@@ -4,6 +4,7 @@
 
 import {byId, fileName} from './elements.js';
 import {percent} from './format.js';
+import {requestSnapshot} from './snapshot_request.js';
 
 /** @typedef {import('./app.js').RaybundleApp} RaybundleApp */
 
@@ -32,6 +33,7 @@ export function snapshotSize(width, screen, limits) {
 
 export class SnapshotPanel {
     #button = byId('snapshot', HTMLButtonElement);
+    #cancel = byId('snapshot-cancel', HTMLButtonElement);
     #width = byId('snapshot-width', HTMLSelectElement);
     #error = byId('snapshot-error', HTMLSelectElement);
     #format = byId('snapshot-format', HTMLSelectElement);
@@ -52,8 +54,11 @@ export class SnapshotPanel {
         };
         const size = `${snapshot.width} × ${snapshot.height}`;
         this.#button.disabled = true;
-        this.#state.textContent = `${size} pixels are being rendered; go on meanwhile.`;
-        const ready = (await this.app.ask({snapshot}))?.snapshotReady;
+        const tell = (/** @type {string} */ how) => {
+            this.#state.textContent = `${size} pixels are being rendered: ${how}. Go on meanwhile.`;
+        };
+        tell('it has just begun');
+        const ready = await requestSnapshot(this.app, snapshot, this.#cancel, tell);
         this.#button.disabled = false;
         if (!ready) {
             this.#state.textContent = 'It was not rendered.';

@@ -13,7 +13,9 @@ import {ErrorHistory, RateMeter, Samples} from '../../client_web/meters.js';
 import {outlinePath, visibleEdges} from '../../client_web/overlay.js';
 import {pickByBounds} from '../../client_web/picking.js';
 import {fitViewport} from '../../client_web/picture.js';
+import {loadedLight, sameLight} from '../../client_web/light_panel.js';
 import {snapshotSize} from '../../client_web/snapshot_panel.js';
+import {progressText} from '../../client_web/snapshot_request.js';
 import {retryDelay} from '../../client_web/raybundle_client.js';
 import {SceneModel, movedBounds, shifted} from '../../client_web/scene_model.js';
 import * as vector from '../../client_web/vector.js';
@@ -461,5 +463,38 @@ describe('figures', () => {
         assert.equal(format.count(1234567), '1\u202f234\u202f567');
         assert.equal(format.metres(-0.5), '−0.50 m');
         assert.equal(format.milliseconds(NaN), '–');
+    });
+});
+
+describe('progressText', () => {
+    it('says what is ahead, what is reached and what is left, as far as it is known', () => {
+        assert.equal(progressText({ahead: 2}), '2 pictures are made before it');
+        assert.equal(progressText({ahead: 1, relativeError: 0.1}), '1 picture is made before it');
+        assert.equal(progressText({ahead: 0}), 'it has just begun');
+        assert.equal(progressText({ahead: 0, relativeError: 0.12}), 'error below 12 % so far');
+        const near = progressText({ahead: 0, relativeError: 0.062, secondsLeft: 0.2});
+        assert.equal(near, 'error below 6.2 % so far, about 1 s left');
+        const far = progressText({ahead: 0, relativeError: 0.062, secondsLeft: 400});
+        assert.equal(far, 'error below 6.2 % so far, about 7 min left');
+    });
+});
+
+describe('loadedLight', () => {
+    const colour = {x: 1, y: 1, z: 1};
+    const light = {id: 1, name: 'lamp', kind: 'AREA', unit: 'CD_PER_M2', intensity: 0, colour, on: true};
+
+    it('is what the file says, whatever the lamp has been set to', () => {
+        const warm = {x: 1.4, y: 0.9, z: 0.4};
+        const told = {...light, loadedIntensity: 900, loadedColour: warm};
+        assert.deepEqual(loadedLight(told), {intensity: 900, colour: warm});
+        assert.deepEqual(loadedLight({...light, intensity: 5}), {intensity: 5, colour});
+    });
+
+    it('is not what a lamp is that is dimmed, coloured or off', () => {
+        const loaded = {intensity: 900, colour};
+        assert.ok(sameLight({...light, intensity: 900.01}, loaded));
+        assert.ok(!sameLight({...light, intensity: 0}, loaded));
+        assert.ok(!sameLight({...light, intensity: 900, on: false}, loaded));
+        assert.ok(!sameLight({...light, intensity: 900, colour: {...colour, z: 0.5}}, loaded));
     });
 });
