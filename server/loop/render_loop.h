@@ -112,6 +112,7 @@ class RenderLoop {
     void probe_grid(ViewerSession& session, const ClientEvent& event);
     void send_presence(Clock::time_point now);
     void check_pin();
+    [[nodiscard]] bool refine_pin(Pin& pin);
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     void prepare_image(ViewerSession& session);
     void drop_image(ViewerSession& session);

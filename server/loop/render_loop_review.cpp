@@ -328,6 +328,35 @@ void RenderLoop::send_presence(Clock::time_point now) {
     server_.broadcast(message);
 }
 
+/// Measures the light at a pin again while the scene is as it was when it was set, where that was
+/// too early for a good value. True where there is a better one.
+bool RenderLoop::refine_pin(Pin& pin) {
+    constexpr float good = 0.05F;   // relative error
+    constexpr double better = 0.7;  // of the one before
+    v1::PinChanged& message = pin.message;
+    if (message.epoch() != epoch_ ||
+        (message.has_relative_error() && message.relative_error() <= good)) {
+        return false;
+    }
+    const double before =
+        message.has_relative_error() ? static_cast<double>(message.relative_error()) : 1.0;
+    const auto now = Clock::now();
+    for (const auto& [id, session] : sessions_) {
+        if (!session->has_image() || session->moving(now)) {
+            continue;
+        }
+        const auto pixel =
+            pixel_of(session->camera(), session->size(), from_message(message.position()));
+        const auto hit = pixel ? session->probe(*pixel) : std::nullopt;
+        if (hit && hit->patch == pin.patch && hit->relative_error.value_or(1.0) < better * before) {
+            message.set_illuminance(luminance(hit->irradiance));
+            message.set_relative_error(static_cast<float>(*hit->relative_error));
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Looks at the light of one pin, and tells everybody where it has changed.
 void RenderLoop::check_pin() {
     if (solver_->correcting() || solver_->statistics().settled < pin_check_settled) {
@@ -337,7 +366,9 @@ void RenderLoop::check_pin() {
     if (pin == nullptr) {
         return;
     }
-    if (update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_)) {
+    const bool changed =
+        update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_);
+    if (changed || refine_pin(*pin)) {
         v1::ServerMessage message;
         *message.mutable_pin_changed() = pin->message;
         server_.broadcast(message);

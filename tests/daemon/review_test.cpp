@@ -153,6 +153,29 @@ TEST_F(ReviewTest, APinGoesToEverybodyAndSurvivesAKilledServer) {
     EXPECT_EQ(again.at("error").at("code"), "NOT_FOUND");
 }
 
+TEST_F(ReviewTest, APinThatIsSetEarlyGetsABetterValueLater) {
+    JsonViewer ann(daemon_->port());
+    ann.join();
+    ASSERT_FALSE(
+        ann.next_frame([](const Json& header) { return header.value("iterations", 0) > 0; })
+            .empty());
+    const Json probe = measured(ann);
+    const Json added = ann.request({{"addPin",
+                                     {{"text", "how dark?"},
+                                      {"position", probe.at("position")},
+                                      {"patch", probe.at("patch")}}}})
+                           .at("pinChanged");
+    const double early = added.value("relativeError", 1.0);
+    const Json better = ann.next([&](const Json& message) {
+        return message.contains("pinChanged") &&
+               message.at("pinChanged").value("relativeError", 1.0) < 0.5 * early;
+    });
+    ASSERT_FALSE(better.empty());
+    EXPECT_EQ(better.at("pinChanged").at("pin"), added.at("pin"));
+    EXPECT_GT(better.at("pinChanged").at("illuminance").get<double>(), 0.0);
+    EXPECT_FALSE(better.at("pinChanged").contains("change")) << "nothing has changed";
+}
+
 TEST_F(ReviewTest, APinSaysWhenTheLightThereHasChanged) {
     JsonViewer viewer(daemon_->port());
     viewer.join();
