@@ -10,6 +10,8 @@ import {deedOf} from './placement.js';
  * @typedef {import('./protocol.js').Transform} Transform
  * @typedef {object} Step
  * @property {string} label  what was done, e.g. "move short box"
+ * @property {string} [subject]  what it was done to, of subjectOf()
+ * @property {string} [changedBy]  who has changed that since; empty: nobody else
  * @property {() => Promise<unknown>} undo
  * @property {() => Promise<unknown>} redo
  */
@@ -18,7 +20,24 @@ const MAX_STEPS = 200;
 /** What has been done to an object, in the past tense. */
 const DONE = {move: 'moved', turn: 'turned', resize: 'resized', 'put back': 'put back'};
 
-/** Two stacks. Event: `change`. */
+/**
+ * What a change is of.
+ *
+ * @param {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number}}} change
+ * @returns {string} e.g. "object 2"
+ */
+export function subjectOf({moveObject, setLight, setMaterial}) {
+    return moveObject
+        ? `object ${moveObject.object}`
+        : setLight
+          ? `light ${setLight.light}`
+          : `material ${setMaterial?.material}`;
+}
+
+/**
+ * Two stacks. What others have changed since is not taken back unasked. Events: `change`; `hesitate`, whose
+ * detail has the step and how to go on all the same.
+ */
 export class History extends EventTarget {
     /** @type {Step[]} */
     #done = [];
@@ -45,6 +64,20 @@ export class History extends EventTarget {
         this.dispatchEvent(new Event('change'));
     }
 
+    /**
+     * Somebody else has changed something.
+     *
+     * @param {string} subject  of subjectOf()
+     * @param {string} by
+     */
+    noteOther(subject, by) {
+        for (const step of [...this.#done, ...this.#undone]) {
+            if (step.subject === subject) {
+                step.changedBy = by;
+            }
+        }
+    }
+
     /** Takes the last step back. */
     undo() {
         return this.#shift(this.#done, this.#undone, 'undo');
@@ -69,8 +102,16 @@ export class History extends EventTarget {
      */
     #shift(from, to, way) {
         this.#under = this.#under.then(async () => {
-            const step = from.pop();
-            if (step) {
+            const step = from.at(-1);
+            if (step?.changedBy) {
+                const {changedBy} = step;
+                const goOn = () => {
+                    step.changedBy = '';
+                    return from.at(-1) === step ? this.#shift(from, to, way) : Promise.resolve();
+                };
+                this.dispatchEvent(new CustomEvent('hesitate', {detail: {step, way, by: changedBy, goOn}}));
+            } else if (step) {
+                from.pop();
                 to.push(step);
                 this.dispatchEvent(new Event('change'));
                 // What is refused has been told to the user by whoever was asked.
@@ -181,6 +222,11 @@ export function addHistory(app, history) {
         undo.title = history.last ? `Undo: ${history.last.label} (Ctrl+Z)` : 'Undo (Ctrl+Z)';
         redo.title = history.next ? `Redo: ${history.next.label} (Ctrl+Y)` : 'Redo (Ctrl+Y)';
     });
+    history.addEventListener('hesitate', (event) => {
+        const {step, way, by, goOn} = /** @type {CustomEvent} */ (event).detail;
+        const done = `${by} has changed that since you ${way === 'undo' ? 'did' : 'took back'} “${step.label}”.`;
+        app.status.notify(done, 'notice', {label: way === 'undo' ? 'Undo both' : 'Redo all the same', run: goOn});
+    });
     undo.addEventListener('click', () => history.undo());
     redo.addEventListener('click', () => history.redo());
     app.mover.addEventListener('done', (event) => {
@@ -189,7 +235,12 @@ export function addHistory(app, history) {
             const now = app.scene?.object(object.id);
             return now ? app.mover.move(now, transform, null) : Promise.resolve();
         };
-        history.add({label: `${deedOf(from, to, object.original)} ${object.name}`, undo: move(from), redo: move(to)});
+        history.add({
+            label: `${deedOf(from, to, object.original)} ${object.name}`,
+            subject: subjectOf({moveObject: {object: object.id}}),
+            undo: move(from),
+            redo: move(to),
+        });
     });
     app.on('anew', () => history.clear());
     app.on('welcome', () => {

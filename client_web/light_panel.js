@@ -4,6 +4,7 @@
 
 import {blackBody, fromHex, temperatureOf, toHex} from './colour.js';
 import {LiveField, byId, fieldNote} from './elements.js';
+import {subjectOf} from './history.js';
 import {ServerError} from './protocol.js';
 import {sentence} from './status.js';
 import {threeDigits} from './units.js';
@@ -356,6 +357,7 @@ export class LightPanel {
                 if (await send(values, refused)) {
                     this.history.add({
                         label: `set ${name}`,
+                        subject: subjectOf({[kind]: subject}),
                         undo: () => send(from),
                         redo: () => send(values),
                     });

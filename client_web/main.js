@@ -9,7 +9,7 @@ import {announce, byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
 import {GridPanel} from './grid_panel.js';
-import {ChangeList, History, addHistory} from './history.js';
+import {ChangeList, History, addHistory, subjectOf} from './history.js';
 import {addKeys} from './keys.js';
 import {LightPanel} from './light_panel.js';
 import {Lost} from './lost.js';
@@ -60,6 +60,11 @@ const gridPanel = new GridPanel(app, measuring, display);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
 const changes = new ChangeList(app, (viewer) => people.name(viewer));
+app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
+    if (change.by !== app.client.welcome?.viewer) {
+        history.noteOther(subjectOf(change), people.name(change.by));
+    }
+});
 const compare = new Compare(app, display, changes);
 const showTab = addTabs(/** @type {HTMLElement} */ (document.querySelector('[role="tablist"]')));
 new MeasuredStrip(app, measuring, () => {

@@ -13,7 +13,7 @@ import {
     typicalError,
 } from '../../client_web/grid.js';
 import {stateOf} from '../../client_web/grid_panel.js';
-import {History} from '../../client_web/history.js';
+import {History, subjectOf} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
 import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem} from '../../client_web/light_panel.js';
 import {DarkViews} from '../../client_web/lost.js';
@@ -401,6 +401,32 @@ describe('changes', () => {
         assert.deepEqual(log, ['-b', '-a', '+a']);
         history.add(step('c'));
         assert.equal(history.next, null);
+    });
+
+    it('that somebody else has built upon are taken back only when asked', async () => {
+        const log = [];
+        const history = new History();
+        const step = (name, subject) => ({
+            label: name,
+            subject,
+            undo: async () => log.push(`-${name}`),
+            redo: async () => log.push(`+${name}`),
+        });
+        history.add(step('chair', subjectOf({moveObject: {object: 2}})));
+        history.add(step('lamp', subjectOf({setLight: {light: 2}})));
+        history.noteOther(subjectOf({moveObject: {object: 2}}), 'Bob');
+        let asked = null;
+        history.addEventListener('hesitate', (event) => {
+            asked = event.detail;
+        });
+        await history.undo();
+        assert.deepEqual(log, ['-lamp'], 'nobody else has touched the lamp');
+        await history.undo();
+        assert.deepEqual(log, ['-lamp']);
+        assert.equal(asked.by, 'Bob');
+        assert.equal(history.last.label, 'chair', 'it stays to be undone');
+        await asked.goOn();
+        assert.deepEqual(log, ['-lamp', '-chair']);
     });
 
     it('of a slider are sent one at a time, the newest last', async () => {
