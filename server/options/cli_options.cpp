@@ -54,31 +54,28 @@ const MethodRow method_table[] = {
     {"photon-map", ReferenceKind::photon_map},
 };
 
-/// Check of a number that has to be above 0.
-CLI::Validator positive() {
+/// Check of a number for which `fits` holds; else the text is not what `wanted` says.
+CLI::Validator number_that(bool (*fits)(double), const std::string& wanted) {
     return CLI::Validator(
-        [](const std::string& text) {
+        [fits, wanted](const std::string& text) {
             double value = 0.0;
             const char* const end = text.data() + text.size();
-            const bool number = std::from_chars(text.data(), end, value).ptr == end;
-            return number && value > 0.0 && std::isfinite(value) ? std::string()
-                                                                 : "'" + text + "' is not above 0";
+            const auto [last, error] = std::from_chars(text.data(), end, value);
+            const bool number = last == end && error == std::errc() && std::isfinite(value);
+            return number && fits(value) ? std::string() : "'" + text + "' is not " + wanted;
         },
-        "above 0");
+        wanted);
 }
 
-/// Check of a relative error, which people may give in percent.
+CLI::Validator positive() {
+    return number_that([](double value) { return static_cast<float>(value) > 0.0F; },
+                       "a number above 0");
+}
+
+/// People may give it in percent.
 CLI::Validator relative_error() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            double value = 0.0;
-            const char* const end = text.data() + text.size();
-            const bool number = std::from_chars(text.data(), end, value).ptr == end;
-            return number && value > 0.0 && value < 1.0
-                       ? std::string()
-                       : "'" + text + "' is not above 0 and below 1: 0.05 is 5 %";
-        },
-        "0 to 1");
+    return number_that([](double value) { return value > 0.0 && value < 1.0; },
+                       "a number above 0 and below 1 (0.05 is 5 %)");
 }
 
 /// Adds a row of the table of `serve`.
@@ -167,7 +164,8 @@ void add_camera(CLI::App& app, Options& o) {
     app.add_option("--target", o.target, "Point looked at, x,y,z in metres");
     app.add_option("--fov", o.fov, "Vertical field of view, degrees")
         ->capture_default_str()
-        ->check(CLI::Range(0.1F, 179.0F));
+        ->check(number_that([](double value) { return value >= 0.1 && value <= 179.0; },
+                            "an angle of 0.1 to 179 degrees"));
 }
 
 void add_render(CLI::App& app, Options& o) {
@@ -195,7 +193,8 @@ void add_render(CLI::App& app, Options& o) {
            "--bias-for-noise", o.bias_for_noise,
            "Cut off rare bright contributions as fits so many planned iterations; the result "
            "is then biased (0: never)")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(number_that([](double value) { return value >= 0.0 && value <= 1e9; },
+                            "a number of 0 to 1e9"));
     app.add_flag("--constant-radiance", o.constant_radiance,
                  "Transfer only what radiance is beyond its mean; for matt, closed, evenly lit "
                  "rooms");
@@ -215,7 +214,8 @@ void add_accuracy(CLI::App& app, Options& o) {
     add_camera(app, o);
     app.add_option("--size", o.accuracy_size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     app.add_option("--seconds", o.seconds, "Solving time of each run (default: 10)")
-        ->check(CLI::Range(0.1, 86400.0));
+        ->check(number_that([](double value) { return value >= 0.1 && value <= 86400.0; },
+                            "a number of 0.1 to 86400"));
     app.add_option("--methods", o.methods,
                    "Methods of render, between commas (default: all but ray-cast and path-reuse)");
     app.add_option("--repeats", o.repeats, "Runs of each method, with seeds one apart")
@@ -292,7 +292,8 @@ void define_options(CLI::App& app, Options& options) {
                 command
                     ->add_option("--seconds", options.seconds,
                                  "How long moves are followed (default: 3, and fewer variants)")
-                    ->check(CLI::Range(0.5, 600.0));
+                    ->check(number_that([](double value) { return value >= 0.5 && value <= 600.0; },
+                                        "a number of 0.5 to 600"));
             }
         }
     }
