@@ -139,12 +139,13 @@ namespace {
 /// Factor >= 1 from which on a falling function is at most a target that it reaches.
 template <typename Function>
 double first_factor(const Function& high_after, double target) {
+    constexpr double most = 1e18;
     double low = 1.0;
     if (high_after(low) <= target) {
         return low;
     }
     double high = 2.0;
-    while (high_after(high) > target) {
+    while (high_after(high) > target && high < most) {
         low = high;
         high *= 2.0;
     }
@@ -181,19 +182,23 @@ double samples_factor(const MeasuredPicture& picture, double target, SampleOrder
     if (measured.high <= target) {
         return 1.0;
     }
-    const double width = std::min(measured.high / measured.error, width_then);
-    if (width * picture.discretisation_then >= target) {
+    const double width_now = measured.high / measured.error;
+    // Samples may say that more is unresolved than there is error.
+    const double known_part = std::min(picture.discretisation, measured.error);
+    const double part_then = std::min(picture.discretisation_then, known_part);
+    const double narrowest = std::min(width_now, width_then);
+    if (narrowest * part_then >= target) {
         return std::numeric_limits<double>::infinity();
     }
     const auto squared = [](double x) { return x * x; };
-    const double lucky = std::max(squared(measured.error) - squared(picture.discretisation), 0.0);
+    const double lucky = squared(measured.error) - squared(known_part);
     const double exponent = 0.5 + gain_of(order).exponent;
     return first_factor(
         [&](double factor) {
             const double old = 1.0 / factor;
             const double noise = (1.0 - old) * squared(picture.noise) + old * lucky;
-            return width * std::sqrt(noise * std::pow(factor, -2.0 * exponent) +
-                                     squared(picture.discretisation_then));
+            return (narrowest + (width_now - narrowest) * old) *
+                   std::sqrt(noise * std::pow(factor, -2.0 * exponent) + squared(part_then));
         },
         target);
 }
