@@ -21,7 +21,8 @@ void main() {
         checkpoint[i] = vec4(now, pack_pair(vec2(weight, 0.0)), 0.0, 0.0);
         return;
     }
-    float error = sqrt(correction_left(c, now, weight)) / correction_scale(c, now);
     vec2 before = vec2(unpack_pair(c.y).x, correction_size(c, now));
-    checkpoint[i] = vec4(c.x, pack_pair(before), 0.0, pack_left(error, weight));
+    vec4 next = vec4(c.x, pack_pair(before), 0.0, 0.0);
+    next.w = pack_left(sqrt(correction_left(c, now, weight)) / correction_scale(next, now), weight);
+    checkpoint[i] = next;
 }
