@@ -307,6 +307,7 @@ void RenderLoop::send_solutions() {
     }
     last_solution_ = now;
     check_pin();
+    snapshots_.report();
     for (const auto& [id, session] : sessions_) {
         v1::ServerMessage message;
         v1::Solution* solution = message.mutable_solution();

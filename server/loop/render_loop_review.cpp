@@ -329,32 +329,45 @@ void RenderLoop::send_presence(Clock::time_point now) {
 }
 
 /// Measures the light at a pin again while the scene is as it was when it was set, where that was
-/// too early for a good value. True where there is a better one.
+/// too early for a good value. One viewer at rest is asked at a time, each time there are half more
+/// iterations. True where there is a better value.
 bool RenderLoop::refine_pin(Pin& pin) {
-    constexpr float good = 0.05F;   // relative error
-    constexpr double better = 0.7;  // of the one before
+    constexpr float good = 0.05F;       // relative error
+    constexpr double better = 0.7;      // of the one before
+    constexpr double more_often = 1.5;  // of the iterations
     v1::PinChanged& message = pin.message;
-    if (message.epoch() != epoch_ ||
+    const auto now = Clock::now();
+    const std::uint64_t iterations = solver_->iterations();
+    if (message.epoch() != epoch_ || iterations < pin.next_look || walking(now) ||
         (message.has_relative_error() && message.relative_error() <= good)) {
         return false;
     }
-    const double before =
-        message.has_relative_error() ? static_cast<double>(message.relative_error()) : 1.0;
-    const auto now = Clock::now();
-    for (const auto& [id, session] : sessions_) {
-        if (!session->has_image() || session->moving(now)) {
-            continue;
-        }
-        const auto pixel =
-            pixel_of(session->camera(), session->size(), from_message(message.position()));
-        const auto hit = pixel ? session->probe(*pixel) : std::nullopt;
-        if (hit && hit->patch == pin.patch && hit->relative_error.value_or(1.0) < better * before) {
-            message.set_illuminance(luminance(hit->irradiance));
-            message.set_relative_error(static_cast<float>(*hit->relative_error));
-            return true;
-        }
+    const glm::vec3 position = from_message(message.position());
+    const auto pixel_in = [&](const ViewerSession& session) {
+        const bool at_rest = session.has_image() && !session.paused() && !session.moving(now);
+        return at_rest ? pixel_of(session.camera(), session.size(), position) : std::nullopt;
+    };
+    const auto seeing = std::find_if(sessions_.begin(), sessions_.end(), [&](const auto& entry) {
+        return pixel_in(*entry.second).has_value();
+    });
+    if (seeing == sessions_.end()) {
+        return false;
     }
-    return false;
+    pin.next_look = static_cast<std::uint64_t>(more_often * static_cast<double>(iterations)) + 1;
+    try {
+        const auto hit = seeing->second->probe(*pixel_in(*seeing->second));
+        const double before = message.has_relative_error() ? message.relative_error() : 1.0;
+        if (!hit || hit->patch != pin.patch || !hit->relative_error ||
+            *hit->relative_error >= better * before) {
+            return false;
+        }
+        message.set_illuminance(luminance(hit->irradiance));
+        message.set_relative_error(static_cast<float>(*hit->relative_error));
+        return true;
+    } catch (const GpuError& error) {
+        spdlog::warn("the light at pin {} is not measured again: {}", message.pin(), error.what());
+        return false;
+    }
 }
 
 /// Looks at the light of one pin, and tells everybody where it has changed.

@@ -19,6 +19,7 @@ struct Pin {
     /// Mean irradiance of the patch when the pin was set, lx; follows the solution as it refines
     /// until the scene changes.
     float patch_illuminance = 0.0F;
+    std::uint64_t next_look = 0;  ///< iterations from which on it is worth measuring better
 };
 
 /// What the viewers of a session leave for each other: pins and viewpoints. Each is in the journal

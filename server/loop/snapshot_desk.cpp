@@ -101,7 +101,6 @@ v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
     return progress;
 }
 
-/// Tells those who wait how far their pictures are.
 void SnapshotDesk::report() {
     const auto now = Clock::now();
     if (requests_.empty() || now - last_report_ < report_interval) {
@@ -192,7 +191,7 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
                                          const ViewPrograms& programs, std::uint32_t epoch,
                                          bool undisturbed) {
     taking_part_ = false;
-    report();
+    undisturbed_ = undisturbed;
     if (earlier_ && requests_.empty() && Clock::now() - earlier_used_ > earlier_kept) {
         earlier_.reset();
     }
@@ -204,7 +203,7 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
         return nullptr;
     }
     const auto start = Clock::now();
-    const auto charge = [&] { share_.charge(milliseconds_since(start)); };
+    const auto charge = [&] { charge_since(start); };
     if (!image_ && !begin(scene, store, programs)) {
         return nullptr;
     }
@@ -226,8 +225,16 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
     return image_.get();
 }
 
+void SnapshotDesk::charge_since(Clock::time_point start) {
+    if (!undisturbed_) {
+        share_.charge(milliseconds_since(start));
+    }
+}
+
 void SnapshotDesk::note_iteration(double cost_ms) {
-    share_.note_iteration(cost_ms, taking_part_);
+    if (!undisturbed_) {
+        share_.note_iteration(cost_ms, taking_part_);
+    }
     if (taking_part_) {
         refresh_statistics();
     }
@@ -287,7 +294,7 @@ void SnapshotDesk::work_on_earlier(bool undisturbed) {
             }
             earlier_->step(*image_);
             refresh_statistics();
-            share_.charge(milliseconds_since(start));
+            charge_since(start);
             if (earlier_->between_groups() && finish_earlier()) {
                 return;
             }

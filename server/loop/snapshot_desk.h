@@ -62,6 +62,8 @@ class SnapshotDesk {
     /// it takes part in the next group. Null where it does not. undisturbed: nobody moves.
     ViewerImage* next_receiver(const GpuScene& scene, const RadianceStore& store,
                                const ViewPrograms& programs, std::uint32_t epoch, bool undisturbed);
+    /// Tells those who wait how far their pictures are, once a second.
+    void report();
     /// An iteration has taken so long, ms.
     void note_iteration(double cost_ms);
 
@@ -105,7 +107,7 @@ class SnapshotDesk {
     void work_on_earlier(bool undisturbed);
     bool finish_earlier();
     void refresh_statistics();
-    void report();
+    void charge_since(Clock::time_point start);
     [[nodiscard]] v1::SnapshotProgress progress_of_first() const;
     void drop_picture();
     [[nodiscard]] bool done();
@@ -122,6 +124,7 @@ class SnapshotDesk {
     std::unique_ptr<ViewerImage> image_;
     Clock::time_point begun_;  ///< image_
     bool taking_part_ = false;
+    bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
     Clock::time_point last_report_;
     Clock::time_point last_statistics_;
     TimeShare share_{time_share};

@@ -172,7 +172,7 @@ TEST_F(SnapshotTest, SaysHowFarItIsAndCanBeTakenBack) {
     JsonViewer viewer(daemon_.port());
     viewer.join("", width, height);
     for (const std::uint32_t id : {20U, 21U}) {
-        Json request = snapshot("EXR", width, height, 1e-4);
+        Json request = snapshot("EXR", width, height, 1e-6);
         request["id"] = id;
         viewer.send(request);
     }
