@@ -336,6 +336,8 @@ export class RaybundleApp extends EventTarget {
         }
         if (!goesOn) {
             this.#emit('anew', null);
+        } else if (before) {
+            this.#emit('missed', this.scene.differencesFrom(before));
         }
         this.#emit('welcome', welcome);
         this.select(sameScene ? (this.selected?.id ?? null) : null);

@@ -48,6 +48,8 @@ export class Compare {
     #button = byId('compare', HTMLButtonElement);
     #choice = byId('earlier-epoch', HTMLSelectElement);
     #earlier = byId('earlier', HTMLButtonElement);
+    /** Whether the server is computing an earlier light. */
+    #asking = false;
     /** Whether exposure was automatic before the comparison. */
     #automatic = false;
 
@@ -98,7 +100,8 @@ export class Compare {
         const {view} = app;
         const name = this.#choice.selectedOptions[0]?.textContent ?? `epoch ${epoch}`;
         this.#fixExposure();
-        this.#earlier.disabled = true;
+        this.#asking = true;
+        this.#list();
         const tell = (/** @type {string} */ how) =>
             showValue('compareState', `The light ${name} is being computed: ${how}. Go on meanwhile.`);
         tell('it has just begun');
@@ -113,6 +116,7 @@ export class Compare {
         };
         const ready = await requestSnapshot(app, snapshot, byId('earlier-cancel', HTMLButtonElement), tell);
         const image = ready ? await imageAt(ready.url) : null;
+        this.#asking = false;
         this.#list();
         if (!ready || !image) {
             this.#releaseExposure();
@@ -242,7 +246,8 @@ export class Compare {
         const choices = choicesOf(this.changes.entries, this.app.scene?.epoch ?? 0);
         const options = choices.map(({epoch, name}) => new Option(name, String(epoch)));
         this.#choice.replaceChildren(...options);
-        this.#choice.disabled = this.#earlier.disabled = choices.length === 0;
+        this.#choice.disabled = choices.length === 0;
+        this.#earlier.disabled = this.#asking || choices.length === 0;
         if (choices.length === 0) {
             this.#choice.replaceChildren(new Option('nothing has changed yet', ''));
         } else if (choices.some(({epoch}) => String(epoch) === chosen)) {

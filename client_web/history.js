@@ -20,10 +20,12 @@ const MAX_STEPS = 200;
 /** What has been done to an object, in the past tense. */
 const DONE = {move: 'moved', turn: 'turned', resize: 'resized', 'put back': 'put back'};
 
+/** @typedef {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number}}} Subject */
+
 /**
  * What a change is of.
  *
- * @param {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number}}} change
+ * @param {Subject} change
  * @returns {string} e.g. "object 2"
  */
 export function subjectOf({moveObject, setLight, setMaterial}) {
@@ -106,8 +108,11 @@ export class History extends EventTarget {
             if (step?.changedBy) {
                 const {changedBy} = step;
                 const goOn = () => {
+                    if (from.at(-1) !== step) {
+                        return Promise.resolve();
+                    }
                     step.changedBy = '';
-                    return from.at(-1) === step ? this.#shift(from, to, way) : Promise.resolve();
+                    return this.#shift(from, to, way);
                 };
                 this.dispatchEvent(new CustomEvent('hesitate', {detail: {step, way, by: changedBy, goOn}}));
             } else if (step) {

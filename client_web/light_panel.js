@@ -167,7 +167,13 @@ export class LightPanel {
         }
         if (scene.name !== this.#scene) {
             this.#scene = scene.name;
-            this.#loaded = new Map(scene.lights.map((light) => [light.id, loadedLight(light)]));
+            this.#loaded = new Map();
+        }
+        for (const light of scene.lights) {
+            // A server that tells knows best: the file may be another one.
+            if (light.loadedIntensity !== undefined || !this.#loaded.has(light.id)) {
+                this.#loaded.set(light.id, loadedLight(light));
+            }
         }
         this.#refresh = [];
         byId('lights-note', HTMLElement).hidden = true;
@@ -320,10 +326,10 @@ export class LightPanel {
      * @param {'setLight' | 'setMaterial'} kind
      * @param {object} subject
      * @param {string} name
-     * @param {() => object} state  what it is set to now
+     * @param {() => Record<string, unknown>} state  what it is set to now
      */
     #changes(kind, subject, name, state) {
-        /** What it was when the user took hold of it. @type {object | null} */
+        /** What it was when the user took hold of it. @type {Record<string, unknown> | null} */
         let before = null;
         /**
          * @param {object} values
@@ -355,10 +361,12 @@ export class LightPanel {
                 const from = before ?? state();
                 before = null;
                 if (await send(values, refused)) {
+                    // Of the rest the server may refuse what it has.
+                    const touched = Object.keys(values).map((key) => [key, from[key]]);
                     this.history.add({
                         label: `set ${name}`,
                         subject: subjectOf({[kind]: subject}),
-                        undo: () => send(from),
+                        undo: () => send(Object.fromEntries(touched)),
                         redo: () => send(values),
                     });
                 }

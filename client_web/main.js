@@ -65,6 +65,11 @@ app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ chan
         history.noteOther(subjectOf(change), people.name(change.by));
     }
 });
+app.on('missed', (/** @type {import('./history.js').Subject[]} */ subjects) => {
+    for (const subject of subjects) {
+        history.noteOther(subjectOf(subject), 'Somebody');
+    }
+});
 const compare = new Compare(app, display, changes);
 const showTab = addTabs(/** @type {HTMLElement} */ (document.querySelector('[role="tablist"]')));
 new MeasuredStrip(app, measuring, () => {

@@ -216,8 +216,30 @@ export class SceneModel {
      */
     goesOnFrom(before, sameRun) {
         return sameRun
-            ? this.epoch >= before.epoch
+            ? this.epoch > before.epoch || (this.epoch === before.epoch && this.#state === before.#state)
             : this.epoch === before.epoch && this.#state === before.#state;
+    }
+
+    /**
+     * What is not as it was: objects, lights and materials.
+     *
+     * @param {SceneModel} before
+     * @returns {import('./history.js').Subject[]}
+     */
+    differencesFrom(before) {
+        const text = (/** @type {unknown} */ value) => JSON.stringify(value, roundedNumbers);
+        const places = new Map(before.objects.map(({id, confirmed}) => [id, text(confirmed)]));
+        const lights = new Map(before.lights.map((light) => [light.id, text(light)]));
+        const materials = new Map(before.materials.map((material) => [material.id, text(material)]));
+        return [
+            ...this.objects
+                .filter(({id, confirmed}) => places.get(id) !== text(confirmed))
+                .map(({id}) => ({moveObject: {object: id}})),
+            ...this.lights.filter((light) => lights.get(light.id) !== text(light)).map(({id}) => ({setLight: {light: id}})),
+            ...this.materials
+                .filter((material) => materials.get(material.id) !== text(material))
+                .map(({id}) => ({setMaterial: {material: id}})),
+        ];
     }
 
     /** All that can be changed, as the server has told it. */

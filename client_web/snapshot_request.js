@@ -55,9 +55,14 @@ export async function requestSnapshot(app, snapshot, cancel, tell) {
             tell(progressText(snapshotProgress));
         }
     };
-    const onCancel = () => app.ask({cancelSnapshot: {request: id}});
+    const onCancel = () => {
+        cancel.disabled = true;
+        // It may be done by now.
+        app.client.request({cancelSnapshot: {request: id}}).answer.catch(() => {});
+    };
     app.addEventListener('message', onMessage);
     cancel.addEventListener('click', onCancel);
+    cancel.disabled = false;
     cancel.hidden = false;
     try {
         return (await answer).snapshotReady ?? null;

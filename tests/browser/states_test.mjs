@@ -157,7 +157,7 @@ describe('lights and materials', () => {
         assert.ok(Math.abs(level - 1) < 1e-6, `luminance ${level}`);
         await page.fill('#materials input[type="color"]', '#ff0000');
         await page.waitForFunction(() => window.raybundle.scene.materials[0].baseColour.x === 1);
-        await page.locator('#materials input[type="range"]').fill('0.25');
+        await page.locator('#materials input[type="range"]').first().fill('0.25');
         await page.waitForFunction(() => window.raybundle.scene.materials[0].roughness === 0.25);
         await keepScreenshot(page, 'lights');
         await page.keyboard.press('Control+KeyZ');

@@ -468,6 +468,12 @@ describe('a connection that begins anew', () => {
         assert.ok(sceneOf(3, 0.1 + 0.2).goesOnFrom(sceneOf(3, 0.3), false), 'another run with a journal');
     });
 
+    it('knows what others have changed meanwhile', () => {
+        assert.deepEqual(sceneOf(5, 2, 50).differencesFrom(sceneOf(3, 1)).map(subjectOf), ['object 1', 'light 1']);
+        assert.deepEqual(sceneOf(5, 1).differencesFrom(sceneOf(3, 1)), []);
+        assert.ok(!sceneOf(3, 2).goesOnFrom(sceneOf(3, 1), true), 'the same number of other changes');
+    });
+
     it('does not after another start', () => {
         assert.ok(!sceneOf(0, 0).goesOnFrom(sceneOf(3, 1), false));
         assert.ok(!sceneOf(0, 0).goesOnFrom(sceneOf(3, 1), true), 'the scene has been opened anew');
