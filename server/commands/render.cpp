@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "commands/command.h"
-#include "commands/progress.h"
 #include "commands/render_job.h"
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
@@ -55,9 +54,7 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
                                       ? picture.samples_factor_to(*options.error)
                                       : std::numeric_limits<double>::infinity();
             const double left = rule.seconds_left(outcome.seconds, solver.iterations(), factor);
-            bar.show(outcome.seconds / (outcome.seconds + left), left,
-                     fmt::format("{} iterations, estimated error {:.1f} %", solver.iterations(),
-                                 100.0 * found.relative_error));
+            show_progress(bar, outcome.seconds, left, solver.iterations(), found.relative_error);
         }
         if (progress >= 1.0) {
             break;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/render_job.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -71,6 +73,13 @@ std::unique_ptr<SpotCheck> spot_check(const Scene& scene, const PatchMesh& mesh,
     constexpr std::uint64_t own_stream = 0x73706f7463686563ULL;
     return std::make_unique<SpotCheck>(std::make_shared<const TracedScene>(scene, mesh), camera,
                                        size, mixed_bits(seed ^ own_stream));
+}
+
+void show_progress(Progress& bar, double elapsed, double left, std::uint64_t iterations,
+                   double relative_error) {
+    bar.show(
+        elapsed / (elapsed + left), left,
+        fmt::format("{} iterations, estimated error {:.1f} %", iterations, 100.0 * relative_error));
 }
 
 StopRule::StopRule(const Options& options)

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "commands/stopwatch.h"
+#include "commands/progress.h"
 #include "options/cli_options.h"
 #include "scene/scene.h"
 #include "view/final_picture.h"
@@ -26,6 +26,10 @@ bool is_exr(const std::string& path);
 /// Paths that a picture's error is measured by, independent of whatever else has this seed.
 std::unique_ptr<SpotCheck> spot_check(const Scene& scene, const PatchMesh& mesh,
                                       const Camera& camera, glm::uvec2 size, std::uint64_t seed);
+
+/// A line of progress: what is done, how accurate it is, and the time that is left, s.
+void show_progress(Progress& bar, double elapsed, double left, std::uint64_t iterations,
+                   double relative_error);
 
 /// When to stop: whichever of the given limits comes first; 10 s where none is given.
 class StopRule {

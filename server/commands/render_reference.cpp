@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "commands/command.h"
-#include "commands/progress.h"
 #include "commands/render_job.h"
 #include "reference/emitter_pixels.h"
 #include "reference/reference_method.h"
@@ -49,9 +48,7 @@ Outcome solve(ReferenceMethod& method, const Options& options) {
                                                   outcome.error.high > 0.0
                                                       ? std::max(ratio * ratio, 1.0)
                                                       : std::numeric_limits<double>::infinity());
-            bar.show(outcome.seconds / (outcome.seconds + left), left,
-                     fmt::format("{} iterations, estimated error {:.1f} %", method.iterations(),
-                                 100.0 * outcome.error.relative));
+            show_progress(bar, outcome.seconds, left, method.iterations(), outcome.error.relative);
         }
     }
     outcome.error = method.error();

@@ -228,10 +228,7 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 add_snapshot(session, event);
                 return;  // answered when it is done
             case v1::ClientMessage::kCancelSnapshot:
-                if (snapshots_.is_making(event.viewer, message.cancel_snapshot().request())) {
-                    std::erase(receivers_, snapshots_.picture_of(event.viewer));
-                }
-                snapshots_.cancel(event);
+                cancel_snapshot(event);
                 return;
             case v1::ClientMessage::kListScenes:
             case v1::ClientMessage::kOpenScene:

@@ -93,6 +93,7 @@ class RenderLoop {
     void draw_for_drag();
     void note_phase_end();
     void answer_probe(ViewerSession& session, const ClientEvent& event);
+    void cancel_snapshot(const ClientEvent& event);
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);

@@ -199,17 +199,16 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
         return nullptr;
     }
     if (wants_earlier(epoch)) {
-        work_on_earlier(undisturbed);
+        work_on_earlier();
         return nullptr;
     }
     const auto start = Clock::now();
-    const auto charge = [&] { charge_since(start); };
     if (!image_ && !begin(scene, store, programs)) {
         return nullptr;
     }
     if (!image_->smoothed()) {
         image_->smooth_step();
-        charge();
+        charge_since(start);
     } else if (done()) {
         if (!delivery_.busy()) {
             try {
@@ -217,7 +216,7 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
             } catch (const GpuError& error) {
                 drop(error);
             }
-            charge();
+            charge_since(start);
         }
         return nullptr;
     }
@@ -277,7 +276,7 @@ bool SnapshotDesk::prepare_earlier() {
 }
 
 /// Some iterations of the earlier scene, as far as there is time for them.
-void SnapshotDesk::work_on_earlier(bool undisturbed) {
+void SnapshotDesk::work_on_earlier() {
     if (!image_) {
         if (!prepare_earlier() ||
             !begin(earlier_->solver().scene(), earlier_->solver().store(), earlier_->programs())) {
@@ -298,7 +297,7 @@ void SnapshotDesk::work_on_earlier(bool undisturbed) {
             if (earlier_->between_groups() && finish_earlier()) {
                 return;
             }
-        } while ((undisturbed || share_.may()) &&
+        } while ((undisturbed_ || share_.may()) &&
                  milliseconds_since(earlier_used_) < earlier_slice_ms);
     } catch (const GpuError& error) {
         drop(error);

@@ -104,7 +104,7 @@ class SnapshotDesk {
     bool begin(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs);
     [[nodiscard]] bool wants_earlier(std::uint32_t epoch) const;
     bool prepare_earlier();
-    void work_on_earlier(bool undisturbed);
+    void work_on_earlier();
     bool finish_earlier();
     void refresh_statistics();
     void charge_since(Clock::time_point start);

@@ -166,7 +166,7 @@ TEST_F(ReviewTest, APinThatIsSetEarlyGetsABetterValueLater) {
                                       {"patch", probe.at("patch")}}}})
                            .at("pinChanged");
     const double early = added.value("relativeError", 1.0);
-    if (early < 0.072) {
+    if (early <= 0.05) {  // known so well, it stays as it is: a machine of many iterations a second
         GTEST_SKIP() << "it was set when the light was known to " << early;
     }
     const Json better = ann.next([&](const Json& message) {
