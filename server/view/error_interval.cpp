@@ -69,6 +69,10 @@ double discretisation_error(double at_edges, double elsewhere) {
                      left_elsewhere * left_elsewhere * elsewhere);
 }
 
+double unresolved_share(unsigned grid) {
+    return std::pow(static_cast<double>(grid), -0.75);
+}
+
 ErrorInterval error_interval(double noise, double discretisation, std::uint64_t samples,
                              SampleOrder order) {
     const double error = std::hypot(noise, discretisation);

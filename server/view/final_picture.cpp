@@ -18,9 +18,6 @@ constexpr double due_share = 0.2;
 /// only where noise is not the larger part by much. Cornell box, 128x128, 20 s: 1.0 % of error,
 /// 1.4 % where they were due as the coarser ones are.
 constexpr double due_share_of_finest = 0.7;
-/// What is left of what pixels do not resolve where they are drawn as twice as many along an edge:
-/// in six scenes it falls like the -0.75th power of their number, or faster.
-constexpr double unresolved_when_finer = 0.6;
 /// Paths of a pixel for each iteration, at most, beside those of the first rounds: a few percent of
 /// the time. Fewer where the squared error is known well.
 constexpr double most_rounds = 0.03;  // of 8 paths
@@ -144,7 +141,7 @@ double FinalPicture::samples_factor_to(double target) const {
         if (!finer_is_due(grid, unresolved * statistics_.discretisation, noise)) {
             return factor;
         }
-        unresolved *= unresolved_when_finer;
+        unresolved = unresolved_share(2 * grid) / unresolved_share(grid_);
     }
 }
 

@@ -109,11 +109,9 @@ void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
     statistics_.known = statistics_.known || requested_samples_ >= 2 * GROUP_SIZE;
     const double unit = scene_.radiance_unit();
     statistics_.noise = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
-    // Means over grid x grid pixels at staggered places: what six scenes had left was 0.6 to 1.9 of
-    // this (with the root of grid 0.4 to 1.1, with grid itself 0.9 to 3.1).
     statistics_.discretisation =
         detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) *
-                             std::pow(static_cast<double>(grid_), -0.75)
+                             unresolved_share(grid_)
                        : 0.0;
     const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
                                                   requested_samples_, sample_order());
