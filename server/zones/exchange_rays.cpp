@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zones/exchange_rays.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+#include <stdexcept>
+
+#include "scene/environment.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr std::size_t rays_per_patch = 8;
+constexpr std::size_t min_rays = 8192;
+constexpr std::size_t max_rays = 65536;
+constexpr int max_passes = 32;            // surfaces that a ray passes: glass, cut-outs
+constexpr float lift_share = 0x1.0p-20F;  // of the scene's diameter
+constexpr float tie_lifts = 4.0F;         // surfaces that are nearer to each other coincide
+
+// Shares of the rays by area, by number of patches, by emitted flux; the rest by object, so that
+// neither a small room on a large site nor a small lamp is without any.
+constexpr double by_area = 0.4;
+constexpr double by_number = 0.3;
+constexpr double by_emission = 0.2;
+
+/// The unique root above 1 of x^5 = x + 1, whose powers make an additive sequence in 4 dimensions
+/// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+constexpr double root = 1.1673039782614187;
+
+float fraction(double value) {
+    return static_cast<float>(value - std::floor(value));
+}
+
+/// Mixes bits (splitmix64).
+std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ULL;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31U);
+}
+
+float random_number(std::uint64_t seed) {
+    return static_cast<float>(mixed(seed) >> 40U) * 0x1.0p-24F;
+}
+
+glm::vec3 cosine_direction(const glm::vec3& normal, float u, float v) {
+    const glm::vec3 helper = std::abs(normal.x) < 0.5F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 tangent = glm::normalize(glm::cross(normal, helper));
+    const float radius = std::sqrt(u);
+    const float angle = v * glm::two_pi<float>();
+    return radius * (std::cos(angle) * tangent + std::sin(angle) * glm::cross(normal, tangent)) +
+           std::sqrt(std::max(1.0F - u, 0.0F)) * normal;
+}
+
+}  // namespace
+
+/// What the intersection filter needs to know.
+struct ExchangeRays::Query {
+    RTCIntersectContext context{};
+    const ExchangeRays* rays = nullptr;
+};
+
+/// Lets pass only hits on sides that have a patch.
+void ExchangeRays::reject_backs(const RTCFilterFunctionNArguments* arguments) {
+    const auto* query = reinterpret_cast<const Query*>(arguments->context);
+    const float along = RTCHitN_Ng_x(arguments->hit, 1, 0) * RTCRayN_dir_x(arguments->ray, 1, 0) +
+                        RTCHitN_Ng_y(arguments->hit, 1, 0) * RTCRayN_dir_y(arguments->ray, 1, 0) +
+                        RTCHitN_Ng_z(arguments->hit, 1, 0) * RTCRayN_dir_z(arguments->ray, 1, 0);
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, 1, 0);
+    if (along >= 0.0F && query->rays->back_patch_[triangle] == PatchMesh::no_patch) {
+        arguments->valid[0] = 0;
+    }
+}
+
+ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
+                           std::span<const glm::mat4> world_from_object, std::uint64_t seed)
+    : scene_(scene),
+      positions_(mesh.positions),
+      triangles_(mesh.triangles),
+      vertex_object_(mesh.vertex_object),
+      triangle_material_(mesh.triangle_material),
+      back_patch_(mesh.back_patch),
+      patch_triangle_(mesh.patch_triangle),
+      coverage_(mesh.coverage),
+      world_from_object_(world_from_object.begin(), world_from_object.end()),
+      offsets_(random_number(4 * seed), random_number(4 * seed + 1), random_number(4 * seed + 2),
+               random_number(4 * seed + 3)),
+      device_(rtcNewDevice(nullptr), rtcReleaseDevice),
+      rays_(rtcNewScene(device_.get()), rtcReleaseScene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        is_glass_.push_back(is_glass(scene.materials[i]));
+        glass_.push_back(is_glass_.back() ? bundle_glass(scene, i) : BundleGlass{});
+    }
+    objects_.reserve(patch_triangle_.size());
+    for (const std::uint32_t triangle : patch_triangle_) {
+        objects_.push_back(vertex_object_[triangles_[triangle].x]);
+    }
+    build();
+    place(world_from_object);
+    choose_densities(mesh);
+}
+
+ExchangeRays::~ExchangeRays() = default;
+
+void ExchangeRays::build() {
+    rtcSetSceneFlags(rays_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC |
+                                      RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    geometry_ = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    vertices_ = static_cast<glm::vec3*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(glm::vec3), 3 * triangles_.size()));
+    auto* indices = static_cast<glm::uvec3*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                sizeof(glm::uvec3), triangles_.size()));
+    if (vertices_ == nullptr || indices == nullptr) {
+        throw std::runtime_error("rays between surfaces: out of memory");
+    }
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        indices[i] = 3 * i + glm::uvec3(0, 1, 2);
+    }
+    rtcAttachGeometry(rays_.get(), geometry_);
+    rtcReleaseGeometry(geometry_);
+}
+
+ExchangeRays::Corners ExchangeRays::corners_of(std::size_t triangle) const {
+    const glm::uvec3& t = triangles_[triangle];
+    const glm::mat4& world = world_from_object_[vertex_object_[t.x]];
+    const auto corner = [&](std::uint32_t vertex) {
+        return glm::vec3(world * glm::vec4(positions_[vertex], 1.0F));
+    };
+    return {corner(t.x), corner(t.y), corner(t.z)};
+}
+
+void ExchangeRays::place(std::span<const glm::mat4> world_from_object) {
+    world_from_object_.assign(world_from_object.begin(), world_from_object.end());
+    Bounds bounds;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const Corners at = corners_of(i);
+        vertices_[3 * i] = at.a;
+        vertices_[3 * i + 1] = at.b;
+        vertices_[3 * i + 2] = at.c;
+        bounds.add(at.a);
+        bounds.add(at.b);
+        bounds.add(at.c);
+    }
+    lift_ = triangles_.empty() ? 0.0F : lift_share * glm::length(bounds.extent());
+    rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry_);
+    rtcCommitScene(rays_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
+        throw std::runtime_error("rays between surfaces: building the hierarchy failed");
+    }
+    const std::size_t patches = patch_triangle_.size();
+    centres_.resize(patches);
+    normals_.resize(patches);
+    areas_.resize(patches);
+    for (std::size_t i = 0; i < patches; ++i) {
+        const Corners at = corners_of(patch_triangle_[i]);
+        const glm::vec3 across = glm::cross(at.b - at.a, at.c - at.a);
+        const float size = glm::length(across);
+        const float side = i < triangles_.size() ? 1.0F : -1.0F;
+        centres_[i] = (at.a + at.b + at.c) / 3.0F;
+        normals_[i] = size > 0.0F ? side * across / size : glm::vec3(0.0F);
+        areas_[i] = 0.5F * size * (coverage_.empty() ? 1.0F : coverage_[i]);
+    }
+}
+
+void ExchangeRays::choose_densities(const PatchMesh& mesh) {
+    const std::size_t patches = patch_triangle_.size();
+    double area = 0.0;
+    double emission = 0.0;
+    std::vector<double> object_area(world_from_object_.size(), 0.0);
+    const auto emitted = [&](std::size_t i) {
+        return static_cast<double>(areas_[i] * luminance(mesh.emission[i]));
+    };
+    for (std::size_t i = 0; i < patches; ++i) {
+        area += static_cast<double>(areas_[i]);
+        object_area[objects_[i]] += static_cast<double>(areas_[i]);
+        emission += emitted(i);
+    }
+    const auto objects = static_cast<double>(
+        std::count_if(object_area.begin(), object_area.end(), [](double a) { return a > 0.0; }));
+    shares_.assign(patches, 0.0);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < patches; ++i) {
+        if (areas_[i] <= 0.0F) {
+            continue;
+        }
+        const auto own = static_cast<double>(areas_[i]);
+        shares_[i] =
+            by_area * own / area + by_number / static_cast<double>(patches) +
+            (1.0 - by_area - by_number - by_emission) * own / (object_area[objects_[i]] * objects) +
+            (emission > 0.0 ? by_emission * emitted(i) / emission : 0.0);
+        sum += shares_[i];
+    }
+    starts_.clear();
+    if (sum <= 0.0) {
+        return;
+    }
+    const std::size_t rays = std::clamp(rays_per_patch * patches, min_rays, max_rays);
+    double running = 0.0;
+    for (std::size_t i = 0; i < patches; ++i) {
+        shares_[i] /= sum;
+        running += shares_[i];
+        while (starts_.size() < rays &&
+               (static_cast<double>(starts_.size()) + 0.5) / static_cast<double>(rays) < running) {
+            starts_.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+}
+
+ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) const {
+    ExchangeRay result;
+    result.from = patch;
+    if (areas_[patch] <= 0.0F) {
+        return result;  // an object that has shrunk to nothing
+    }
+    const auto n = static_cast<double>(number);
+    const float u = fraction(static_cast<double>(offsets_.x) + n / root);
+    const float v = fraction(static_cast<double>(offsets_.y) + n / (root * root));
+    const float p = fraction(static_cast<double>(offsets_.z) + n / (root * root * root));
+    const float q = fraction(static_cast<double>(offsets_.w) + n / (root * root * root * root));
+    const Corners at = corners_of(patch_triangle_[patch]);
+    const float side = std::sqrt(u);
+    glm::vec3 origin = at.a * (1.0F - side) + at.b * (side * (1.0F - v)) + at.c * (side * v);
+    origin += lift_ * normals_[patch];
+    const glm::vec3 direction = cosine_direction(normals_[patch], p, q);
+    result.area = static_cast<float>(static_cast<double>(areas_[patch]) /
+                                     (shares_[patch] * static_cast<double>(starts_.size())));
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit hit{};
+    hit.ray.org_x = origin.x;
+    hit.ray.org_y = origin.y;
+    hit.ray.org_z = origin.z;
+    hit.ray.dir_x = direction.x;
+    hit.ray.dir_y = direction.y;
+    hit.ray.dir_z = direction.z;
+    hit.ray.mask = ~0U;
+    hit.ray.tnear = 0.0F;
+    for (int pass = 0; pass < max_passes; ++pass) {
+        hit.ray.tfar = INFINITY;
+        hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(rays_.get(), &context, &hit);
+        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            result.sky = glm::vec3(sky_towards(scene_, glm::dvec3(direction)));
+            return result;
+        }
+        const std::uint32_t triangle = hit.hit.primID;
+        const glm::vec3 normal(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
+        const float along = glm::dot(normal, direction);
+        const bool front = along < 0.0F;
+        const std::uint32_t material = triangle_material_[triangle];
+        const std::uint32_t received = front ? triangle : back_patch_[triangle];
+        const float chance =
+            random_number(number * max_passes + static_cast<std::uint64_t>(pass) + 1);
+        bool passes = !coverage_.empty() && chance >= coverage_[triangle];
+        if (is_glass_[material]) {
+            const float cosine = std::abs(along) / std::max(glm::length(normal), 1e-30F);
+            if (chance >= glass_[material].passing_share(cosine)) {
+                return result;
+            }
+            passes = true;
+        }
+        if (!passes && received == PatchMesh::no_patch) {
+            result.to = front_beside(hit);
+            return result;
+        }
+        if (!passes) {
+            result.to = received;
+            return result;
+        }
+        hit.ray.tnear = hit.ray.tfar + lift_;
+    }
+    return result;
+}
+
+/// Of surfaces that coincide those win that face the ray, as in bundles: the patch of such a one
+/// where a ray has met a back, else lost.
+std::uint32_t ExchangeRays::front_beside(const RTCRayHit& back) const {
+    Query query;
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = &ExchangeRays::reject_backs;
+    query.rays = this;
+    RTCRayHit hit = back;
+    hit.ray.tnear = std::max(back.ray.tfar - tie_lifts * lift_, 0.0F);
+    hit.ray.tfar = back.ray.tfar + tie_lifts * lift_;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(rays_.get(), &query.context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return ExchangeRay::lost;
+    }
+    const float along =
+        hit.hit.Ng_x * hit.ray.dir_x + hit.hit.Ng_y * hit.ray.dir_y + hit.hit.Ng_z * hit.ray.dir_z;
+    return along < 0.0F ? hit.hit.primID : back_patch_[hit.hit.primID];
+}
+
+std::vector<ExchangeRay> ExchangeRays::trace() const {
+    std::vector<ExchangeRay> rays(starts_.size());
+    constexpr std::size_t grain = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              rays[i] = follow(starts_[i], i);
+                          }
+                      });
+    return rays;
+}
+
+}  // namespace raybundle

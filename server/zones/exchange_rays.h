@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+#include "scene/specular_surface.h"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+struct RTCGeometryTy;
+struct RTCRayHit;
+struct RTCFilterFunctionNArguments;
+
+namespace raybundle {
+
+/// One random line of the light that a patch sends evenly over directions.
+struct ExchangeRay {
+    static constexpr std::uint32_t lost = 0xffffffffU;
+
+    std::uint32_t from = 0;   ///< patch
+    std::uint32_t to = lost;  ///< patch that receives it; lost: it leaves the scene or meets a back
+                              ///< that has no patch
+    float area = 0.0F;        ///< m² of the patch's kind that the ray stands for: the sum over all
+                              ///< rays of area times exitance is an unbiased estimate of all flux
+    glm::vec3 sky{0.0F};      ///< cd/m²: radiance of what it meets beyond the scene
+};
+
+/// Single rays between patches (Embree) that say how surfaces exchange light, independently of the
+/// bundles: a few ten thousand, always the same ones, so that what a change makes of them is the
+/// change and not chance. Bundles' rules hold: light passes glass, less what it absorbs, and what
+/// alpha MASK cuts out; backs without a patch absorb. Lambert's law holds for all surfaces.
+class ExchangeRays {
+  public:
+    /// world_from_object: of all objects, in the space that rays live in; sky directions are the
+    /// same there as in the world. Throws std::runtime_error where memory runs out.
+    ExchangeRays(const Scene& scene, const PatchMesh& mesh,
+                 std::span<const glm::mat4> world_from_object, std::uint64_t seed);
+    ~ExchangeRays();
+    ExchangeRays(ExchangeRays&&) noexcept = default;
+    ExchangeRays& operator=(ExchangeRays&&) = delete;
+
+    /// Objects are elsewhere; commits what trace() needs.
+    void place(std::span<const glm::mat4> world_from_object);
+    /// A patch's share of all rays follows its area, its object, its emission and its number.
+    void choose_densities(const PatchMesh& mesh);
+    /// All rays, in the order of their patches. On all cores; the same bits always.
+    [[nodiscard]] std::vector<ExchangeRay> trace() const;
+
+    [[nodiscard]] const std::vector<glm::vec3>& centres() const { return centres_; }
+    [[nodiscard]] const std::vector<glm::vec3>& normals() const { return normals_; }
+    [[nodiscard]] const std::vector<float>& areas() const { return areas_; }
+    /// Share of the rays that start on each patch; the sum is 1.
+    [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& objects() const { return objects_; }
+
+  private:
+    struct Query;
+    struct Corners {
+        glm::vec3 a, b, c;
+    };
+
+    [[nodiscard]] Corners corners_of(std::size_t triangle) const;
+    [[nodiscard]] ExchangeRay follow(std::uint32_t patch, std::uint64_t number) const;
+    [[nodiscard]] std::uint32_t front_beside(const RTCRayHit& back) const;
+    static void reject_backs(const RTCFilterFunctionNArguments* arguments);
+    void build();
+
+    const Scene& scene_;
+    std::vector<glm::vec3> positions_;  // object space
+    std::vector<glm::uvec3> triangles_;
+    std::vector<std::uint32_t> vertex_object_, triangle_material_, back_patch_, patch_triangle_;
+    std::vector<float> coverage_;
+    std::vector<BundleGlass> glass_;  // by material
+    std::vector<bool> is_glass_;
+    std::vector<glm::mat4> world_from_object_;
+    std::vector<std::uint32_t> objects_;  // by patch
+    std::vector<glm::vec3> centres_, normals_;
+    std::vector<float> areas_;
+    std::vector<double> shares_;
+    std::vector<std::uint32_t> starts_;  // patch of each ray
+    glm::vec4 offsets_;                  // of the sequence of points
+    float lift_ = 0.0F;                  // m
+    std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
+    std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> rays_;
+    RTCGeometryTy* geometry_ = nullptr;
+    glm::vec3* vertices_ = nullptr;  // of the geometry, three a triangle
+};
+
+}  // namespace raybundle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zones/exchange_rays.h"
+
+namespace raybundle {
+
+constexpr unsigned max_zones = 64;
+
+/// Zones of a scene: patches that send most of their light to each other, as those of a room do.
+struct ZonePartition {
+    unsigned count = 0;
+    std::vector<std::uint32_t> zone;  ///< of each patch, below count
+    /// Has patches that belong to none: facades, what is hardly lit by anything, what too few rays
+    /// tell apart. Its light has no level of its own.
+    std::optional<unsigned> loose;
+};
+
+/// Small clusters of patches (by place, side and object) are merged, those first that exchange the
+/// largest share of their light, until none of max_zones zones at most sends as much as
+/// `loose_share` of its light to another one. What is left is the slow modes of the transport.
+/// Deterministic.
+ZonePartition find_zones(const ExchangeRays& rays, std::span<const ExchangeRay> traced);
+
+}  // namespace raybundle

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Zones of a scene, and their levels by energy conservation.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <vector>
+
+#include "zones/exchange_rays.h"
+#include "zones/kept_light.h"
+#include "zones/zone_levels.h"
+#include "zones/zone_partition.h"
+
+namespace raybundle {
+namespace {
+
+/// Boxes with fronts inwards, cut into patches; no files, no tessellator.
+struct Rooms {
+    Scene scene;
+    PatchMesh mesh;
+
+    Rooms() {
+        scene.objects.emplace_back();
+        scene.materials.emplace_back();
+    }
+    void quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, unsigned n) {
+        const auto count = static_cast<float>(n);
+        for (unsigned i = 0; i < n * n; ++i) {
+            const glm::vec3 at = corner + u * (static_cast<float>(i % n) / count) +
+                                 v * (static_cast<float>(i / n) / count);
+            triangle(at, at + u / count, at + (u + v) / count);
+            triangle(at, at + (u + v) / count, at + v / count);
+        }
+    }
+    void triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const glm::vec3& corner : {a, b, c}) {
+            mesh.positions.push_back(corner);
+            mesh.vertex_object.push_back(0);
+        }
+        mesh.patch_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+        mesh.triangles.push_back(first + glm::uvec3(0, 1, 2));
+        mesh.triangle_material.push_back(0);
+        mesh.back_patch.push_back(PatchMesh::no_patch);
+        mesh.base_colour.emplace_back(0.7F);
+        mesh.emission.emplace_back(0.0F);
+    }
+    /// Room [low, high]; its wall towards +x has a hole where `open`.
+    void room(const glm::vec3& low, const glm::vec3& high, bool open = false, unsigned n = 6) {
+        const glm::vec3 e = high - low;
+        const glm::vec3 x(e.x, 0, 0);
+        const glm::vec3 y(0, e.y, 0);
+        const glm::vec3 z(0, 0, e.z);
+        quad(low, z, x, n);      // floor
+        quad(low + y, x, z, n);  // ceiling
+        quad(low, x, y, n);      // z low
+        quad(low + z, y, x, n);  // z high
+        quad(low, y, z, n);      // x low
+        if (!open) {
+            quad(low + x, z, y, n);  // x high
+        }
+    }
+    [[nodiscard]] ExchangeRays rays() const {
+        const glm::mat4 world(1.0F);
+        return {scene, mesh, std::span(&world, 1), 1};
+    }
+};
+
+TEST(ExchangeRays, StayInAClosedRoom) {
+    Rooms rooms;
+    rooms.room({0, 0, 0}, {4, 3, 5});
+    const ExchangeRays rays = rooms.rays();
+    const std::vector<ExchangeRay> traced = rays.trace();
+    double area = 0.0;
+    for (const ExchangeRay& ray : traced) {
+        ASSERT_NE(ray.to, ExchangeRay::lost);
+        area += static_cast<double>(ray.area);
+    }
+    EXPECT_NEAR(area, 94.0, 0.1);  // what all rays stand for
+}
+
+/// Form factors of the unit cube (Howell, C-11): 0.199825 of opposite faces.
+TEST(ExchangeRays, FollowTheFormFactorsOfACube) {
+    Rooms rooms;
+    rooms.room({0, 0, 0}, {1, 1, 1});
+    const ExchangeRays rays = rooms.rays();
+    double between = 0.0;
+    double all = 0.0;
+    for (const ExchangeRay& ray : rays.trace()) {
+        const glm::vec3& from = rays.normals()[ray.from];
+        all += static_cast<double>(ray.area);
+        between +=
+            glm::dot(from, rays.normals()[ray.to]) < -0.5F ? static_cast<double>(ray.area) : 0.0;
+    }
+    // 8192 rays: three standard deviations are 0.013.
+    EXPECT_NEAR(between / all, 0.199825, 0.013);
+}
+
+/// Walls without thickness, back to back: whatever a ray meets first, it is the side that faces it.
+TEST(ExchangeRays, DoNotGoThroughWallsWithoutThickness) {
+    Rooms rooms;
+    rooms.room({0, 0, 0}, {3, 3, 3});
+    const std::size_t first = rooms.mesh.patch_count();
+    rooms.room({3, 0, 0}, {6, 3, 3}, false, 7);
+    for (const ExchangeRay& ray : rooms.rays().trace()) {
+        ASSERT_NE(ray.to, ExchangeRay::lost);
+        EXPECT_EQ(ray.from < first, ray.to < first);
+    }
+}
+
+TEST(Zones, AreTheRoomsOfABuilding) {
+    Rooms rooms;
+    std::vector<std::size_t> first;
+    for (int i = 0; i < 5; ++i) {
+        first.push_back(rooms.mesh.patch_count());
+        rooms.room({3.2F * static_cast<float>(i), 0, 0}, {3.2F * static_cast<float>(i) + 3, 3, 4});
+    }
+    const ExchangeRays rays = rooms.rays();
+    const ZonePartition zones = find_zones(rays, rays.trace());
+    EXPECT_EQ(zones.count, 5U);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const std::size_t end = i + 1 < first.size() ? first[i + 1] : rooms.mesh.patch_count();
+        for (std::size_t patch = first[i]; patch < end; ++patch) {
+            EXPECT_EQ(zones.zone[patch], zones.zone[first[i]]) << i;
+        }
+    }
+}
+
+/// X = (emitted + rho X) in a closed zone: the level is exact, whatever the iterate was.
+TEST(ZoneLevels, OfAClosedRoomAreThoseOfEnergyConservation) {
+    ZoneLevels levels(1);
+    std::vector<ZoneFlux> zones(1);
+    zones[0] = {.incident = glm::dvec3(10.0),
+                .reflected = glm::dvec3(7.0),
+                .emitted = glm::dvec3(3.0),
+                .albedo = glm::dvec3(0.7),
+                .area = 5.0};
+    const std::vector<ZoneExchange> exchange = {{.from = 0,
+                                                 .to = 0,
+                                                 .reflected = glm::dvec3(7.0),
+                                                 .emitted = glm::dvec3(3.0),
+                                                 .squares = 0.1,
+                                                 .rays = 1000.0}};
+    const std::vector<ZoneSky> sky(1);
+    const std::vector<ZoneLevel> found = levels.solve(zones, exchange, sky);
+    EXPECT_NEAR(levels.incident()[0].g, 3.0 / (1.0 - 0.7), 1e-9);
+    EXPECT_NEAR(found[0].scale.g * 10.0, 10.0, 1e-9);
+    zones[0].incident = glm::dvec3(0.0);
+    zones[0].reflected = glm::dvec3(0.0);
+    const std::vector<ZoneLevel> fresh = ZoneLevels(1).solve(zones, exchange, sky);
+    EXPECT_NEAR(fresh[0].offset.g * zones[0].area, 10.0, 1e-9);  // spread evenly where none is yet
+}
+
+/// A dark closed room beside a lit one stays exactly dark.
+TEST(ZoneLevels, BringNothingWhereNothingEnters) {
+    ZoneLevels levels(2);
+    std::vector<ZoneFlux> zones(2);
+    for (ZoneFlux& zone : zones) {
+        zone.albedo = glm::dvec3(0.7);
+        zone.area = 10.0;
+    }
+    zones[0].emitted = glm::dvec3(3.0);
+    const std::vector<ZoneExchange> exchange = {
+        {.from = 0, .to = 0, .emitted = glm::dvec3(3.0), .squares = 0.1, .rays = 1000.0},
+        {.from = 1, .to = 1, .rays = 1000.0}};
+    levels.solve(zones, exchange, std::vector<ZoneSky>(2));
+    EXPECT_GT(levels.incident()[0].g, 9.0);
+    EXPECT_EQ(levels.incident()[1], glm::dvec3(0.0));
+}
+
+/// What has been kept is ten times too bright: it is brought to what enters the zone, and is worth
+/// next to nothing. What is right keeps its weight.
+TEST(KeptLight, IsBelievedAsFarAsTheLevelsBearItOut) {
+    ZoneLevels levels(1);
+    std::vector<ZoneFlux> zones(1);
+    zones[0] = {.incident = glm::dvec3(10.0),
+                .reflected = glm::dvec3(7.0),
+                .emitted = glm::dvec3(3.0),
+                .albedo = glm::dvec3(0.7),
+                .area = 5.0};
+    const std::vector<ZoneExchange> exchange = {{.from = 0,
+                                                 .to = 0,
+                                                 .reflected = glm::dvec3(7.0),
+                                                 .emitted = glm::dvec3(3.0),
+                                                 .squares = 0.1,
+                                                 .rays = 1000.0}};
+    levels.solve(zones, exchange, std::vector<ZoneSky>(1));
+    KeptLight right;
+    const std::vector<ZoneMeans> near = {{.kept = glm::dvec3(10.05), .since = {}, .area = 5.0}};
+    EXPECT_GT(right.judge(near, levels)[0].limit, 1000.0);
+    EXPECT_EQ(right.doubt(), 0.0);
+    KeptLight wrong;
+    const std::vector<ZoneMeans> far = {{.kept = glm::dvec3(100.0), .since = {}, .area = 5.0}};
+    const KeptLevel level = wrong.judge(far, levels)[0];
+    EXPECT_NEAR(level.scale.g, 0.1, 0.01);
+    EXPECT_LT(level.limit, 0.01);
+    EXPECT_EQ(wrong.doubt(), 1.0);  // nothing is known of the new light yet
+}
+
+}  // namespace
+}  // namespace raybundle
