@@ -73,6 +73,12 @@
 #define BINDING_CROWDED 63            // see crowded_pixels.glsl
 // Bound for one pass, on numbers that others are bound on for theirs.
 #define BINDING_SLOPES 42             // RadianceSlope[]
+#define BINDING_ZONES 33              // zones of patches and their levels, see zone_level.glsl
+#define BINDING_KEPT 50               // vec4[]: mean irradiance that was kept over the last change, w = weight
+#define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
+#define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
+#define BINDING_ZONE_RAYS 60          // ZoneRay[]
+#define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/zone_balance.cpp
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
@@ -120,6 +126,7 @@
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_SLOPES 23              // rgba32ui: RadianceSlope
+#define UNIT_PIXEL_KEPT 24            // rgba32f: see view_keep.comp
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -223,9 +230,23 @@ struct FluxSums {
     vec4 emitted;    // sum of A pi L_e; w: of A
 };
 
-// Global energy balance, see solution_balance.comp.
+// How the iterate of a zone's patches is changed: irradiance = scale * irradiance + offset (radiance units).
+struct ZoneLevelData {
+    vec4 scale;
+    vec4 offset;  // w: samples that the zone's iterate is younger than that of others
+    vec4 kept;  // rgb: factor of the mean that was kept over the last change; w: samples that it is worth at most
+};
+#define MAX_ZONES 64
+#define ITERATE_EXPONENT 0.8  // the iterate's step is its age in samples, plus 1, to the power of minus this
+
+// A line of light that leaves a patch, which stands for so many m^2 of its zone.
+struct ZoneRay {
+    uint from;
+    float area;
+};
+
+// Flux that has left the scene, see solution_balance.comp.
 struct Balance {
-    vec4 scale;      // last factor applied to the iterate
     vec4 escaped;    // weighted sum of estimates of the flux that no patch receives
     vec4 outgoing;   // weighted sum of the flux that was sent, w = weight
     vec4 constant;   // rgb: constant radiance term (ch. 5.5) of the running iterations, 0 where it is off

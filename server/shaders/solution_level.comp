@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the iterate to the level that energy conservation asks for (solution_balance.comp), before
-// solution_power_sum.comp, where patches look at the iterate of others (TRANSMISSION).
+// Puts the iterate to the levels of its zones (zones/zone_levels.h), before solution_power_sum.comp, where patches look
+// at the iterate of others (TRANSMISSION).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
-layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
+#include "zone_level.glsl"
 uniform uint patch_count;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < patch_count) {
-        source[i].rgb *= balance.scale.rgb;
+        source[i].rgb = levelled(i, source[i].rgb);
     }
 }

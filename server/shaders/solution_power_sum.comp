@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the iterate to the level that energy conservation asks for (solution_balance.comp), and sums
-// patch_power over blocks of patches, always in the same order.
+// Puts the iterate to the levels of its zones (zones/zone_levels.h), and sums patch_power over blocks of patches, always in the same order.
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = POWER_BLOCK) in;
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
+#include "zone_level.glsl"
 #ifdef GLOSSY
 #include "gloss.glsl"
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
@@ -22,7 +22,7 @@ void main() {
     sums[lane] = vec3(0.0);
     if (i < patch_count) {
 #ifndef TRANSMISSION  // else solution_level.comp has
-        source[i].rgb *= balance.scale.rgb;
+        source[i].rgb = levelled(i, source[i].rgb);
 #endif
         vec3 emitted = patch_source(i);
         vec3 reflected = surfaces[i].albedo.rgb * source[i].rgb / pi;
@@ -31,8 +31,10 @@ void main() {
 #endif
 #ifdef GLOSSY
         RARELY(is_glossy(i)) {
-            vec3 scale = balance.scale.rgb;
-            reflected = scale * (radiance[i].rgb - emitted);
+            ZoneLevelData level = zone_levels[zones[i]];
+            vec3 scale = level.scale.rgb;
+            reflected = max(scale * (radiance[i].rgb - emitted) +
+                                surfaces[i].albedo.rgb * level.offset.rgb / pi, 0.0);
             gloss[i] = pack_gloss(scale * gloss_scale(gloss[i]), gloss_source(gloss[i]));
             chain[i].y *= max(scale.r, max(scale.g, scale.b));
         }

@@ -19,12 +19,13 @@ layout(local_size_x = 64) in;
 #include "scatter.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
+#include "zone_level.glsl"
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
 uniform uint patch_count;
 uniform float shooter_density;  // p_j / A_j of a perspective bundle
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
-uniform float step;     // of the iterate
+uniform float iterate_age;  // samples that the iterate is worth
 uniform uint scatter_kind;  // which of the sums the bundle's deviation joins, or SCATTER_NOT_MEASURED
 uniform vec3 constant_irradiance;  // pi times the constant radiance term, which the bundle did not carry
 #ifdef GLOSSY
@@ -77,6 +78,8 @@ void main() {
     mean.w += weight;
     mean.rgb += (new_sample - mean.rgb) * (weight / mean.w);
     irradiance[i] = mean;
+    float younger = zone_levels[zones[i]].offset.w;
+    float step = pow(max(iterate_age - younger, 0.0) + 1.0, -ITERATE_EXPONENT);
     vec4 iterate = source[i];
     iterate.rgb += (new_sample - iterate.rgb) * step;
     source[i] = iterate;

@@ -7,10 +7,12 @@
 #endif
 #include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
+#include "zone_level.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #include "view_place.glsl"
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(binding = UNIT_PIXEL_IRRADIANCE) uniform samplerBuffer pixel_irradiance_texels;
+layout(binding = UNIT_PIXEL_KEPT) uniform samplerBuffer pixel_kept_texels;
 layout(binding = UNIT_VERTEX_IRRADIANCE) uniform samplerBuffer vertex_irradiance_texels;
 #ifdef GLOSSY
 layout(binding = UNIT_PIXEL_GLOSS) uniform samplerBuffer pixel_gloss_texels;
@@ -67,14 +69,21 @@ vec3 object_space_irradiance(PixelSurface p, bool behind) {
     return from_vertices(vertex_irradiance_texels, p, behind);
 }
 
-vec3 blended_irradiance(uint index, PixelSurface p) {
+/// A pixel's sum, with its weight: what has come in since the last change, and what is believed of what was kept over it.
+vec4 shown_sum(uint index, PixelSurface p) {
     vec4 own = texelFetch(pixel_irradiance_texels, int(index));
 #ifdef CONSTANT_RADIANCE
     own.rgb += constant_share(p.normal, p.facet) * view.constant.rgb;
 #endif
-    float weight = pixel_weight(own, view.weights.x);
-    float confidence = weight / (weight + view.display.z);
-    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(own, view.weights.x), confidence);
+    own.w = pixel_weight(own, view.weights.x);
+    vec4 kept = texelFetch(pixel_kept_texels, int(index));
+    return kept.w > 0.0 ? own + believed_sum(p.patch_id, kept) : own;
+}
+
+vec3 blended_irradiance(uint index, PixelSurface p) {
+    vec4 sum = shown_sum(index, p);
+    float confidence = sum.w / (sum.w + view.display.z);
+    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence);
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
 #endif

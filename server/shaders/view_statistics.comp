@@ -38,7 +38,7 @@ vec4 probe_statistics(uint probe) {
 #endif
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
-    float weight = pixel_weight(texelFetch(pixel_irradiance_texels, int(index)), view.weights.x);
+    float weight = shown_sum(index, p).w;
     float own_weight = view.weights.y;
     if (weight <= 0.0 || own_weight <= fresh_share * weight) {
         float guess = unsampled_error * l;  // just disoccluded, or the camera has just moved

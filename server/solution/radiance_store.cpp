@@ -13,8 +13,9 @@ constexpr std::size_t statistics_groups = 64;
 constexpr float relevant_change = 0.01F;  // smaller relative changes are taken for noise
 }  // namespace
 
-RadianceStore::RadianceStore(const GpuScene& scene, Caustics* caustics)
+RadianceStore::RadianceStore(const GpuScene& scene, ZoneBalance& zones, Caustics* caustics)
     : scene_(scene),
+      zones_(zones),
       patch_count_(scene.patch_count()),
       block_count_((scene.patch_count() + POWER_BLOCK - 1) / POWER_BLOCK),
       radiance_("radiance", std::size_t{patch_count_} * sizeof(glm::vec4)),
@@ -99,8 +100,8 @@ void RadianceStore::bind() const {
     accumulator_.bind_storage(BINDING_ACCUMULATOR);
     counters_.bind_storage(BINDING_COUNTERS);
     power_.bind_storage(BINDING_POWER);
-    flux_.bind_storage(BINDING_FLUX);
     balance_.bind_storage(BINDING_BALANCE);
+    zones_.bind();
     cdf_.bind_storage(BINDING_CDF);
     shooters_.bind_storage(BINDING_SHOOTERS);
     checkpoint_buffer_.bind_storage(BINDING_CHECKPOINT);
@@ -149,7 +150,7 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("patch_count", patch_count_);
     update_.set("scalar", bundle.scalar ? 1 : 0);
     update_.set("weight", bundle.weight);
-    update_.set("step", bundle.step);
+    update_.set("iterate_age", bundle.iterate_age);
     update_.set("constant_irradiance", bundle.constant_irradiance);
     update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
     update_.set("scatter_kind", bundle.scatter);
@@ -158,7 +159,12 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     if (first_shot_ && gloss_.bytes() > 0) {
         first_shot_->set_uniforms(update_);
     }
+    if (keeping_) {
+        since_.bind_storage(BINDING_IRRADIANCE);
+    }
     update_.dispatch(patch_count_);
+    irradiance_.bind_storage(BINDING_IRRADIANCE);
+    zones_.note_step(bundle.iterate_age, bundle.weight);
 }
 
 void RadianceStore::send_along_bundle(Place place) const {
@@ -221,14 +227,22 @@ void RadianceStore::refresh_slopes() const {
     find_slopes_.dispatch(patch_count_);
 }
 
-void RadianceStore::refresh_power() const {
-    flux_sum_.set("patch_count", patch_count_);
-    flux_sum_.dispatch(patch_count_);
-    balance_flux_.set("block_count", block_count_);
-    balance_flux_.set("balanced", scene_.has_sky() ? 0 : 1);
-    balance_flux_.set("constant_radiance", scene_.constant_radiance() ? 1 : 0);
-    balance_flux_.set("shoots_only", shoots_only_ ? 1 : 0);
-    balance_flux_.dispatch(1);
+void RadianceStore::refresh_power(Levels levels) const {
+    if (levels == Levels::found) {
+        zones_.balance(keeping_ ? ZoneBalance::Means{&kept_, &since_} : ZoneBalance::Means{});
+    } else {
+        zones_.keep();
+    }
+    if (scene_.constant_radiance()) {
+        flux_.bind_storage(BINDING_FLUX);
+        flux_sum_.set("patch_count", patch_count_);
+        flux_sum_.dispatch(patch_count_);
+        balance_flux_.set("block_count", block_count_);
+        balance_flux_.set("shoots_only", shoots_only_ ? 1 : 0);
+        balance_flux_.dispatch(1);
+        zones_.bind();
+    }
+    serve();
     if (level_) {
         level_->set("patch_count", patch_count_);
         level_->dispatch(patch_count_);
@@ -359,7 +373,7 @@ std::size_t RadianceStore::bytes() const {
         (first_shot_ ? first_shot_->bytes() : 0) + (placed_ ? placed_->radiance.bytes() : 0);
     for (const Buffer* buffer :
          {&radiance_, &irradiance_, &source_, &accumulator_, &power_, &cdf_, &checkpoint_buffer_,
-          &gloss_, &chain_, &sent_, &vertex_light_, &slopes_}) {
+          &gloss_, &chain_, &sent_, &vertex_light_, &slopes_, &kept_, &since_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -13,6 +13,7 @@
 #include "solution/caustics.h"
 #include "solution/first_shot.h"
 #include "solution/gpu_scene.h"
+#include "solution/zone_balance.h"
 
 namespace raybundle {
 
@@ -25,9 +26,9 @@ struct SolutionStatistics {
 
 /// How one bundle joins the solution.
 struct BundleUpdate {
-    bool scalar = false;  ///< the sums are form factors of one Lambert shooter
-    float weight = 1.0F;  ///< of the sample in the mean
-    float step = 1.0F;    ///< of the iterate
+    bool scalar = false;       ///< the sums are form factors of one Lambert shooter
+    float weight = 1.0F;       ///< of the sample in the mean
+    float iterate_age = 0.0F;  ///< samples that the iterate is worth; see ITERATE_EXPONENT
     /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
     float shooter_density = 0.0F;
     std::uint64_t iteration = 0;
@@ -40,13 +41,17 @@ struct BundleUpdate {
 /// probabilities that follow from them.
 class RadianceStore {
   public:
-    /// caustics: where the scene has any; must outlive this.
-    explicit RadianceStore(const GpuScene& scene, Caustics* caustics = nullptr);
+    /// zones, and caustics where the scene has any, must outlive this.
+    RadianceStore(const GpuScene& scene, ZoneBalance& zones, Caustics* caustics = nullptr);
 
     void bind() const;
     /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
     /// are bound.
     void update(const BundleUpdate& bundle) const;
+    /// An update at this age of the iterate has done nothing, since its bundle had too little room.
+    void discard_update(float iterate_age, float weight) const {
+        zones_.forget_step(iterate_age, weight);
+    }
     /// Whether only perspective bundles are drawn, which never find what lines meet nothing.
     void set_shoots_only(bool shoots_only) { shoots_only_ = shoots_only; }
     /// What all patches send along the parallel bundle whose parameters are bound takes the place
@@ -77,8 +82,10 @@ class RadianceStore {
     void refresh_slopes() const;
     /// Whether bundles carry it: not where they carry other radiance than the solution's.
     [[nodiscard]] bool sends_slopes() const { return other_ == nullptr; }
+    /// Whether the iterate is put to the levels of its zones.
+    enum class Levels { found, kept };
     /// New selection probabilities from the present solution.
-    void refresh_power() const;
+    void refresh_power(Levels levels = Levels::found) const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
     /// solution_shooters.comp; at most 16.
     std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
@@ -86,6 +93,14 @@ class RadianceStore {
     /// Copies the solution of a store for the same patches, with what is left of its last change;
     /// glossy parts stay as they are.
     void adopt(const RadianceStore& other) const;
+    /// What is served is from now on kept as it is, apart from what iterations bring: both means
+    /// estimate the same light, so that what was kept can be judged (zones/kept_light.h).
+    void keep_light();
+    /// Brings the mean irradiance up to date, which follows iterations only between their groups.
+    void serve() const;
+    /// There has been no change: nothing is kept apart.
+    void forget_kept() { keeping_ = false; }
+    [[nodiscard]] bool keeping() const { return keeping_; }
     /// Remembers the state before a change. unsettled: the last one is still being worked in, and
     /// both are one for statistics().
     void checkpoint(bool unsettled) const;
@@ -120,6 +135,7 @@ class RadianceStore {
 
   private:
     const GpuScene& scene_;
+    ZoneBalance& zones_;
     std::uint32_t patch_count_, block_count_;
     Buffer radiance_, irradiance_, source_, accumulator_, counters_;
     Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
@@ -131,6 +147,9 @@ class RadianceStore {
     Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Caustics* caustics_;                   // null where the scene has none
     Buffer vertex_light_, slopes_;         // see radiance_slope.glsl
+    Buffer kept_, since_;                  // from the first change on, see solution_serve.comp
+    bool keeping_ = false;
+    ShaderProgram serve_;
     Texture2D radiance_texture_, gloss_texture_, sent_texture_;
     Texture2D slope_texture_;
     /// Radiance with the densities of one place; exists from the first change of a size on.

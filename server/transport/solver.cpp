@@ -19,13 +19,6 @@ constexpr float transient_iterations =
     64.0F;                                  // times 1/(1 - albedo): over which sample weights rise
 constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
 constexpr std::uint64_t statistics_interval = 16;
-/// Samples after a change weigh like the square root of their number up to this many:
-/// low-discrepancy means gain by n^-1.5 in variance, so that what is kept must lose its share like
-/// n^-1.5, too.
-constexpr float change_ramp = 1024.0F;
-/// Where a change has left less than so many samples of all means, a carried lamp of the only
-/// light, they begin as after loading: what comes early is still reflected from the old light.
-constexpr float as_good_as_nothing = 0.3F;
 constexpr float least_iterate_age = 3.0F;  // after a change, in samples
 
 /// Area mean of the albedo's largest channel: how slowly the dark beginning fades.
@@ -68,7 +61,8 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
       scene_(scene, mesh, settings.constant_radiance, settings.caustics),
       caustics_(scene_.caustics() ? std::make_unique<Caustics>(scene, mesh, scene_, settings.seed)
                                   : nullptr),
-      store_(scene_, caustics_.get()),
+      zones_(scene, mesh, scene_, settings.seed),
+      store_(scene_, zones_, caustics_.get()),
       schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
                 settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
@@ -90,8 +84,9 @@ std::size_t Solver::bytes() const {
 
 double Solver::noise() const {
     // Averaging with a constant step s leaves the variance s/2 of single samples.
+    const double step = std::pow(static_cast<double>(iterate_age()) + 1.0, -ITERATE_EXPONENT);
     const double samples = static_cast<double>(std::max<std::uint64_t>(iterations_, 1));
-    return statistics_.distance * std::sqrt(2.0 / (samples * static_cast<double>(iterate_step())));
+    return statistics_.distance * std::sqrt(2.0 / (samples * step));
 }
 
 bool Solver::noise_is_low() const {
@@ -148,6 +143,7 @@ void Solver::plan_group() {
         store_.bind();
     }
     refresh_slopes();
+    zones_.set_iterate_age(iterate_age());
     store_.refresh_power();
     const auto shooters = store_.choose_shooters(numbers);
     if (!shooters.empty()) {
@@ -168,10 +164,16 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
         if (phase_->done()) {
             special_bundles_ = phase_->bundles();
             const bool informed = phase_->informed();
-            kept_weight_ = phase_->most_weight();
-            limit_iterate_age(std::max(kept_weight_, least_iterate_age));
+            const bool much_changed = phase_->much_changed();
+            limit_iterate_age(std::max(phase_->most_weight(), least_iterate_age));
             phase_.reset();
             scene_.settle();
+            store_.bind();
+            store_.keep_light();
+            if (much_changed) {
+                zones_.set_iterate_age(iterate_age());
+                store_.refresh_power();
+            }
             refresh_statistics();
             statistics_.settled *= informed ? 1.0 : 0.0;
             group_.clear();  // shooters may have moved, and what is bright has changed
@@ -185,19 +187,15 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
     ++group_next_;
     if (group_next_ == group_.size()) {
         finish_group(receivers);
+        store_.serve();
     }
 }
 
-/// Weight of a sample in the means: rises at first, so that the dark beginning fades like 1/n^2.
+/// Weight of a sample in the mean since the last change, or since the start: rises at first, so
+/// that what the iterate had before fades like 1/n^2.
 float Solver::sample_weight() const {
-    const float age = std::min(static_cast<float>(iterations_ + 1), transient_) / transient_;
-    const auto since = static_cast<float>(since_change_ + 1);
-    float ramp = 1.0F;
-    if (changes_ > 0) {
-        ramp = kept_weight_ < as_good_as_nothing ? std::min(since / transient_, 1.0F)
-                                                 : std::sqrt(std::min(since / change_ramp, 1.0F));
-    }
-    return age * ramp * (is_fine() ? fine_sample_weight : 1.0F);
+    const auto since = static_cast<float>((changes_ > 0 ? since_change_ : iterations_) + 1);
+    return std::min(since / transient_, 1.0F) * (is_fine() ? fine_sample_weight : 1.0F);
 }
 
 /// A change has left the iterate as good as so many samples, at most.
@@ -207,18 +205,13 @@ void Solver::limit_iterate_age(float samples) {
     }
 }
 
-/// Step of the transferred iterate, see solution_update.comp.
-float Solver::iterate_step() const {
-    if (!settings_.main_part) {
-        return 1.0F;
-    }
-    // The slowest mode of the dark start, the overall level, needs large steps to be forgotten
-    // unless the energy balance sets it, or most light escapes and it fades fast. Only perspective
-    // bundles tell what flux escapes.
-    const bool balanced = !scene_.has_sky() && probabilities_.perspective > 0.0F;
-    const float exponent = balanced ? 0.8F : 0.66F;
-    constexpr float smallest = 1.0F / 2048.0F;
-    return std::max(std::pow(static_cast<float>(iterate_age_ + 1), -exponent), smallest);
+/// Samples that the transferred iterate is worth; its step follows from them, see
+/// solution_update.comp.
+float Solver::iterate_age() const {
+    constexpr double smallest_step = 1.0 / 2048.0;
+    static const auto oldest =
+        static_cast<float>(std::pow(smallest_step, -1.0 / ITERATE_EXPONENT) - 1.0);
+    return settings_.main_part ? std::min(static_cast<float>(iterate_age_), oldest) : 0.0F;
 }
 
 void Solver::run(const Planned& planned, unsigned slot,
@@ -256,7 +249,7 @@ void Solver::run(const Planned& planned, unsigned slot,
         shots_.from_emitters += planned.shooter.emitter;
         store_.update({.scalar = planned.shooter.glossy == 0,
                        .weight = settings.context.sample_weight,
-                       .step = iterate_step(),
+                       .iterate_age = iterate_age(),
                        .shooter_density = planned.shooter.density,
                        .iteration = iterations_,
                        .scatter = scatter,
@@ -269,7 +262,7 @@ void Solver::run(const Planned& planned, unsigned slot,
             transfer().layered(window, window.full(), settings, receivers);
         }
         store_.update({.weight = settings.context.sample_weight,
-                       .step = iterate_step(),
+                       .iterate_age = iterate_age(),
                        .iteration = iterations_,
                        .scatter = scatter,
                        .constant_irradiance = settings.context.constant_irradiance});
@@ -286,6 +279,7 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
                 --iterations_;
                 --since_change_;
                 --iterate_age_;
+                store_.discard_update(iterate_age(), sample_weight());
                 mix_.count(group_[slot].sample.strategy, -1);
                 for (BundleReceiver* receiver : receivers) {
                     receiver->discard_sample({.sample_weight = sample_weight(),
@@ -308,6 +302,10 @@ void Solver::after_iteration() {
 
 void Solver::refresh_statistics() {
     statistics_ = store_.statistics();
+    // Above 0.9 no zone is off by more than 5 % (two standard deviations).
+    const double doubt = zones_.doubt();
+    statistics_.settled = std::min(statistics_.settled,
+                                   std::max(doubt < 0.05 ? 1.0 - 2.0 * doubt : 0.95 - doubt, 0.0));
 }
 
 }  // namespace raybundle

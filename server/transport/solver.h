@@ -145,6 +145,7 @@ class Solver {
         bool glossy = false;  ///< some of the reflecting are, or were
     };
     void work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers);
+    void begin_change();
     void note_change();
     [[nodiscard]] bool unsettled() const;
     void start_phase(bool moving, float most_weight);
@@ -158,7 +159,7 @@ class Solver {
     [[nodiscard]] Transfer& transfer() { return is_fine() ? *fine_ : *coarse_; }
     [[nodiscard]] float sample_weight() const;
     void limit_iterate_age(float samples);
-    [[nodiscard]] float iterate_step() const;
+    [[nodiscard]] float iterate_age() const;
 
     SolverSettings settings_;
     StrategyMix mix_;
@@ -166,6 +167,7 @@ class Solver {
     glm::vec3 constant_{0.0F};             // constant radiance term of the running group
     GpuScene scene_;
     std::unique_ptr<Caustics> caustics_;  // only where the scene has any
+    ZoneBalance zones_;
     RadianceStore store_;
     IterationSchedule schedule_;
     std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on
@@ -182,7 +184,6 @@ class Solver {
     Shots shots_;
     std::uint64_t since_change_ = 0;
     std::uint64_t next_slopes_ = 0;  // of since_change_
-    float kept_weight_ = 1e30F;  // samples that any mean was worth at most after the last change
     std::uint64_t iterate_age_ = 0;  // samples that the iterate is worth
     std::uint64_t changes_ = 0;
     SolutionStatistics statistics_;

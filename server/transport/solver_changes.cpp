@@ -64,14 +64,22 @@ bool Solver::unsettled() const {
     return changes_ > 0 && statistics_.settled < settled_enough;
 }
 
+/// What has been kept over the last change and what has come in since are one again.
+void Solver::begin_change() {
+    store_.bind();
+    store_.serve();
+    store_.forget_kept();
+    store_.checkpoint(unsettled());
+}
+
 void Solver::note_change() {
     group_.clear();
     group_next_ = 0;
     since_change_ = 0;
     next_slopes_ = 0;
-    kept_weight_ = no_limit;
     limit_iterate_age(iterate_age_after_change);
     statistics_.settled = 0.0;
+    zones_.interrupt();
     store_.forget_scatter();
     mix_.forget();
     ++changes_;
@@ -96,9 +104,9 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
 
 void Solver::move_objects(std::span<const ObjectMove> moves,
                           std::span<BundleReceiver* const> receivers) {
-    store_.bind();
-    store_.checkpoint(unsettled());
+    begin_change();
     scene_.move_objects(moves);
+    zones_.objects_moved();
     for (const ObjectMove& move : moves) {
         store_.turn_gloss(move.object, scene_.now_from_before(move.object));
     }
@@ -133,6 +141,7 @@ void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_obj
     changes_ = 0;
     special_bundles_ = 0;
     store_.forget_checkpoint();
+    store_.forget_kept();
     store_.bind();
     refresh_statistics();
 }
@@ -177,6 +186,7 @@ void Solver::work_in(const SurfaceChange& change, std::span<BundleReceiver* cons
         receiver->end_special(1.0F, no_limit);
     }
     store_.bind();
+    store_.keep_light();
     refresh_statistics();
 }
 
@@ -191,11 +201,11 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     change.reflecting = reflecting;
     change.transfer = !reflecting.empty() || anything_left(before, mesh.emission, change.scale);
     change.redraw = !reflecting.empty() || emitters_differ(before, mesh.emission);
-    store_.bind();
-    store_.checkpoint(unsettled());
+    begin_change();
     change_store().remember_surfaces(scene_);
     change.glossy = any_glossy(reflecting);
     scene_.update_surfaces(scene, mesh, materials);
+    zones_.surfaces_changed(mesh);
     if (!reflecting.empty()) {
         store_.reshoot(first_shot_weight);
     }
@@ -215,9 +225,10 @@ void Solver::take_over(const Solver& other, std::span<const std::uint32_t> refle
     iterate_age_ = other.iterate_age_;
     changes_ = other.changes_;
     statistics_ = other.statistics_;
+    other.store_.bind();
+    other.store_.serve();
     store_.adopt(other.store_);
-    store_.bind();
-    store_.checkpoint(unsettled());
+    begin_change();
     change_store().remember_surfaces(other.scene_);
     SurfaceChange change;
     change.scale = glm::vec3(other.scene_.radiance_unit() / scene_.radiance_unit());

@@ -29,7 +29,8 @@ constexpr float unseen_share = 0.3F;  // of the light that has gone round more t
 /// that is not carried on, and where it is.
 constexpr float unseen_bounce = 2.0F;
 constexpr float unseen_carried = 1.0F;
-constexpr float much_changed = 0.5F;      // a smaller share mostly cancels: shadows go and come
+constexpr float visible_share = 0.05F;    // of all light: a level that is off by so much is seen
+constexpr float mostly_changed = 0.5F;    // a smaller share mostly cancels: shadows go and come
 constexpr float sample_deviation = 0.4F;  // as in corrected_weight.glsl
 
 /// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
@@ -76,7 +77,7 @@ SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeSt
     change_.begin();
     if (moving_) {
         store_.refresh_slopes();  // light and materials may have changed since
-        store_.refresh_power();
+        store_.refresh_power(RadianceStore::Levels::kept);
     } else {
         change_.send();
     }
@@ -233,20 +234,21 @@ void SpecialPhase::step_bounce(std::span<BundleReceiver* const> receivers) {
 /// Samples that any mean is worth where part of its light is still that from before: what the
 /// change goes on to change is not carried on, or by few bundles. A carried light changes all of
 /// it, a box next to nothing.
-float SpecialPhase::weight_beside_unseen() const {
-    if (settings_.skipped) {
-        return settings_.most_weight;
-    }
-    const auto share = static_cast<float>(change_.reflected_share());
+float SpecialPhase::weight_beside_unseen(float share) const {
     const float unseen =
-        share * share / (share + much_changed) * (bouncing_ ? unseen_carried : unseen_bounce);
+        share * share / (share + mostly_changed) * (bouncing_ ? unseen_carried : unseen_bounce);
     return sample_deviation * sample_deviation / std::max(unseen * unseen, 1e-12F);
 }
 
 void SpecialPhase::finish(std::span<BundleReceiver* const> receivers) {
     change_.stop_sending();
     const float bundles_noise = 1.0F / static_cast<float>(bundles_);
-    most_weight_ = std::min(settings_.most_weight, weight_beside_unseen());
+    most_weight_ = settings_.most_weight;
+    if (!settings_.skipped) {
+        const auto share = static_cast<float>(change_.reflected_share());
+        most_weight_ = std::min(most_weight_, weight_beside_unseen(share));
+        much_changed_ = share > visible_share;
+    }
     change_.correct(bundles_noise, most_weight_);
     for (BundleReceiver* receiver : receivers) {
         receiver->end_special(bundles_noise, most_weight_);

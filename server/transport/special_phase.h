@@ -36,6 +36,8 @@ class SpecialPhase {
     [[nodiscard]] bool informed() const { return !settings_.skipped && bundles_ > 1; }
     /// Samples that the phase has left any mean worth; see weight_beside_unseen(). Once done().
     [[nodiscard]] float most_weight() const { return most_weight_; }
+    /// Whether so much light has changed that its levels are to be found before the first frame.
+    [[nodiscard]] bool much_changed() const { return much_changed_; }
     /// Bundles of the first stage: chosen while it runs.
     [[nodiscard]] unsigned bundles() const { return bundles_; }
 
@@ -45,7 +47,7 @@ class SpecialPhase {
     void step_source(std::span<BundleReceiver* const> receivers);
     void step_bounce(std::span<BundleReceiver* const> receivers);
     void end_source(std::span<BundleReceiver* const> receivers);
-    [[nodiscard]] float weight_beside_unseen() const;
+    [[nodiscard]] float weight_beside_unseen(float share) const;
     void finish(std::span<BundleReceiver* const> receivers);
     void move_perspective(const layout::Shooter& shooter, unsigned index,
                           std::span<BundleReceiver* const> receivers);
@@ -74,6 +76,7 @@ class SpecialPhase {
     unsigned first_number_ = 0;  // of the running stage in the sequences
     bool bouncing_ = false;      // the second stage runs
     bool done_ = false;
+    bool much_changed_ = false;
 };
 
 }  // namespace raybundle

@@ -54,6 +54,10 @@ void ViewerImage::allocate() {
     irradiance_ = Buffer("pixel irradiance", pixels * sizeof(glm::vec4));
     old_irradiance_ = Buffer("old pixel irradiance", pixels * sizeof(glm::vec4));
     delta_ = Buffer("pixel increments", pixels * sizeof(glm::vec4));
+    kept_ = Buffer("kept pixel irradiance", pixels * sizeof(glm::vec4));
+    kept_.clear();
+    kept_texture_ = create_buffer_texture("kept pixel irradiance", GL_RGBA32F, kept_);
+    keeping_ = false;
     scatter_ = Buffer("pixel scatter", probes * SCATTER_SUMS * sizeof(float));
     frame_ = Buffer("frame", pixels * sizeof(std::uint32_t));
     surface_ids_ = create_texture_2d("view surface ids", GL_R32UI, width, height);
@@ -141,6 +145,7 @@ void ViewerImage::set_camera(const Camera& camera, glm::uvec2 size) {
 }
 
 void ViewerImage::refine(unsigned factor) {
+    join_kept();
     // What there is becomes the old picture of the finer one, and is replaced when that is made.
     const glm::uvec2 coarse_size = size_;
     const glm::vec4 weights = parameters_.weights;
@@ -178,6 +183,7 @@ void ViewerImage::refine(unsigned factor) {
 
 void ViewerImage::set_size(glm::uvec2 size) {
     if (size != size_) {
+        join_kept();
         size_ = size;
         affected_.emplace(size_);
     }
@@ -263,6 +269,7 @@ bool ViewerImage::smooth_step() {
 
 /// moved: objects have just moved, and the picture still shows them at their old places.
 void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
+    join_kept();
     old_ = {parameters_.clip_from_world, glm::uvec2(parameters_.size), glm::vec3(parameters_.eye),
             parameters_.weights.x, glm::vec3(parameters_.constant)};
     const glm::vec4 display = parameters_.display;
@@ -351,6 +358,7 @@ void ViewerImage::bind_pixels() const {
     frame_.bind_storage(BINDING_FRAME);
     glBindTextureUnit(UNIT_PIXELS, pixel_texture_.get());
     glBindTextureUnit(UNIT_PIXEL_IRRADIANCE, irradiance_texture_.get());
+    glBindTextureUnit(UNIT_PIXEL_KEPT, kept_texture_.get());
     glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
     if (specular_) {
         specular_->bind();
@@ -383,7 +391,7 @@ std::size_t ViewerImage::bytes() const {
                       crowded_->bytes() + (continued_ ? continued_->bytes() : 0) +
                       (depth_grid_ ? depth_grid_->bytes() : 0);
     for (const Buffer* buffer :
-         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &scatter_,
+         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &kept_, &scatter_,
           &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
         sum += buffer->bytes();
     }

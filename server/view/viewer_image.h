@@ -229,6 +229,8 @@ class ViewerImage : public BundleReceiver {
     void restart_scatter();
     void refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size);
     void begin_change();
+    void keep_light(bool apart);
+    void join_kept();
     void interpolate_vertices();
     void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
     void measure_detail();
@@ -261,6 +263,9 @@ class ViewerImage : public BundleReceiver {
     ImageStatistics statistics_;
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, scatter_;
+    Buffer kept_;           // of pixels over the last change, see view_keep.comp
+    bool keeping_ = false;  // some of them have any
+    Texture2D kept_texture_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
     std::optional<EdgeFilter> edges_;           // always
     std::optional<CrowdedPixels> crowded_;      // always

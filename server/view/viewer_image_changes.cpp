@@ -12,8 +12,27 @@ void ViewerImage::clear_increments() const {
     }
 }
 
+/// Puts what the pixels have apart from what will come in, or joins both again.
+void ViewerImage::keep_light(bool apart) {
+    upload_view();
+    store_.bind();
+    bind_pixels();
+    kept_.bind_storage(BINDING_PIXEL_DELTA);
+    programs_.keep.set("split", apart);
+    programs_.keep.dispatch(pixel_count(size_));
+    delta_.bind_storage(BINDING_PIXEL_DELTA);
+    keeping_ = apart;
+}
+
+void ViewerImage::join_kept() {
+    if (keeping_) {
+        keep_light(false);
+    }
+}
+
 /// What was known of the error was of another scene.
 void ViewerImage::begin_change() {
+    join_kept();
     statistics_.known = false;
     requested_samples_ = 0;
 }
@@ -175,6 +194,7 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
     programs_.correct.set("bundles_noise", bundles_noise);
     programs_.correct.set("most_weight", most_weight);
     programs_.correct.dispatch(std::size_t{size_.x} * size_.y);
+    keep_light(true);
     if (continued() != nullptr) {
         continued()->end_special(bundles_noise, most_weight);
     }

@@ -69,11 +69,14 @@ PixelProbe ViewerImage::from_pick(const layout::PickResult& pick) const {
 
 std::vector<glm::vec4> ViewerImage::read_irradiance() const {
     std::vector<glm::vec4> result(pixel_count(size_));
+    std::vector<glm::vec4> kept(result.size());
     irradiance_.read<glm::vec4>(result);
-    for (glm::vec4& value : result) {
-        const float weight = value.w + parameters_.weights.x;
-        const float scale = weight > 0.0F ? scene_.radiance_unit() / weight : 0.0F;
-        value = glm::vec4(glm::vec3(value + parameters_.constant) * scale, weight);
+    kept_.read<glm::vec4>(kept);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const glm::vec4 sum =
+            result[i] + glm::vec4(0.0F, 0.0F, 0.0F, parameters_.weights.x) + kept[i];
+        const float scale = sum.w > 0.0F ? scene_.radiance_unit() / sum.w : 0.0F;
+        result[i] = glm::vec4(glm::vec3(sum + parameters_.constant) * scale, sum.w);
     }
     return result;
 }

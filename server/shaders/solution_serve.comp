@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mean irradiance that is served: what was kept over the last change, as far as it is believed, with what has come
+// in since.
+#include "layouts.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_IRRADIANCE) writeonly buffer IrradianceBuffer { vec4 irradiance[]; };
+layout(std430, binding = BINDING_KEPT) readonly buffer KeptBuffer { vec4 kept[]; };
+layout(std430, binding = BINDING_SINCE) readonly buffer SinceBuffer { vec4 since[]; };
+#include "zone_level.glsl"
+uniform uint patch_count;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= patch_count) {
+        return;
+    }
+    vec4 level = zone_levels[zones[i]].kept;
+    vec4 recent = since[i];
+    vec3 old_mean = level.rgb * kept[i].rgb;
+    float weight = min(kept[i].w, level.w) + recent.w;
+    irradiance[i] = vec4(weight > 0.0 ? old_mean + (recent.rgb - old_mean) * (recent.w / weight) : old_mean, weight);
+}
