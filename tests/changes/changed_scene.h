@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Changes of scenes whose light is known before and after, and what is served of it.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+#include "transport/solver.h"
+
+namespace raybundle {
+
+/// One edit of a scene: an object elsewhere, a light or a material as it shall be. By names.
+struct Edit {
+    enum class Kind { move, light, material };
+    Kind kind = Kind::move;
+    std::string name;
+    glm::vec3 value{0.0F};   ///< m (move) or linear colour (material)
+    float scale = 1.0F;      ///< of a moved object
+    float luminance = 0.0F;  ///< of a light, cd/m²; 0: off
+};
+
+Edit move_to(const std::string& object, const glm::vec3& translation, float scale = 1.0F);
+Edit set_light(const std::string& light, float luminance);
+Edit paint(const std::string& material, float albedo);
+
+/// A scene, what changes in it, and where its light is looked at.
+struct ChangeCase {
+    std::string name;
+    std::string file;                        ///< in tests/cases/changes; empty: two_rooms()
+    std::vector<Edit> before;                ///< makes the first state of what the file has
+    std::vector<std::vector<Edit>> changes;  ///< one after another
+    std::uint64_t between = 8;               ///< iterations after each change but the last
+    glm::vec3 eye{0.0F}, target{0.0F};
+    float field_of_view = 75.0F;  ///< degrees, vertical
+    float patch_size = 0.3F;      ///< m
+    double bright = 100.0;        ///< lx: order of the light before or after, the brighter of both
+};
+
+/// The cases of numerics.md (second part, Changes) that fit into some seconds each.
+std::vector<ChangeCase> change_cases();
+const ChangeCase& change_case(const std::string& name);
+
+/// What a picture of 96x96 pixels serves at 5 x 5 points.
+struct Served {
+    std::uint64_t iterations = 0;  ///< since the last change
+    double mean = 0.0;             ///< of the illuminance, lx
+    std::vector<double> points;    ///< likewise of each
+    double settled = 0.0;
+    double stated_low = 0.0, stated_high = 0.0;  ///< 95 % interval of the picture's error
+};
+
+/// Solves the last state of a case anew; `at`: iterations, ascending.
+std::vector<Served> solve_anew(const ChangeCase& c, std::uint64_t seed,
+                               std::span<const std::uint64_t> at);
+/// Solves the first state for so many iterations, makes the changes, and goes on.
+std::vector<Served> change_and_solve(const ChangeCase& c, std::uint64_t seed,
+                                     std::uint64_t iterations_before,
+                                     std::span<const std::uint64_t> at);
+/// Root mean square distance of the points from the truth, relative to its root mean square; where
+/// the truth is dark, to `scale` lx.
+double error_of(const Served& served, std::span<const double> truth, double scale);
+
+}  // namespace raybundle
