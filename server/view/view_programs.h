@@ -29,7 +29,7 @@ struct ViewPrograms {
     Resolve resolve_new, resolve_reprojected, resolve_moved;
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
-    ShaderProgram keep;  ///< what pixels have over a change
+    ShaderProgram keep;                                    ///< what pixels have over a change
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
     ShaderProgram scatter_refine;
     ShaderProgram depths;
