@@ -137,6 +137,7 @@ void RenderLoop::handle(const ClientEvent& event) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
         requests_.forget(event.viewer);
+        gate_.excuse(event.viewer);
         std::erase(receivers_, snapshots_.picture_of(event.viewer));
         snapshots_.forget(event.viewer);
         drop_image(*found->second);
@@ -366,12 +367,15 @@ bool RenderLoop::solve() {
     if (!solver_->last_strategy()) {
         phase_budget_.note_bundle(Server::now_ms(), !solver_->correcting());
         note_phase_end();
+        gate_.note_change(cost);
+        end_change();
     }
     if (walking(Clock::now())) {
         solving_.charge(cost);
     }
     metrics_.note_step(solver_->last_strategy(), cost);
     if (solver_->last_strategy()) {
+        gate_.note_iteration(cost);
         cost_.note_iteration(cost, receiver_pixels_);
         snapshots_.note_iteration(cost);
     }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "loop/change_gate.h"
 #include "loop/change_log.h"
 #include "loop/change_queue.h"
 #include "loop/check_desk.h"
@@ -84,8 +85,9 @@ class RenderLoop {
     void start_pending_change();
     bool record(PendingChange& pending);
     void start_undo(const PendingChange& pending);
-    void start_surfaces(std::vector<PendingChange> pending);
-    void start_moves(std::vector<PendingChange> pending);
+    bool start_surfaces(std::vector<PendingChange> pending);
+    bool start_moves(std::vector<PendingChange> pending);
+    void end_change();
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
     void gather_all();
@@ -158,6 +160,7 @@ class RenderLoop {
     ViewerId first_look_of_ = 0;               // whom it shows last, 0: nobody it still fits
     std::vector<BundleReceiver*> receivers_;
     ChangeQueue changes_;
+    ChangeGate gate_;
     bool undo_failed_ = false;  // a change of the running undo could not be saved
     std::uint64_t replans_ = 0;
     std::uint32_t epoch_ = 0;

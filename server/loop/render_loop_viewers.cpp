@@ -249,11 +249,19 @@ RenderLoop::DueFrames RenderLoop::due_frames(Clock::time_point now) {
             session->note_acknowledged();
         }
         // While a change is being worked in, the picture is between two states: finish first.
-        if (solver_->correcting() || !session->due(now) || encoder_.busy(id)) {
+        if (solver_->correcting()) {
+            continue;
+        }
+        const bool watches = !session->paused() && session->acknowledged();
+        if (!watches || encoder_.busy(id) || !session->awaits_frame()) {
+            gate_.excuse(id);
+        }
+        if (!session->due(now) || encoder_.busy(id)) {
             continue;
         }
         const FrameAdvice advice = server_.advise(id, session->demand(now));
         if (!advice.send) {
+            gate_.excuse(id);
             continue;
         }
         if (session->has_image() || session->acknowledged()) {
@@ -320,6 +328,7 @@ void RenderLoop::send_frame(const Wanted& wanted) {
     }
     const double cost = milliseconds_since(start);
     scheduler_.charge(wanted.viewer, cost);
+    gate_.note_frame(wanted.viewer, cost);
     session.note_frame_cost(cost);
     cost_.note_frame(cost, session.drawn_pixels());
 }
