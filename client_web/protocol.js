@@ -202,7 +202,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @typedef {{scenes: SceneFile[], current: string, maxUploadBytes: number}} SceneList
  * @typedef {object} SceneOpening
  * @property {string} name
- * @property {number} by  viewer
+ * @property {number} by  viewer; 0: the server makes ready what it is to show, before the welcome
  * @property {string} byName
  * @property {'READING' | 'PREPARING' | 'COMPILING' | 'READY' | 'REJECTED'} stage
  * @property {string} reason  of REJECTED

@@ -63,11 +63,6 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
 
 void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
-    if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
-        for (const glm::uvec2& size : rehearsal_sizes) {
-            rehearse(size);
-        }
-    }
     bool idle = true;
     while (!stop) {
         hear_viewers(idle);
@@ -89,16 +84,30 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
     }
 }
 
+void RenderLoop::rehearse(const std::atomic<bool>& stop) {
+    if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
+        for (const glm::uvec2& size : rehearsal_sizes) {
+            rehearse_at(size, stop);
+        }
+    }
+}
+
 /// Software drivers compile shaders when they are first used, each for some tenths of a second: a
 /// small picture goes through all that a viewer's does. Its iterations count as any others.
-void RenderLoop::rehearse(const glm::uvec2& size) {
+void RenderLoop::rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop) {
+    if (stop) {
+        return;
+    }
     ViewerImage image(solver_->scene(), solver_->store(), *programs_, size);
     image.set_camera(scene_.cameras.front());
     image.rest();
     BundleReceiver* const receivers[] = {&image};
     do {
         solver_->step(receivers);
-    } while (!solver_->between_groups());
+    } while (!solver_->between_groups() && !stop);
+    if (stop) {
+        return;
+    }
     image.set_camera(scene_.cameras.front());
     image.request_statistics();
     image.smooth();

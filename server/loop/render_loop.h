@@ -62,6 +62,10 @@ class RenderLoop {
     RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings, Server& server,
                ChangeLog& log);
 
+    /// Does once all that viewers and moves need, where the settings say so and nothing has been
+    /// iterated yet: it takes long. Ends early when `stop` is set. Throws GpuError as run() does.
+    void rehearse(const std::atomic<bool>& stop);
+
     /// Runs until `stop` is set and the inbox is interrupted. Throws GpuError where the GPU has
     /// lost its memory, or has not enough of it for the solution.
     void run(const std::atomic<bool>& stop);
@@ -76,7 +80,7 @@ class RenderLoop {
     using Clock = std::chrono::steady_clock;
     static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
-    void rehearse(const glm::uvec2& size);
+    void rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop);
     void hear_viewers(bool idle);
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);

@@ -34,6 +34,9 @@ void Inbox::joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role) {
         events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}, role});
     }
     changed_.notify_one();
+    if (on_joined_) {
+        on_joined_(viewer);
+    }
 }
 
 /// The waiting event that `message` makes obsolete, or end().

@@ -17,6 +17,10 @@ class Daemon {
     /// Starts it and waits until it listens. `options` follow the scene. Throws std::runtime_error
     /// with its output where it ends instead.
     explicit Daemon(const std::string& scene, const std::vector<std::string>& options = {});
+    /// Only starts it: wait_for_address() has to follow before port().
+    struct Unready {};
+    Daemon(Unready unready, const std::string& scene, const std::vector<std::string>& options);
+    void wait_for_address();
     ~Daemon();  ///< kills it if need be
     Daemon(const Daemon&) = delete;
     Daemon& operator=(const Daemon&) = delete;
