@@ -65,6 +65,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
     bool idle = true;
     while (!stop) {
+        metrics_.count_turn();
         hear_viewers(idle);
         start_pending_change();
         const bool collected = collect_frames();

@@ -39,11 +39,12 @@ Phases phases(std::uint16_t port) {
             counted(text, "raybundle_iteration_seconds_count{strategy=\"special\"}")};
 }
 
-/// The same once a number of slices has been reached and no more come; waits up to a minute.
+/// The same once a number of slices has been reached and no more come; only what hangs takes so
+/// long as is waited.
 Phases phases_at_rest(std::uint16_t port, int least_slices) {
     Phases last;
     int same = 0;
-    for (int i = 0; i < 240 && same < 3; ++i) {
+    for (int i = 0; i < 2400 && same < 3; ++i) {
         const Phases now = phases(port);
         same = now.slices >= least_slices && now == last ? same + 1 : 0;
         last = now;

@@ -106,7 +106,7 @@ TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
     }
     be_content(viewer);
     Json answer;
-    for (int i = 0; i < 50 && !answer.contains("snapshotReady"); ++i) {
+    for (int i = 0; i < 3000 && !answer.contains("snapshotReady"); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 100));
         answer = viewer.request(snapshot("PNG", 64, 48, 0.5));
     }
