@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/preparation.h"
 
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 
 namespace raybundle {
@@ -37,6 +39,9 @@ void Preparation::reach(v1::SceneOpening::Stage stage) {
 
 void Preparation::end() {
     const std::lock_guard lock(mutex_);
+    if (message_) {
+        spdlog::info("{} is ready", message_->scene_opening().name());
+    }
     message_.reset();
     waiting_.clear();
 }

@@ -55,18 +55,6 @@ ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
     return ChangeLog(settings);
 }
 
-/// Stops the network however the program ends.
-class NetworkEnd {
-  public:
-    explicit NetworkEnd(Server& server) : server_(server) {}
-    ~NetworkEnd() { server_.stop(); }
-    NetworkEnd(const NetworkEnd&) = delete;
-    NetworkEnd& operator=(const NetworkEnd&) = delete;
-
-  private:
-    Server& server_;
-};
-
 /// Lets the server ask a loop for its metrics while both exist.
 class MetricsSource {
   public:
@@ -91,10 +79,27 @@ struct Control {
     std::atomic<bool> stop{false};   ///< the program ends
     std::atomic<bool> leave{false};  ///< that, or another scene waits
     std::mutex serving_mutex;
-    bool serving = false;  ///< a loop runs that looks at `leave`
+    bool serving = false;  ///< a loop runs that looks at `leave`, or the program ends
     Preparation preparation;
     std::optional<SceneWatch> watch;
     std::optional<SceneOpener> opener;
+};
+
+/// Stops the network however the program ends; signals leave that to it from then on.
+class NetworkEnd {
+  public:
+    NetworkEnd(Control& control, Server& server) : control_(control), server_(server) {}
+    ~NetworkEnd() {
+        const std::lock_guard lock(control_.serving_mutex);
+        control_.serving = true;
+        server_.stop();
+    }
+    NetworkEnd(const NetworkEnd&) = delete;
+    NetworkEnd& operator=(const NetworkEnd&) = delete;
+
+  private:
+    Control& control_;
+    Server& server_;
 };
 
 /// A scene that is being served.
@@ -384,7 +389,7 @@ int run_serve(const Options& options) {
     if (!options.scenes.empty()) {
         control.opener.emplace(options, server, leave);
     }
-    const NetworkEnd network_end(server);  // before the opener, which uploads use
+    const NetworkEnd network_end(control, server);  // before the opener, which uploads use
     SceneServer(options, server, control).run();
     spdlog::info("stopping");
     server.stop();
