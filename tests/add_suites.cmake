@@ -9,7 +9,8 @@ if("${program}" IS_NEWER_THAN "${listed}")
     execute_process(COMMAND "${program}" --gtest_list_tests --gtest_filter=-*Heavy*
         OUTPUT_VARIABLE output RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
-        message(FATAL_ERROR "${program} does not list its tests: ${status}")
+        add_test("${program}_DOES_NOT_LIST_ITS_TESTS" "${program}" --gtest_list_tests)
+        return()
     endif()
     # A suite's name ends with a dot, before a comment or the end of the line; tests are indented.
     string(REGEX MATCHALL "\n[^ \n.]+\\." names "\n${output}")

@@ -30,7 +30,7 @@ class Daemon {
     void signal(int number) const;
 
     /// Waits for the end: the exit status, or minus the signal that ended it. Nothing where it
-    /// still runs after two minutes.
+    /// still runs after five minutes.
     std::optional<int> wait();
 
     /// Sends a signal and waits.
@@ -42,7 +42,7 @@ class Daemon {
     /// What it has written so far, log included.
     std::string output();
 
-    /// Waits until the output holds a text. False: not within two minutes.
+    /// Waits until the output holds a text. False: not in five minutes.
     bool says(const std::string& text);
 
   private:
