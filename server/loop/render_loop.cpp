@@ -7,6 +7,7 @@
 
 #include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "loop/scene_messages.h"
 #include "stream/elapsed.h"
 
@@ -248,7 +249,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
     } catch (const GpuError& error) {
         spdlog::error("viewer {}: {}", event.viewer, error.what());
         drop_image(session);
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
+        const Refusal refusal = refusal_of(error);
+        server_.reply_error(event, refusal.code, refusal.text);
         return;
     }
     server_.reply_ok(event);

@@ -73,7 +73,6 @@ class RenderLoop {
 
   private:
     using Clock = std::chrono::steady_clock;
-    static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
     void rehearse(const glm::uvec2& size);
     void hear_viewers(bool idle);
@@ -117,7 +116,7 @@ class RenderLoop {
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     void prepare_image(ViewerSession& session);
     void drop_image(ViewerSession& session);
-    void refuse_picture(ViewerSession& session, const std::string& reason);
+    void refuse_picture(ViewerSession& session, const GpuError& error);
     bool collect_frames();
     struct Wanted {
         ViewerId viewer = 0;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "loop/render_loop.h"
 #include "net/wire_codec.h"
 #include "stream/elapsed.h"
@@ -218,14 +219,14 @@ void RenderLoop::drop_image(ViewerSession& session) {
     }
 }
 
-/// There is no memory for a picture: the viewer is told and sent away.
-void RenderLoop::refuse_picture(ViewerSession& session, const std::string& reason) {
-    spdlog::error("no picture for viewer {}: {}", session.id(), reason);
+/// A picture cannot be made: the viewer is told and sent away.
+void RenderLoop::refuse_picture(ViewerSession& session, const GpuError& error) {
+    spdlog::error("no picture for viewer {}: {}", session.id(), error.what());
     drop_image(session);
     first_look_.reset();
-    server_.send(session.id(),
-                 to_message({v1::Error::RESOURCE_EXHAUSTED, no_memory, std::nullopt}));
-    server_.close(session.id(), CloseCode::try_again_later, no_memory);
+    const Refusal refusal = refusal_of(error);
+    server_.send(session.id(), to_message(refusal));
+    server_.close(session.id(), CloseCode::try_again_later, refusal.text);
 }
 
 /// Who can take a frame now.
@@ -316,7 +317,7 @@ void RenderLoop::send_frame(const Wanted& wanted) {
         prepare_image(session);
         session.render(wanted.advice, figures(), start);
     } catch (const GpuError& error) {
-        refuse_picture(session, error.what());
+        refuse_picture(session, error);
     }
     const double cost = milliseconds_since(start);
     scheduler_.charge(wanted.viewer, cost);
@@ -341,7 +342,7 @@ void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, double sli
                 session.render_first(*first_look_, wanted.advice, figures(), start);
             encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false, {}});
         } catch (const GpuError& error) {
-            refuse_picture(session, error.what());
+            refuse_picture(session, error);
         }
         if (milliseconds_since(begin) >= slice_ms) {
             return;

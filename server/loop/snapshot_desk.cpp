@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "stream/elapsed.h"
 #include "stream/image_encoder.h"
 #include "view/error_interval.h"
@@ -170,8 +171,8 @@ bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
 void SnapshotDesk::drop(const GpuError& error) {
     const ClientEvent& event = requests_.front().event;
     spdlog::error("no snapshot for viewer {}: {}", event.viewer, error.what());
-    server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED,
-                        "the server has no memory for a picture of this size");
+    const Refusal refusal = refusal_of(error);
+    server_.reply_error(event, refusal.code, refusal.text);
     drop_picture();
     requests_.pop_front();
 }

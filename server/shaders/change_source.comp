@@ -3,6 +3,7 @@
 // that makes of the mean irradiance,  (a_new - a) E / pi.  Sets the radiance that normal iterations send, too.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_OLD_SURFACES) readonly buffer OldSurfaceBuffer { PatchSurface old_surfaces[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
@@ -24,7 +25,7 @@ const float remembered_samples = 16.0;
 const float inverse_pi = 0.31830988618;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i == 0u && material == NO_PATCH) {  // how much light escapes depends on where it is sent from
         float kept = min(1.0, remembered_samples / max(balance.outgoing.w, 1e-6));
         balance.escaped *= kept;

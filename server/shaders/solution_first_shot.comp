@@ -4,6 +4,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 #include "first_shot.glsl"
@@ -32,7 +33,7 @@ vec2 part_centroid(uint k) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }
