@@ -149,6 +149,7 @@ struct Light {
     glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
     bool on = true;
     glm::vec3 loaded{0.0F};  ///< radiance as the file has it
+    double area = 0.0;       ///< that emits, of both sides where both do, as loaded, m²
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.

@@ -118,6 +118,19 @@ void RadianceStore::bind() const {
     }
 }
 
+void RadianceStore::remember_first_shot(const RadianceStore& other) {
+    if (first_shot_ && other.first_shot_) {
+        first_shot_->remember(*other.first_shot_);
+    }
+}
+
+void RadianceStore::renew_first_shot() {
+    if (first_shot_) {
+        bind();
+        first_shot_->update(false);
+    }
+}
+
 void RadianceStore::reshoot(float phase_weight) {
     if (!first_shot_) {
         return;
