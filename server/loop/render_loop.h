@@ -97,7 +97,10 @@ class RenderLoop {
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     void request_effects(const ClientEvent& event);
-    bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    static void fill_limits(v1::Limits* limits);
+    void set_viewport(ViewerSession& session, const ClientEvent& event);
+    [[nodiscard]] CostModel::Verdict admission(glm::uvec2 size, const ViewerSession* instead) const;
+    [[nodiscard]] glm::uvec2 served_size(glm::uvec2 wanted, const ViewerSession* instead) const;
     bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
     void announce(const ClientEvent& event, const v1::ServerMessage& message);

@@ -30,26 +30,6 @@ constexpr double resting_receive_ms = 100.0;
 
 }  // namespace
 
-/// Why a picture of this size cannot be served, with what would fit; empty where it can. `instead`
-/// is the viewer whose picture it would replace, or null.
-std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instead) const {
-    double present = 0.0;
-    for (const auto& [id, session] : sessions_) {
-        present += session->paused() || session.get() == instead ? 0.0 : session->pixels();
-    }
-    const double limit_ms = 1000.0 / settings_.min_frames_per_second;
-    const CostModel::Verdict verdict = cost_.admit(size.x, size.y, present, limit_ms);
-    if (verdict.fits) {
-        return {};
-    }
-    const auto& fit = verdict.would_fit;
-    return "the server has no time for a picture of " + std::to_string(size.x) + "x" +
-           std::to_string(size.y) +
-           (fit ? ", " + std::to_string(fit->first) + "x" + std::to_string(fit->second) +
-                      " would fit"
-                : ", nothing would fit now");
-}
-
 /// What has come in by now, but of nobody more than its share where the time is wanted for frames
 /// and iterations (`idle`: it is not).
 void RenderLoop::hear_viewers(bool idle) {
@@ -141,20 +121,6 @@ bool RenderLoop::solver_may_run() {
     }
     solving_.set_share(std::max(1.0 - moving_frames_ms(now) / walkthrough_ms, least_solver_share));
     return solving_.may(Server::now_ms());
-}
-
-/// False where it has been refused and answered.
-bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) {
-    const v1::SetViewport& wanted = event.message.set_viewport();
-    const glm::uvec2 size(wanted.width(), wanted.height());
-    const bool larger =
-        static_cast<double>(size.x) * static_cast<double>(size.y) > session.pixels();
-    if (const std::string reason = larger ? no_room_for(size, &session) : ""; !reason.empty()) {
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
-        return false;
-    }
-    session.set_viewport(size);
-    return true;
 }
 
 /// False where it has been refused and answered.

@@ -137,6 +137,9 @@ struct Camera {
     glm::vec3 target{0.0F, 0.0F, -1.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     float vertical_fov = 0.7F;  ///< radians
+    /// Part of its picture that is drawn: x and y of the part's centre from the picture's, upwards,
+    /// then the part's width and height, in units of the picture's half and whole edges.
+    glm::vec4 part{0.0F, 0.0F, 1.0F, 1.0F};
 };
 
 /// An emitting material seen as a luminaire: what the protocol lists under `lights`.

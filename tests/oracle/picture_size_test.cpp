@@ -47,6 +47,9 @@ class PictureSize : public testing::TestWithParam<glm::uvec2> {};
 TEST_P(PictureSize, HasLightInEveryPartOfThePicture) {
     const glm::uvec2 size = GetParam();
     Furnace furnace;
+    for (int i = 0; i < 64; ++i) {
+        furnace.solver->step({});
+    }
     ViewerImage image(furnace.solver->scene(), furnace.solver->store(), *furnace.programs, size);
     image.set_camera(furnace.camera);
     BundleReceiver* const receivers[] = {&image};
