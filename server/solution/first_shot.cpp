@@ -93,6 +93,12 @@ std::vector<glm::vec3> FirstShot::read_irradiance() const {
     return irradiance;
 }
 
+glm::vec3 FirstShot::read_irradiance(std::uint32_t patch) const {
+    glm::vec4 value(0.0F);
+    patches_.read<glm::vec4>(std::span(&value, 1), 2 * sizeof(glm::vec4) * patch);
+    return glm::vec3(value);
+}
+
 std::vector<glm::vec4> FirstShot::read_reflected() const {
     std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
     patches_.read<glm::vec4>(values);

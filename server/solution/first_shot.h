@@ -33,6 +33,7 @@ class FirstShot {
     void set_uniforms(const ShaderProgram& program) const;
     /// Irradiance per patch, radiance units. Synchronous.
     [[nodiscard]] std::vector<glm::vec3> read_irradiance() const;
+    [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;
     /// Main part of the radiance that it makes (radiance units), w = area, m². Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_reflected() const;
     [[nodiscard]] std::size_t bytes() const;
