@@ -59,7 +59,7 @@ TEST_P(PictureSize, HasLightInEveryPartOfThePicture) {
     const std::vector<glm::vec4> picture = image.read_radiance();
     ASSERT_EQ(picture.size(), std::size_t{size.x} * size.y);
     // The solution is right to some per cent by then; bands tell which part is missing.
-    const std::size_t bands = std::min<std::size_t>(size.y, 16);
+    const std::size_t bands = size.x < 16 ? 1 : std::min<std::size_t>(size.y, 16);
     for (std::size_t band = 0; band < bands; ++band) {
         const std::size_t first = band * size.y / bands * size.x;
         const std::size_t last = (band + 1) * size.y / bands * size.x;
