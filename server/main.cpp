@@ -87,6 +87,8 @@ int parse_and_run(int argc, char** argv) {
         return report(raybundle::exit_usage, error);
     } catch (const raybundle::SceneError& error) {
         return report(raybundle::exit_scene_rejected, error);
+    } catch (const raybundle::GlError& error) {
+        return report(raybundle::exit_failed, error);
     } catch (const raybundle::GpuError& error) {
         return report(raybundle::exit_no_gpu, error);
     }

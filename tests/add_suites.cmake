@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Run by ctest: adds a test for each suite of `program`, with `suite_properties`. `listed` keeps the names.
+# Suites named Cases... (what others' files broke) have the label cases.
 
 if(NOT EXISTS "${program}")
     add_test("${program}_NOT_BUILT" "${program}")
@@ -21,4 +22,7 @@ file(READ "${listed}" names)
 foreach(name IN LISTS names)
     add_test("${name}" "${program}" "--gtest_filter=${name}.*-*Heavy*")
     set_tests_properties("${name}" PROPERTIES ${suite_properties})
+    if(name MATCHES "(^|/)Cases")
+        set_tests_properties("${name}" PROPERTIES LABELS cases)
+    endif()
 endforeach()

@@ -7,6 +7,7 @@
 
 #include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "loop/scene_messages.h"
 #include "stream/elapsed.h"
 
@@ -31,8 +32,6 @@ constexpr std::chrono::milliseconds idle_wait(50);
 /// of levels): 800x800 is drawn as 24x24 is, 640x480 as 192x192, 512x512 as 64x64. The first time
 /// not everything is there that is looked up later.
 constexpr glm::uvec2 rehearsal_sizes[] = {{24, 24}, {24, 24}, {192, 192}, {64, 64}};
-constexpr std::uint32_t max_width = 3840;
-constexpr std::uint32_t max_height = 2160;
 
 }  // namespace
 
@@ -164,8 +163,9 @@ void RenderLoop::handle(const ClientEvent& event) {
 }
 
 void RenderLoop::join(const ClientEvent& event) {
-    const v1::Hello& hello = event.message.hello();
-    const glm::uvec2 size = ViewerSession::size_of(hello);
+    v1::Hello hello = event.message.hello();
+    const glm::uvec2 size = served_size(ViewerSession::size_of(hello), nullptr);
+    to_message(size, hello.mutable_viewport());
     if (const std::string reason = no_room_for(size, nullptr); !reason.empty()) {
         metrics_.count_refused_viewer();
         server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
@@ -185,9 +185,8 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->set_role(event.role);
     welcome->set_epoch(epoch_);
     describe_scene(scene_, welcome->mutable_scene());
-    welcome->mutable_limits()->set_max_width(max_width);
-    welcome->mutable_limits()->set_max_height(max_height);
-    welcome->mutable_limits()->set_max_message_bytes(65536);
+    fill_limits(welcome->mutable_limits());
+    to_message(size, welcome->mutable_viewport());
     welcome->set_renderer(settings_.renderer);
     welcome->set_software_rendering(settings_.software_rendering);
     welcome->set_can_open_scenes(static_cast<bool>(settings_.scene_requests));
@@ -211,10 +210,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 lead(session);
                 break;
             case v1::ClientMessage::kSetViewport:
-                if (!set_viewport(session, event)) {
-                    return;
-                }
-                break;
+                set_viewport(session, event);
+                return;
             case v1::ClientMessage::kSetDisplay:
                 session.set_display(message.set_display());
                 break;
@@ -259,7 +256,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
     } catch (const GpuError& error) {
         spdlog::error("viewer {}: {}", event.viewer, error.what());
         drop_image(session);
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
+        const Refusal refusal = refusal_of(error);
+        server_.reply_error(event, refusal.code, refusal.text);
         return;
     }
     server_.reply_ok(event);

@@ -78,7 +78,6 @@ class RenderLoop {
 
   private:
     using Clock = std::chrono::steady_clock;
-    static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
     void rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop);
     void hear_viewers(bool idle);
@@ -104,7 +103,10 @@ class RenderLoop {
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     void request_effects(const ClientEvent& event);
-    bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    static void fill_limits(v1::Limits* limits);
+    void set_viewport(ViewerSession& session, const ClientEvent& event);
+    [[nodiscard]] CostModel::Verdict admission(glm::uvec2 size, const ViewerSession* instead) const;
+    [[nodiscard]] glm::uvec2 served_size(glm::uvec2 wanted, const ViewerSession* instead) const;
     bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
@@ -123,7 +125,7 @@ class RenderLoop {
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     void prepare_image(ViewerSession& session);
     void drop_image(ViewerSession& session);
-    void refuse_picture(ViewerSession& session, const std::string& reason);
+    void refuse_picture(ViewerSession& session, const GpuError& error);
     bool collect_frames();
     struct Wanted {
         ViewerId viewer = 0;

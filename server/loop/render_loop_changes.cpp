@@ -212,12 +212,13 @@ bool RenderLoop::start_moves(std::vector<PendingChange> pending) {
 bool RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     const auto material_of = [this](const PendingChange& p) {
         const std::uint32_t id = subject_of(p.change).second;
-        return p.change.has_set_light() ? static_cast<std::uint32_t>(scene_.lights[id - 1].material)
-                                        : id - 1;
+        return p.change.has_set_light() ? material_of_light(scene_, id) : id - 1;
     };
     std::map<std::uint32_t, SpecularKind> before;
     for (const PendingChange& p : pending) {
-        before.emplace(material_of(p), specular_kind(scene_.materials[material_of(p)]));
+        if (material_of(p) != no_material) {
+            before.emplace(material_of(p), specular_kind(scene_.materials[material_of(p)]));
+        }
     }
     std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
     std::vector<std::uint32_t> materials;
@@ -225,6 +226,9 @@ bool RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     bool covered = true;
     for (const PendingChange& p : pending) {
         const std::uint32_t material = material_of(p);
+        if (material == no_material) {
+            continue;
+        }
         materials.push_back(material);
         // A polished lamp that is put out is a mirror.
         if (!p.change.has_set_light() ||

@@ -44,11 +44,14 @@ class Checker {
 
     [[nodiscard]] std::optional<Refusal> result() const { return refusal_; }
 
-    void size(std::uint32_t width, std::uint32_t height, const std::string& field) {
-        require(width >= 1 && width <= limits_.max_width, field + ".width",
-                "must be 1.." + std::to_string(limits_.max_width));
-        require(height >= 1 && height <= limits_.max_height, field + ".height",
-                "must be 1.." + std::to_string(limits_.max_height));
+    /// Of a viewport, or of a snapshot.
+    template <typename Size>
+    void size(const Size& size, bool viewport, const std::string& field) {
+        const std::uint32_t most = viewport ? limits_.max_viewport : limits_.max_picture;
+        require(size.width() >= 1 && size.width() <= most, field + ".width",
+                "must be 1.." + std::to_string(most));
+        require(size.height() >= 1 && size.height() <= most, field + ".height",
+                "must be 1.." + std::to_string(most));
     }
 
     void colour(const v1::Vec3& colour, float max, std::string_view field, std::string_view range) {
@@ -114,7 +117,7 @@ void check_body(const v1::Hello& hello, Checker& check) {
                   "must be at most 64 characters");
     check.require(hello.token().size() <= kMaxToken, "hello.token", "must be at most 1024 bytes");
     if (hello.has_viewport()) {
-        check.size(hello.viewport().width(), hello.viewport().height(), "hello.viewport");
+        check.size(hello.viewport(), true, "hello.viewport");
     }
 }
 
@@ -143,7 +146,7 @@ void check_body(const v1::SetCamera& camera, Checker& check) {
 }
 
 void check_body(const v1::SetViewport& viewport, Checker& check) {
-    check.size(viewport.width(), viewport.height(), "setViewport");
+    check.size(viewport, true, "setViewport");
 }
 
 void check_body(const v1::SetTarget& target, Checker& check) {
@@ -271,7 +274,7 @@ void check_body(const v1::Ack& ack, Checker& check) {
 }
 
 void check_body(const v1::Snapshot& snapshot, Checker& check) {
-    check.size(snapshot.width(), snapshot.height(), "snapshot");
+    check.size(snapshot, false, "snapshot");
     check.require(snapshot.relative_error() > 0.0F && snapshot.relative_error() <= 1.0F,
                   "snapshot.relativeError", "must be above 0 and at most 1");
     check.require(snapshot.format() == v1::Snapshot::EXR || snapshot.format() == v1::Snapshot::PNG,

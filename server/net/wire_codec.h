@@ -18,8 +18,8 @@ namespace raybundle {
 struct WireLimits {
     std::uint32_t max_message_bytes = 65536;
     int max_json_depth = 16;
-    std::uint32_t max_width = 3840;   ///< pixels
-    std::uint32_t max_height = 2160;  ///< pixels
+    std::uint32_t max_viewport = 65535;  ///< edge that is understood, though served smaller, pixels
+    std::uint32_t max_picture = 8192;    ///< edge of a snapshot, pixels
 };
 
 /// Why a message was not accepted, in the words the client gets.

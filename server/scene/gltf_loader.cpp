@@ -139,6 +139,7 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
         document.note("the file has no usable camera: a default one is used");
     }
     scene.removed.solid_insides = mark_solid_shells(scene);
+    measure_lights(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
     scene.notices = document.notices();

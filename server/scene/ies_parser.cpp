@@ -187,7 +187,7 @@ IesProfile parse_ies(const std::string& file, std::string_view text) {
     const double ballast = reader.number("the ballast factor", 0, 1e6);
     // Since 2002 it is not used any more, in 2019 it says how the file was made.
     const double lamp_factor = reader.number("the ballast-lamp photometric factor", 0, 1e6);
-    reader.number("the input watts");
+    data.input_watts = reader.number("the input watts");
     data.vertical = reader.ascending("a vertical angle", rows, -90, 180);
     data.horizontal = reader.ascending("a horizontal angle", columns, -90, 360);
     check_angles(reader, data);

@@ -22,6 +22,7 @@ class IesProfile {
         std::vector<double> horizontal;  ///< at least 1
         /// cd, with all of the file's factors; [horizontal * vertical.size() + vertical]
         std::vector<double> candela;
+        double input_watts = 0.0;  ///< electrical, of the whole luminaire
         double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
     };
 

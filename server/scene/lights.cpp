@@ -71,4 +71,22 @@ std::vector<Light> find_lights(const Scene& scene) {
     return lights;
 }
 
+void measure_lights(Scene& scene) {
+    std::vector<double> areas(scene.materials.size());
+    std::vector<bool> emits(scene.materials.size());
+    for (const Light& light : scene.lights) {
+        emits[static_cast<std::size_t>(light.material)] = true;
+    }
+    for (const Triangle& triangle : scene.triangles) {
+        if (emits[triangle.material]) {
+            const glm::mat4 world = scene.objects[triangle.object].world_from_object();
+            areas[triangle.material] +=
+                (two_sided(scene, triangle) ? 2.0 : 1.0) * world_area(scene, triangle, world);
+        }
+    }
+    for (Light& light : scene.lights) {
+        light.area = areas[static_cast<std::size_t>(light.material)];
+    }
+}
+
 }  // namespace raybundle

@@ -12,4 +12,7 @@ namespace raybundle {
 /// area mean over its triangles.
 std::vector<Light> find_lights(const Scene& scene);
 
+/// Sets the areas of the scene's lights, once it is known which surfaces have two sides.
+void measure_lights(Scene& scene);
+
 }  // namespace raybundle

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/punctual_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+
+#include "scene/scene.h"
 
 namespace raybundle {
 namespace {
@@ -21,6 +24,17 @@ glm::dmat3 orthonormal(const glm::dmat3& axes) {
 }
 
 }  // namespace
+
+PunctualSetting setting_of(const PunctualLight& light) {
+    return light.setting.value_or(PunctualSetting{
+        light.intensity, light.intensity / std::max(luminance(light.intensity), 1e-30F), true,
+        light.intensity});
+}
+
+float intensity_unit(const PunctualLight& light) {
+    const double flux = light.profile ? light.profile->flux() : 0.0;
+    return flux > 0.0 ? static_cast<float>(flux) : 1.0F;
+}
 
 PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object) {
     const glm::dmat4 world(world_from_object);

@@ -137,6 +137,9 @@ struct Camera {
     glm::vec3 target{0.0F, 0.0F, -1.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     float vertical_fov = 0.7F;  ///< radians
+    /// Part of its picture that is drawn: x and y of the part's centre from the picture's, upwards,
+    /// then the part's width and height, in units of the picture's half and whole edges.
+    glm::vec4 part{0.0F, 0.0F, 1.0F, 1.0F};
 };
 
 /// An emitting material seen as a luminaire: what the protocol lists under `lights`.
@@ -149,6 +152,7 @@ struct Light {
     glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
     bool on = true;
     glm::vec3 loaded{0.0F};  ///< radiance as the file has it
+    double area = 0.0;       ///< that emits, of both sides where both do, as loaded, m²
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.

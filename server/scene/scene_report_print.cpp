@@ -7,6 +7,7 @@
 #include "scene/scene_report.h"
 
 #include "scene/environment.h"
+#include "scene/light_figures.h"
 
 namespace raybundle {
 namespace {
@@ -65,6 +66,22 @@ const char* name_of(PunctualKind kind) {
     return "point";
 }
 
+/// In the units that people know lights by.
+std::string strength_of(const PunctualLight& light) {
+    const LightFigures figures = loaded_figures(light);
+    if (light.kind == PunctualKind::directional) {
+        return fmt::format("{:.4g} lx  (RGB {})", luminance(light.intensity),
+                           text_of(light.intensity));
+    }
+    if (!light.profile) {
+        return fmt::format("{:.4g} cd, {:.4g} lm  (RGB {})", figures.peak, figures.flux,
+                           text_of(light.intensity));
+    }
+    const std::string watts =
+        figures.watts > 0.0 ? fmt::format(", {:.4g} W", figures.watts) : std::string();
+    return fmt::format("{:.4g} lm, at most {:.4g} cd{}", figures.flux, figures.peak, watts);
+}
+
 void print_lists(std::ostream& out, const Scene& scene) {
     out << fmt::format("objects     {}\n", scene.objects.size());
     for (const Object& object : scene.objects) {
@@ -81,14 +98,14 @@ void print_lists(std::ostream& out, const Scene& scene) {
     }
     out << fmt::format("lights      {}\n", scene.lights.size() + scene.punctual_lights.size());
     for (const Light& light : scene.lights) {
-        out << fmt::format("  {:4} {}  {:.4g} cd/m²  (RGB {})\n", light.id, light.name,
-                           luminance(light.radiance), text_of(light.radiance));
+        out << fmt::format("  {:4} {}  {:.4g} cd/m², {:.4g} lm  (RGB {})\n", light.id, light.name,
+                           luminance(light.radiance), loaded_figures(light).flux,
+                           text_of(light.radiance));
     }
+    std::size_t id = scene.lights.size();
     for (const PunctualLight& light : scene.punctual_lights) {
-        out << fmt::format("       {}  {}  {:.4g} {}  (RGB {})\n", light.name, name_of(light.kind),
-                           luminance(light.intensity),
-                           light.kind == PunctualKind::directional ? "lx" : "cd",
-                           text_of(light.intensity));
+        out << fmt::format("  {:4} {}  {}  {}\n", ++id, light.name, name_of(light.kind),
+                           strength_of(light));
     }
     out << fmt::format("cameras     {}\n", scene.cameras.size());
     for (const Camera& camera : scene.cameras) {
@@ -149,15 +166,20 @@ Json lights_json(const Scene& scene) {
         result.push_back({{"id", light.id},
                           {"name", light.name},
                           {"luminance", luminance(light.radiance)},
+                          {"flux", loaded_figures(light).flux},
                           {"radiance", json_of(light.radiance)}});
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         const bool directional = light.kind == PunctualKind::directional;
+        const LightFigures figures = loaded_figures(light);
         result.push_back(
             {{"id", result.size() + 1},
              {"name", light.name},
              {"kind", name_of(light.kind)},
-             {directional ? "illuminance" : "luminousIntensity", luminance(light.intensity)},
+             {directional ? "illuminance" : "luminousIntensity",
+              directional ? static_cast<double>(luminance(light.intensity)) : figures.peak},
+             {"flux", directional ? Json(nullptr) : Json(figures.flux)},
+             {"watts", figures.watts > 0.0 ? Json(figures.watts) : Json(nullptr)},
              {"intensity", json_of(light.intensity)}});
     }
     return result;

@@ -73,6 +73,7 @@
 #define BINDING_CROWDED 63            // see crowded_pixels.glsl
 // Bound for one pass, on numbers that others are bound on for theirs.
 #define BINDING_SLOPES 42             // RadianceSlope[]
+#define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces

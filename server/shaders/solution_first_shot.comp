@@ -4,6 +4,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 #include "first_shot.glsl"
@@ -17,6 +18,7 @@ layout(std430, binding = BINDING_FIRST_SHOT) buffer FirstShotBuffer { vec4 first
 layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
 #endif
 uniform uint patch_count;
+uniform bool radiance_follows;  // else change_source.comp lets it
 uniform uint divisions;  // of each edge; a patch has its square of parts
 
 const float inverse_pi = 0.31830988618;
@@ -32,7 +34,7 @@ vec2 part_centroid(uint k) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }
@@ -75,7 +77,9 @@ void main() {
         }
 #endif
     }
-    radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
+    if (radiance_follows) {
+        radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
+    }
     first_shot[2u * i] = vec4(irradiance, 0.0);
     first_shot[2u * i + 1u] = vec4(reflected, patch_attributes(i).x);
 }

@@ -2,6 +2,7 @@
 // Fluxes of the iterate, summed over blocks of patches, always in the same order.
 #include "layouts.glsl"
 layout(local_size_x = POWER_BLOCK) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
@@ -38,7 +39,7 @@ FluxSums patch_flux(uint i) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     uint lane = gl_LocalInvocationID.x;
     if (i < patch_count) {
         fluxes[lane] = patch_flux(i);
@@ -53,7 +54,7 @@ void main() {
             fluxes[lane].emitted += fluxes[lane + stride].emitted;
         }
     }
-    if (lane == 0u) {
-        flux[gl_WorkGroupID.x] = fluxes[0];
+    if (lane == 0u && i < patch_count) {
+        flux[linear_group()] = fluxes[0];
     }
 }

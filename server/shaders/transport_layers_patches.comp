@@ -16,6 +16,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 uniform uint first_column;  // the rectangle of the window that is transferred
 uniform uint first_row;
 uniform uint last_column;   // one past the end
@@ -318,7 +319,7 @@ Pairs sort_lists(ivec2 first, int end) {
 /// True where the lists have no room for all surfaces: nothing is transferred then.
 bool note_overflow() {
     bool overflowed = counters.layers > layer_capacity();
-    if (gl_GlobalInvocationID.x == 0u) {
+    if (linear_index() == 0u) {
         counters.overflowed = overflowed ? 1u : 0u;
         if (overflowed) {
             counters.wanted = max(counters.wanted, counters.layers);
@@ -330,9 +331,9 @@ bool note_overflow() {
 
 void main() {
     // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
-    uint block = gl_GlobalInvocationID.x >> 3;
+    uint block = linear_index() >> 3;
     uint row_block = block / run_columns;
-    uint row = row_stride * (row_block * 8u + (gl_GlobalInvocationID.x & 7u)) + row_phase;
+    uint row = row_stride * (row_block * 8u + (linear_index() & 7u)) + row_phase;
     if (note_overflow() || row >= rows) {
         return;
     }

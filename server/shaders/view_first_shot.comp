@@ -4,6 +4,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
@@ -20,7 +21,7 @@ layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(std430, binding = BINDING_PIXEL_FIRST_SHOT) writeonly buffer PixelFirstShotBuffer { vec4 pixel_first_shot[]; };
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     uint pixels = view.size.x * view.size.y;
     if (index >= pixels) {
         return;

@@ -49,12 +49,21 @@ FirstShot::FirstShot(const GpuScene& scene)
     }
 }
 
-void FirstShot::update() {
+void FirstShot::remember(const FirstShot& other) {
+    if (remembered_.bytes() == 0) {
+        remembered_ = Buffer("first shot before", patches_.bytes());
+    }
+    glCopyNamedBufferSubData(other.patches_.get(), remembered_.get(), 0, 0,
+                             static_cast<GLsizeiptr>(patches_.bytes()));
+}
+
+void FirstShot::update(bool radiance_follows) {
     lights_.write(maps_.draw(), 0);
     const GlScope scope("first shot");
     bind();
     set_uniforms(shoot_);
     shoot_.set("patch_count", scene_.patch_count());
+    shoot_.set("radiance_follows", radiance_follows);
     shoot_.set("divisions", divisions_of(scene_.patch_count(), scene_.punctual_lights().size()));
     shoot_.dispatch(scene_.patch_count());
 }
@@ -84,6 +93,12 @@ std::vector<glm::vec3> FirstShot::read_irradiance() const {
     return irradiance;
 }
 
+glm::vec3 FirstShot::read_irradiance(std::uint32_t patch) const {
+    glm::vec4 value(0.0F);
+    patches_.read<glm::vec4>(std::span(&value, 1), 2 * sizeof(glm::vec4) * patch);
+    return glm::vec3(value);
+}
+
 std::vector<glm::vec4> FirstShot::read_reflected() const {
     std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
     patches_.read<glm::vec4>(values);
@@ -96,7 +111,8 @@ std::vector<glm::vec4> FirstShot::read_reflected() const {
 }
 
 std::size_t FirstShot::bytes() const {
-    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes();
+    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes() +
+           remembered_.bytes();
 }
 
 }  // namespace raybundle

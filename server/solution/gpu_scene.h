@@ -96,6 +96,8 @@ class GpuScene {
     [[nodiscard]] glm::vec3 sky_towards(const glm::vec3& direction) const;
     /// What a view shows beyond the scene; its environment is bound with bind().
     void set_background(layout::ViewParameters& view) const;
+    /// The lights that the scene was made with, of other intensities.
+    void update_punctual_lights(const Scene& scene);
     /// A light with a disc is several without.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return punctual_lights_;

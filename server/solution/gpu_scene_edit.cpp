@@ -43,6 +43,10 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
     upload_reflectors(mesh);
 }
 
+void GpuScene::update_punctual_lights(const Scene& scene) {
+    punctual_lights_ = without_discs(scene.punctual_lights);
+}
+
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const SpecularKind kind = specular_kind(scene.materials[material]);
     const bool followed =

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu/egl_context.h"
+#include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
@@ -39,6 +39,7 @@ int map_size(unsigned layers) {
 }
 
 Texture2D create_layers(int size, unsigned layers) {
+    check_texture_layers("the shadow maps of the punctual lights", layers);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
     Texture2D texture(name);
@@ -46,9 +47,7 @@ Texture2D create_layers(int size, unsigned layers) {
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glObjectLabel(GL_TEXTURE, name, -1, "shadow maps");
-    if (glGetError() == GL_OUT_OF_MEMORY) {
-        throw GpuError("out of GPU memory: shadow maps of the punctual lights");
-    }
+    check_gl_errors("making the shadow maps of the punctual lights or before");
     return texture;
 }
 

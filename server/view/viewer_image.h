@@ -220,6 +220,7 @@ class ViewerImage : public BundleReceiver {
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
+    void check_picture() const;
     void receive(const ViewPrograms::Receive& programs, const Context& context);
     void mark_crowded(float window_pixel);
     void set_place(const ShaderProgram& program, Place place) const;

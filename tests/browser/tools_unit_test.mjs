@@ -15,7 +15,7 @@ import {
 import {stateOf} from '../../client_web/grid_panel.js';
 import {History, subjectOf} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
-import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem} from '../../client_web/light_panel.js';
+import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/light_panel.js';
 import {DarkViews} from '../../client_web/lost.js';
 import {avatarTexts, frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
@@ -362,6 +362,16 @@ describe('colours and units', () => {
     it('dim by ratios', () => {
         close(dimmerShare(dimmerPosition(1)), 1, 1e-9);
         close(dimmerShare(0), 0.01, 1e-12);
+    });
+
+    it('say what people know lights by, as they are dimmed', () => {
+        const light = {id: 1, name: 'lamp', kind: 'POINT', unit: 'LM', colour: {x: 1, y: 1, z: 1}, on: true};
+        const ies = {...light, intensity: 4800, loadedIntensity: 9600, flux: 9600, peak: 3000, watts: 80};
+        assert.equal(lightFigures(ies), 'at most 1\u202f500 cd · 80 W');
+        const point = {...light, unit: 'CD', intensity: 100, loadedIntensity: 100, flux: 1256.6, peak: 100};
+        assert.equal(lightFigures(point), '1\u202f257 lm');
+        const area = {...light, unit: 'CD_PER_M2', intensity: 0, loadedIntensity: 0, flux: undefined};
+        assert.equal(lightFigures(area), '');
     });
 
     it('say no more digits than there are', () => {

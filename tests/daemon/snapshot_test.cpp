@@ -87,7 +87,7 @@ TEST_F(SnapshotTest, MayBeLargerThanThePictureAndIsGivenToOneAddressOnly) {
     const char last = url[url.size() - 5];
     const char* const other = last == '0' ? "1.png" : "0.png";
     EXPECT_TRUE(get(url.substr(0, url.size() - 5) + other).empty());
-    EXPECT_EQ(viewer.request(snapshot("PNG", 5000, 450, 0.3)).at("error").at("code"),
+    EXPECT_EQ(viewer.request(snapshot("PNG", 8193, 450, 0.3)).at("error").at("code"),
               "INVALID_ARGUMENT");
 }
 
