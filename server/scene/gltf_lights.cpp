@@ -127,6 +127,10 @@ class LightReader {
         } catch (const SceneError& error) {
             document_.fail(path, error.json_path() + ": " + error.reason());
         }
+        for (const std::string& note : read_profiles_[index]->data().notes) {
+            document_.note(
+                fmt::format("IES file '{}': {}", value_or<std::string>(source, "uri", path), note));
+        }
         return read_profiles_[index];
     }
 
