@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -165,15 +166,16 @@ class LightReader {
         const Json& spot = found == nullptr ? none : *found;
         const double inner = value_or(spot, "innerConeAngle", 0.0);
         const double outer = value_or(spot, "outerConeAngle", glm::quarter_pi<double>());
-        if (!(inner < outer)) {
+        if (!(inner <= outer)) {
             document_.fail(
                 fmt::format("extensions.KHR_lights_punctual.lights[{}].spot", definition),
-                fmt::format("innerConeAngle {} is not below outerConeAngle {}", inner, outer));
+                fmt::format("innerConeAngle {} is above outerConeAngle {}", inner, outer));
         }
-        light.inner_cosine = static_cast<float>(std::cos(inner));
-        // At least a thousandth apart, as the extension's own formula has it.
-        light.outer_cosine =
-            std::min(static_cast<float>(std::cos(outer)), light.inner_cosine - 1e-3F);
+        // A hard edge has both cones at once: it falls within 16 roundings of a cosine.
+        constexpr float min_gap = 16.0F * std::numeric_limits<float>::epsilon();
+        light.outer_cosine = std::min(static_cast<float>(std::cos(outer)), 1.0F - min_gap);
+        light.inner_cosine =
+            std::max(static_cast<float>(std::cos(inner)), light.outer_cosine + min_gap);
     }
 
     void place(std::size_t node, PunctualLight& light) const {
