@@ -146,7 +146,8 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     scene.removed.solid_insides = mark_solid_shells(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
-    scene.notices = document.notices();
+    scene.notices.insert(scene.notices.begin(), document.notices().begin(),
+                         document.notices().end());
     return scene;
 }
 
