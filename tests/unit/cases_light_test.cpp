@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights as other programs write them.
+// Lights and glazing as other programs write them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "case_files.h"
 #include "gltf_builder.h"
+#include "scene/base_colour.h"
+#include "scene/specular_surface.h"
 
 namespace raybundle::test {
 namespace {
@@ -40,6 +43,118 @@ TEST(CasesSpot, TheEdgeIsWhereTheOuterConeIs) {
         EXPECT_NEAR(towards(0.9 * angle), 1000.0, 1e-6) << angle;
         EXPECT_EQ(towards(1.1 * angle), 0.0) << angle;
     }
+}
+
+GltfBuilder film(const Json& material, const std::vector<std::uint8_t>& rgba, int width) {
+    GltfBuilder builder;
+    const int texture = builder.add_view(png(width, 1, rgba));
+    builder.json["images"] = {{{"bufferView", texture}, {"mimeType", "image/png"}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    const int uvs = builder.add_uvs({{0, 0}, {1, 0}, {0, 1}});
+    const int mesh = builder.add_mesh(
+        {{"attributes", {{"POSITION", builder.add_positions(unit_triangle)}, {"TEXCOORD_0", uvs}}},
+         {"material", builder.add_material(material)}});
+    builder.add_node({{"mesh", mesh}});
+    return builder;
+}
+
+Json blended_film(double alpha) {
+    return {{"pbrMetallicRoughness",
+             {{"baseColorTexture", {{"index", 0}}},
+              {"baseColorFactor", {1, 1, 1, alpha}},
+              {"metallicFactor", 0}}},
+            {"alphaMode", "BLEND"}};
+}
+
+TEST(CasesGlazing, ATextureOfConstantAlphaIsThatAlpha) {
+    const Scene scene = load_gltf(case_path("glazing/texture_alpha40.gltf"));
+    const auto pane = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& m) { return m.name == "glass"; });
+    ASSERT_NE(pane, scene.materials.end());
+    ASSERT_EQ(specular_kind(*pane), SpecularKind::pane);
+    EXPECT_NEAR(pane_shares(specular_surface(*pane, pane->base_colour), 1.0F).transmitted.g, 0.6F,
+                1e-4F);
+    // As the factor of the same alpha, and both are multiplied.
+    for (const int alpha : {51, 102, 153, 204, 255}) {
+        const float exact = static_cast<float>(alpha) / 255.0F;
+        const Scene by_texture =
+            film(blended_film(1.0), {255, 255, 255, static_cast<std::uint8_t>(alpha)}, 1).load();
+        const Scene by_factor = film(blended_film(exact), {255, 255, 255, 255}, 1).load();
+        const Material& a = by_texture.materials[0];
+        const Material& b = by_factor.materials[0];
+        EXPECT_EQ(specular_kind(a), specular_kind(b));
+        EXPECT_LT(glm::distance(a.transmittance, b.transmittance), 1e-5F);
+        EXPECT_LT(glm::distance(a.base_colour, b.base_colour), 1e-5F);
+        if (alpha < 255) {
+            const float passing = specular_kind(a) == SpecularKind::pane
+                                      ? specular_surface(a, a.base_colour).tint.g
+                                      : a.transmittance.g / max_albedo;
+            EXPECT_NEAR(passing, 1.0F - exact, 1e-5F);
+        }
+    }
+    const Material both = film(blended_film(0.5), {255, 255, 255, 102}, 1).load().materials[0];
+    EXPECT_NEAR(specular_surface(both, both.base_colour).tint.g, 0.8F, 1e-5F);
+}
+
+/// Noise and soft gradients are their mean; what has holes is cut out.
+TEST(CasesGlazing, AlphaThatVariesLittleIsItsMean) {
+    const auto texels = [](std::initializer_list<int> alphas) {
+        std::vector<std::uint8_t> rgba;
+        for (const int alpha : alphas) {
+            rgba.insert(rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(alpha)});
+        }
+        return rgba;
+    };
+    const Material noisy =
+        film(blended_film(1.0), texels({100, 104, 98, 106}), 4).load().materials[0];
+    EXPECT_EQ(noisy.alpha_mode, AlphaMode::opaque);
+    EXPECT_NEAR(specular_surface(noisy, noisy.base_colour).tint.g, 0.6F, 1e-5F);
+    const Material soft =
+        film(blended_film(1.0), texels({120, 130, 140, 150}), 4).load().materials[0];
+    EXPECT_NEAR(soft.transmittance.g, max_albedo * (1.0F - 135.0F / 255.0F), 1e-5F);
+    const Material lace = film(blended_film(1.0), texels({0, 255, 30, 240}), 4).load().materials[0];
+    EXPECT_EQ(lace.alpha_mode, AlphaMode::mask);
+}
+
+Json transmitting(double factor, double metallic = 0.0) {
+    return {{"pbrMetallicRoughness",
+             {{"baseColorFactor", {0.8, 0.8, 0.8, 1.0}},
+              {"metallicFactor", metallic},
+              {"roughnessFactor", 0.0}}},
+            {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", factor}}}}}};
+}
+
+/// Share of light that goes through at normal incidence, and diffusely reflected share.
+std::pair<float, float> shares(const Material& material) {
+    return is_glass(material)
+               ? std::pair(pane_shares(specular_surface(material, material.base_colour), 1.0F)
+                               .transmitted.g,
+                           0.0F)
+               : std::pair(material.transmittance.g, material.base_colour.g);
+}
+
+/// A pane of n = 1.5 lets 0.923 of what it does not absorb through, of which its colour is left.
+TEST(CasesGlazing, PartOfTheLightPassesWhateverTheTransmission) {
+    for (const double factor : {0.01, 0.2, 0.4, 0.49, 0.5, 0.6, 0.8, 1.0}) {
+        const Material material =
+            film(transmitting(factor), {255, 255, 255, 255}, 1).load().materials[0];
+        const auto [passing, reflected] = shares(material);
+        EXPECT_NEAR(passing, 0.8 * factor * 0.923, 0.002) << factor;
+        if (factor < 0.5) {
+            EXPECT_NEAR(reflected, 0.8 * (1.0 - factor), 1e-5);
+        }
+    }
+    // Metals transmit nothing.
+    EXPECT_FALSE(
+        transmits(film(transmitting(0.4, 1.0), {255, 255, 255, 255}, 1).load().materials[0]));
+    // The file's pane has a base colour of a half, which tints what passes.
+    const Scene scene = load_gltf(case_path("glazing/transmission40.gltf"));
+    EXPECT_TRUE(has_notice(scene, "less than half of the light send it diffusely"));
+    const auto pane = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& m) { return m.name == "glass"; });
+    ASSERT_NE(pane, scene.materials.end());
+    EXPECT_NEAR(shares(*pane).first, 0.4 * 0.5 * 0.923, 1e-3);
+    EXPECT_NEAR(shares(*pane).second, 0.6 * 0.5, 1e-5);
 }
 
 }  // namespace
