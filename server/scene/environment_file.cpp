@@ -21,7 +21,7 @@ constexpr float largest_value = 1e12F;
     throw SceneError(file, "", reason);
 }
 
-bool starts_with(std::span<const std::uint8_t> bytes, const char* magic) {
+bool has_magic(std::span<const std::uint8_t> bytes, const char* magic) {
     const std::size_t length = std::strlen(magic);
     return bytes.size() >= length && std::memcmp(bytes.data(), magic, length) == 0;
 }
@@ -140,10 +140,10 @@ void mend_infinite(EquirectangularImage& image, float largest) {
 }
 
 PictureFile read_picture(const std::string& file, std::span<const std::uint8_t> bytes) {
-    if (starts_with(bytes, "#?")) {
+    if (has_magic(bytes, "#?")) {
         return read_radiance_picture(file, bytes);
     }
-    if (starts_with(bytes, "\x76\x2f\x31\x01")) {
+    if (has_magic(bytes, "\x76\x2f\x31\x01")) {
         return read_openexr_picture(file, bytes);
     }
     fail(file, "is neither a Radiance HDR nor an OpenEXR image");

@@ -35,7 +35,7 @@ std::vector<fs::path> entries_like(const std::vector<fs::path>& folders, const s
     return found;
 }
 
-bool lies_in(const fs::path& file, const fs::path& folder) {
+bool is_below(const fs::path& file, const fs::path& folder) {
     std::error_code error;
     const fs::path inner = fs::canonical(file, error);
     const fs::path outer = error ? fs::path() : fs::canonical(folder, error);
@@ -64,7 +64,7 @@ std::optional<fs::path> similar_file(const fs::path& folder, const std::string& 
         std::error_code error;
         return !fs::is_regular_file(file, error);
     });
-    if (candidates.size() != 1 || looked_at > max_entries || !lies_in(candidates[0], folder)) {
+    if (candidates.size() != 1 || looked_at > max_entries || !is_below(candidates[0], folder)) {
         return std::nullopt;
     }
     return folder.empty() ? candidates[0].lexically_relative(".") : candidates[0];

@@ -19,7 +19,7 @@ namespace {
 constexpr int max_channels = 64;
 constexpr float largest_half = 65504.0F;
 
-[[noreturn]] void fail(const std::string& file, const std::string& reason) {
+[[noreturn]] void fail_picture(const std::string& file, const std::string& reason) {
     throw SceneError(file, "", reason);
 }
 
@@ -47,25 +47,26 @@ std::array<int, 3> colour_channels(const std::string& file, const OIIO::ImageSpe
     for (const std::string& name : names) {
         list += (list.empty() ? "" : ", ") + name;
     }
-    fail(file, fmt::format("has no channels R, G and B, but {}", list.substr(0, 200)));
+    fail_picture(file, fmt::format("has no channels R, G and B, but {}", list.substr(0, 200)));
 }
 
-void check(const std::string& file, const OIIO::ImageSpec& spec) {
+void check_openexr(const std::string& file, const OIIO::ImageSpec& spec) {
     for (const auto& [width, height] :
          {std::pair(spec.width, spec.height), std::pair(spec.full_width, spec.full_height)}) {
         if (width < 1 || height < 1 || std::int64_t{width} * height > max_picture_pixels ||
             spec.nchannels < 1 || spec.nchannels > max_channels) {
-            fail(file, fmt::format("{} x {} pixels of {} channels; the limit is {} pixels", width,
-                                   height, spec.nchannels, max_picture_pixels));
+            fail_picture(file, fmt::format("{} x {} pixels of {} channels; the limit is {} pixels",
+                                           width, height, spec.nchannels, max_picture_pixels));
         }
     }
     if (spec.deep) {
-        fail(file, "is a deep image");
+        fail_picture(file, "is a deep image");
     }
     if (std::string(spec.get_string_attribute("textureformat")).starts_with("CubeFace")) {
-        fail(file,
-             "is a cube map (its attribute envmap says so): only equirectangular images are "
-             "read");
+        fail_picture(
+            file,
+            "is a cube map (its attribute envmap says so): only equirectangular images are "
+            "read");
     }
 }
 
@@ -117,10 +118,10 @@ PictureFile read_openexr_picture(const std::string& file, std::span<const std::u
     hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
     const auto input = OIIO::ImageInput::open("image.openexr", &hints);
     if (!input) {
-        fail(file, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+        fail_picture(file, fmt::format("cannot be decoded: {}", OIIO::geterror()));
     }
     const OIIO::ImageSpec& spec = input->spec();
-    check(file, spec);
+    check_openexr(file, spec);
     const std::array<int, 3> colours = colour_channels(file, spec);
     const auto [low, high] = std::minmax_element(colours.begin(), colours.end());
     const int first = *low;
@@ -129,7 +130,7 @@ PictureFile read_openexr_picture(const std::string& file, std::span<const std::u
                               static_cast<std::size_t>(spec.height) *
                               static_cast<std::size_t>(channels));
     if (!input->read_image(0, 0, first, first + channels, OIIO::TypeDesc::FLOAT, values.data())) {
-        fail(file, fmt::format("cannot be decoded: {}", input->geterror()));
+        fail_picture(file, fmt::format("cannot be decoded: {}", input->geterror()));
     }
     PictureFile image = placed(spec, values, first, channels, colours);
     image.largest = spec.channelformat(first) == OIIO::TypeDesc::HALF ? largest_half : 0.0F;
