@@ -119,10 +119,10 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
                                                      : v1::Light::POINT);
     out->set_intensity(intensity);
     out->set_unit(directional ? v1::Light::LX : v1::Light::CD);
-    to_message(light.intensity / intensity, out->mutable_colour());
+    to_message(colour_of(light), out->mutable_colour());
     out->set_on(true);
     out->set_loaded_intensity(intensity);
-    to_message(light.intensity / intensity, out->mutable_loaded_colour());
+    to_message(colour_of(light), out->mutable_loaded_colour());
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
@@ -225,7 +225,8 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_on(light.on);
         const float loaded = luminance(light.loaded);
         out->set_loaded_intensity(loaded);
-        to_message(light.loaded / std::max(loaded, 1e-30F), out->mutable_loaded_colour());
+        to_message(loaded > 0.0F ? light.loaded / loaded : light.colour,
+                   out->mutable_loaded_colour());
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         describe_light(light, message);

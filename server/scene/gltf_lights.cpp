@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
@@ -76,12 +77,13 @@ class LightReader {
         PunctualLight light;
         light.kind = kind_of(source["type"].get<std::string>());
         light.name = name_of(node, source);
-        for (int c = 0; c < 3; ++c) {
-            const Json* colour = find_member(source, "color");
-            const float factor =
-                colour == nullptr ? 1.0F : (*colour)[static_cast<std::size_t>(c)].get<float>();
-            light.intensity[c] = value_or(source, "intensity", 1.0F) * factor;
+        glm::vec3 colour(1.0F);
+        if (const Json* values = find_member(source, "color")) {
+            for (int c = 0; c < 3; ++c) {
+                colour[c] = (*values)[static_cast<std::size_t>(c)].get<float>();
+            }
         }
+        set_intensity(value_or(source, "intensity", 1.0F), colour, light);
         if (light.kind == PunctualKind::spot) {
             read_cone(source, definition, light);
         }
@@ -92,14 +94,20 @@ class LightReader {
         keep(path, std::move(light));
     }
 
+    /// One that is dark in the file can be switched on, in its colour.
+    static void set_intensity(float factor, const glm::vec3& colour, PunctualLight& light) {
+        light.intensity = factor * colour;
+        light.dark_colour = luminance(colour) > 0.0F ? colour / luminance(colour) : glm::vec3(1.0F);
+    }
+
     void add_profile(std::size_t node, const tinygltf::Value& use) {
         const std::string path = item_path("nodes", node) + ".extensions.EXT_lights_ies.light";
         const auto index = static_cast<std::size_t>(integer_or(use, "light", 0));
         check_index(path, index, profiles_.size());
         PunctualLight light;
         light.name = name_of(node, profiles_[index]);
-        light.intensity = number_or(use, "multiplier", 1.0F) *
-                          glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F);
+        set_intensity(number_or(use, "multiplier", 1.0F),
+                      glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F), light);
         light.profile = profile(index);
         place(node, light);
         keep(path, std::move(light));
@@ -151,13 +159,21 @@ class LightReader {
     }
 
     void keep(const std::string& path, PunctualLight light) {
-        if (light.intensity == glm::vec3(0.0F)) {
+        scene_.punctual_lights.push_back(std::move(light));
+        if (scene_.punctual_lights.size() <= max_lights) {
             return;
         }
-        if (scene_.punctual_lights.size() >= max_lights) {
+        const auto dark = std::find_if(
+            scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
+            [](const PunctualLight& other) { return other.intensity == glm::vec3(0.0F); });
+        if (dark == scene_.punctual_lights.end()) {
             document_.fail(path, fmt::format("more than {} punctual lights", max_lights));
         }
-        scene_.punctual_lights.push_back(std::move(light));
+        scene_.punctual_lights.erase(dark);
+        document_.note(
+            fmt::format("there are more than {} punctual lights: some that are switched "
+                        "off are left out",
+                        max_lights));
     }
 
     void read_cone(const Json& source, std::size_t definition, PunctualLight& light) {

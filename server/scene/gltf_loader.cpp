@@ -65,7 +65,7 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
             profile = std::make_shared<const IesProfile>(read_ies(file));
         }
         light.kind = PunctualKind::point;
-        light.intensity /= luminance(light.intensity);
+        light.intensity = colour_of(light);
         light.profile = profile;
     }
     if (profile) {

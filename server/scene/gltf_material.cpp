@@ -120,6 +120,7 @@ class MaterialReader {
         material.unlit = is_unlit(source);
         if (material.unlit) {
             material.emission = glm::vec3(0.0F);
+            material.dark_emission = glm::vec3(0.0F);
             material.emission_texture = {};
         } else {
             read_details(source, item_path("materials", index), material);
@@ -176,9 +177,11 @@ class MaterialReader {
                 find_extension(source.extensions, "KHR_materials_emissive_strength")) {
             strength = number_or(*extension, "emissiveStrength", 1.0F);
         }
-        material.emission = vector_or(source.emissiveFactor, glm::vec3(0.0F)) * strength;
+        const glm::vec3 factor = vector_or(source.emissiveFactor, glm::vec3(0.0F));
+        material.emission = factor * strength;
+        material.dark_emission = strength > 0.0F ? glm::vec3(0.0F) : factor;
         const tinygltf::TextureInfo& info = source.emissiveTexture;
-        if (info.index < 0 || material.emission == glm::vec3(0.0F)) {
+        if (info.index < 0 || factor == glm::vec3(0.0F)) {
             return;
         }
         material.emission_texture = slot(info);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/scene.h"
+
 namespace raybundle {
 namespace {
 
@@ -23,6 +25,11 @@ glm::dmat3 orthonormal(const glm::dmat3& axes, bool keep_hand = false) {
 }
 
 }  // namespace
+
+glm::vec3 colour_of(const PunctualLight& light) {
+    const float intensity = luminance(light.intensity);
+    return intensity > 0.0F ? light.intensity / intensity : light.dark_colour;
+}
 
 PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object) {
     const glm::dmat4 world(world_from_object);

@@ -27,6 +27,8 @@ struct PunctualLight {
     /// Directional: illuminance of a surface that faces it, lx; else luminous intensity, cd, of a
     /// spot along its axis.
     glm::vec3 intensity{0.0F};
+    glm::vec3 dark_colour{
+        1.0F};  ///< of luminance 1: its colour where the file gives it intensity 0
     float angular_radius = 0.0F;  ///< directional: half of the diameter of its disc, radians
     bool of_sky = false;          ///< part of Scene::environment
     float inner_cosine = 1.0F;    ///< spot: full intensity within this cone
@@ -34,6 +36,9 @@ struct PunctualLight {
     /// Of a point light: its intensity over direction, whose factor `intensity` is then.
     std::shared_ptr<const IesProfile> profile;
 };
+
+/// Of luminance 1.
+glm::vec3 colour_of(const PunctualLight& light);
 
 /// A punctual light in the world.
 struct PlacedLight {

@@ -9,7 +9,9 @@
 #include "case_files.h"
 #include "gltf_builder.h"
 #include "scene/base_colour.h"
+#include "scene/solid_shells.h"
 #include "scene/specular_surface.h"
+#include "scene/surface_edit.h"
 
 namespace raybundle::test {
 namespace {
@@ -155,6 +157,114 @@ TEST(CasesGlazing, PartOfTheLightPassesWhateverTheTransmission) {
     ASSERT_NE(pane, scene.materials.end());
     EXPECT_NEAR(shares(*pane).first, 0.4 * 0.5 * 0.923, 1e-3);
     EXPECT_NEAR(shares(*pane).second, 0.6 * 0.5, 1e-5);
+}
+
+/// A floor with a lamp of 0 cd and a panel of no emissive strength.
+GltfBuilder switched_off() {
+    GltfBuilder builder =
+        film({{"name", "panel"},
+              {"emissiveFactor", {1, 0.5, 0.25}},
+              {"emissiveTexture", {{"index", 0}}},
+              {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 0}}}}}},
+             {255, 255, 255, 255}, 1);
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 0}, {"color", {1, 0.5, 0.25}}}};
+    builder.add_node({{"name", "lamp"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return builder;
+}
+
+TEST(CasesLamp, LampsThatAreOffInTheFileCanBeSwitchedOn) {
+    Scene scene = switched_off().load();
+    const glm::vec3 colour = glm::vec3(1, 0.5, 0.25) / luminance({1, 0.5, 0.25});
+    ASSERT_EQ(scene.lights.size(), 1U);
+    EXPECT_EQ(scene.lights[0].name, "panel");
+    EXPECT_EQ(scene.lights[0].radiance, glm::vec3(0.0F));
+    EXPECT_EQ(scene.lights[0].loaded, glm::vec3(0.0F));
+    EXPECT_LT(glm::distance(scene.lights[0].colour, colour), 1e-5F);
+    ASSERT_EQ(scene.punctual_lights.size(), 1U);
+    EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(0.0F));
+    EXPECT_LT(glm::distance(colour_of(scene.punctual_lights[0]), colour), 1e-5F);
+    // Nothing emits, so the scene has its sky.
+    EXPECT_FALSE(has_emitter(scene));
+    EXPECT_EQ(scene.sky_radiance, glm::vec3(1000.0F));
+    LightEdit edit;
+    edit.light = 1;
+    edit.intensity = 200.0F;
+    EXPECT_EQ(problem_of(scene, edit), "");
+    apply(scene, edit);
+    EXPECT_LT(glm::distance(scene.materials[0].emission, 200.0F * colour), 1e-3F);
+    EXPECT_TRUE(has_emitter(scene));
+    EXPECT_GE(scene.materials[0].emission_texture.texture, 0);
+}
+
+/// The limit is for those that shine.
+TEST(CasesLamp, DarkLampsTakeNoRoomFromOthers) {
+    GltfBuilder builder = one_triangle();
+    Json& lights = builder.json["extensions"]["KHR_lights_punctual"]["lights"];
+    for (int i = 0; i < 300; ++i) {
+        lights.push_back({{"type", "point"}, {"intensity", i < 200 ? 0 : 1}});
+        builder.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    }
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.punctual_lights.size(), 256U);
+    EXPECT_EQ(std::count_if(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                            [](const PunctualLight& l) { return l.intensity.g > 0.0F; }),
+              100);
+    EXPECT_TRUE(has_notice(scene, "some that are switched off are left out"));
+}
+
+/// --ies gives a lamp of 0 cd the intensity of the file.
+TEST(CasesLamp, PhotometricFilesSwitchLampsOn) {
+    SceneSettings settings;
+    settings.ies = {"lamp=" + case_path("ies/00_clean.ies")};
+    const Scene scene = switched_off().load(settings);
+    EXPECT_NEAR(luminance(scene.punctual_lights[0].intensity), 1.0F, 1e-5F);
+    EXPECT_NEAR(place_light(scene, scene.punctual_lights[0]).flux().g /
+                    static_cast<double>(colour_of(scene.punctual_lights[0]).g),
+                1000.0 * pi, 4.0);
+}
+
+TEST(CasesLamp, LampsInClosedBodiesAreNamed) {
+    const auto enclosed = [](const glm::vec3& lamp, const Json& body, const Json& extra = {}) {
+        GltfBuilder builder;
+        const int mesh = builder.add_box_mesh({-0.1F, -0.1F, -0.1F}, {0.1F, 0.1F, 0.1F});
+        builder.json["meshes"][static_cast<std::size_t>(mesh)]["primitives"][0]["material"] =
+            builder.add_material(body);
+        builder.add_node({{"mesh", mesh}, {"name", "shade"}});
+        builder.add_node(
+            {{"mesh", builder.add_box_mesh({-2, -1, -2}, {2, 2, 2})}, {"name", "room"}});
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "point"}, {"intensity", 100}}};
+        builder.json["cameras"] = {
+            {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.01}}}}};
+        builder.add_node({{"camera", 0}, {"translation", {1, 1, 1}}});
+        builder.add_node({{"name", "bulb"},
+                          {"translation", {lamp.x, lamp.y, lamp.z}},
+                          {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        if (!extra.is_null()) {
+            const int filament = builder.add_box_mesh(glm::vec3(-0.01F), glm::vec3(0.01F));
+            builder
+                .json["meshes"][static_cast<std::size_t>(filament)]["primitives"][0]["material"] =
+                builder.add_material(extra);
+            builder.add_node({{"mesh", filament}, {"name", "filament"}});
+        }
+        std::string text;
+        for (const EnclosedLight& light : find_enclosed_lights(builder.load())) {
+            text += light.light + " in " + light.object + "; ";
+        }
+        return text;
+    };
+    EXPECT_EQ(enclosed({0, 0, 0}, Json::object()), "bulb in shade; ");
+    EXPECT_EQ(enclosed({0, 0, 0}, {{"doubleSided", true}}), "bulb in shade; ");
+    EXPECT_EQ(enclosed({0, 0.2F, 0}, Json::object()),
+              "");  // not in the room either: it has a camera
+    EXPECT_EQ(enclosed({0, 0, 0}, transmitting(1.0)), "");
+    EXPECT_EQ(enclosed({0, 0, 0}, {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.3}}}},
+                                   {"alphaMode", "BLEND"}}),
+              "");
+    EXPECT_EQ(
+        enclosed({1, 0, 0}, Json::object(), {{"name", "glow"}, {"emissiveFactor", {1, 1, 1}}}),
+        "glow in shade; ");
 }
 
 }  // namespace

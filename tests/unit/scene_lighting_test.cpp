@@ -75,7 +75,7 @@ TEST(SceneLighting, PunctualLightsAreReadInTheirUnits) {
                      {{"type", "directional"}, {"intensity", 50'000}},
                      {{"type", "point"}, {"intensity", 0}}})
             .load();
-    ASSERT_EQ(scene.punctual_lights.size(), 3U);
+    ASSERT_EQ(scene.punctual_lights.size(), 4U);  // the dark one can be switched on
     EXPECT_EQ(scene.sky_radiance, glm::vec3(0));
     EXPECT_TRUE(scene.notices.empty() || !has_notice(scene, "KHR_lights_punctual"));
     EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(80, 40, 20));
