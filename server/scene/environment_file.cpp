@@ -157,7 +157,8 @@ EquirectangularImage read_equirectangular(const std::string& file,
     if (picture.width < 2 || picture.height < 1) {
         fail(file, fmt::format("has {} x {} pixels", picture.width, picture.height));
     }
-    EquirectangularImage image{picture.width, picture.height, std::move(picture.pixels), {}};
+    EquirectangularImage image{picture.width, picture.height, std::move(picture.pixels),
+                               std::move(picture.notes)};
     check_layout(file, image);
     mend_unknown(image);
     mend_infinite(image, picture.largest);

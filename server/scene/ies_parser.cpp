@@ -45,7 +45,7 @@ int year_of(std::string_view line) {
 /// What a file that has no TILT is instead, by its first lines; empty: not known.
 std::string other_format(const std::string& file, const std::string& text) {
     if (compact(text.substr(0, 200)).starts_with("<")) {
-        return "this is XML, not the text of LM-63";
+        return "this is XML or HTML, not the text of LM-63";
     }
     // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance.
     IesReader reader(file, text);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "scene/colour_space.h"
@@ -27,20 +28,25 @@ constexpr float largest_half = 65504.0F;
 /// for all, else the only channel.
 std::array<int, 3> colour_channels(const std::string& file, const OIIO::ImageSpec& spec) {
     const std::vector<std::string>& names = spec.channelnames;
-    for (const std::string& red : names) {
-        if (red != "R" && !red.ends_with(".R")) {
-            continue;
-        }
-        const std::string layer = red.substr(0, red.size() - 1);
-        const int r = spec.channelindex(red);
-        const int g = spec.channelindex(layer + "G");
-        const int b = spec.channelindex(layer + "B");
-        if (g >= 0 && b >= 0) {
-            return {r, g, b};
+    constexpr std::array<std::array<const char*, 3>, 3> spellings = {
+        {{"R", "G", "B"}, {"r", "g", "b"}, {"red", "green", "blue"}}};
+    for (const auto& [red, green, blue] : spellings) {
+        for (const std::string& name : names) {
+            if (name != red && !name.ends_with(std::string(".") + red)) {
+                continue;
+            }
+            const std::string layer = name.substr(0, name.size() - std::string_view(red).size());
+            const int g = spec.channelindex(layer + green);
+            const int b = spec.channelindex(layer + blue);
+            if (g >= 0 && b >= 0) {
+                return {spec.channelindex(name), g, b};
+            }
         }
     }
     const int grey = spec.nchannels == 1 ? 0 : spec.channelindex("Y");
-    if (grey >= 0 && spec.channelindex("X") < 0) {
+    const bool colour =  // of XYZ, or of luminance and chroma
+        spec.channelindex("X") >= 0 || spec.channelindex("RY") >= 0;
+    if (grey >= 0 && !colour) {
         return {grey, grey, grey};
     }
     std::string list;

@@ -17,6 +17,7 @@ struct PictureFile {
     std::vector<glm::vec3> pixels;  ///< width * height
     glm::dmat3 rec709{1.0};         ///< Rec. 709 of the file's colours
     float largest = 0.0F;           ///< largest number that half floats can be; 0: of other files
+    std::vector<std::string> notes{};  ///< what a user should know about how it was read
 };
 
 /// Most pixels of an image that is read.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "scene/colour_space.h"
 #include "scene/gltf_loader.h"
@@ -27,6 +28,7 @@ struct Header {
     bool rows = true;         // scanlines are rows, else columns
     bool bottom_up = false, right_to_left = false;
     int width = 0, height = 0;
+    bool text_copy = false;  // its lines end with CR LF
 };
 
 class Decoder {
@@ -43,6 +45,8 @@ class Decoder {
         if ((bytes_.size() - at_) / sizeof(Rgbe) < static_cast<std::size_t>(lines)) {
             fail(too_short);
         }
+        flat_ =
+            bytes_.size() - at_ == sizeof(Rgbe) * width * static_cast<std::size_t>(header_.height);
         image.pixels.resize(width * static_cast<std::size_t>(header_.height));
         std::vector<Rgbe> line(
             static_cast<std::size_t>(header_.rows ? header_.width : header_.height));
@@ -57,6 +61,10 @@ class Decoder {
                 image.pixels[row * width + column] = colour(line[k]);
             }
         }
+        if (header_.text_copy && at_ != bytes_.size()) {
+            fail("was copied as text: its line ends have been converted, also within its pixels");
+        }
+        image.notes = std::move(notes_);
         return image;
     }
 
@@ -76,11 +84,12 @@ class Decoder {
         at_ = end + 1;
         if (!line.empty() && line.back() == '\r') {
             line.remove_suffix(1);
+            header_.text_copy = true;
         }
         return line;
     }
 
-    /// The numbers of a text, as many as the array has; nothing where they are fewer.
+    /// The numbers of a text; nothing where they are not as many as the array has.
     template <std::size_t N>
     static std::optional<std::array<double, N>> numbers(std::string_view text) {
         std::array<double, N> values{};
@@ -93,7 +102,8 @@ class Decoder {
             }
             text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         }
-        return values;
+        return text.find_first_not_of(" \t") == std::string_view::npos ? std::optional(values)
+                                                                       : std::nullopt;
     }
 
     template <std::size_t N>
@@ -123,6 +133,18 @@ class Decoder {
                 header_.divisor *= glm::dvec3(c[0], c[1], c[2]);
             } else if (name == "PRIMARIES") {
                 primaries = numbers<8>(value);
+                if (!primaries || !rec709_from_primaries(*primaries)) {
+                    notes_.push_back(fmt::format("PRIMARIES={} are no colour space and ignored",
+                                                 value.substr(0, 80)));
+                }
+            } else if (name == "GAMMA") {
+                const auto gamma = numbers<1>(value);
+                if (!gamma || (*gamma)[0] != 1.0) {
+                    notes_.push_back(
+                        fmt::format("GAMMA={} is ignored: its numbers are read as "
+                                    "linear",
+                                    value.substr(0, 80)));
+                }
             } else if (name == "FORMAT") {
                 format = value.substr(0, value.find_last_not_of(" \t") + 1);
             }
@@ -189,6 +211,9 @@ class Decoder {
         const std::size_t length = std::size_t{first[2]} << 8U | first[3];
         if (first[0] == 2 && first[1] == 2 && first[2] < 128 && line.size() >= 8 &&
             line.size() < 32768) {
+            if (length != line.size() && flat_) {  // a dark pixel that looks like a run
+                return read_old_scanline(line, first);
+            }
             if (length != line.size()) {
                 fail("cannot be decoded: a scanline has another length than the picture");
             }
@@ -251,7 +276,9 @@ class Decoder {
     const std::string& file_;
     std::span<const std::uint8_t> bytes_;
     std::size_t at_ = 0;
+    bool flat_ = false;
     Header header_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace

@@ -209,8 +209,10 @@ TEST(CasesIes, AnglesOfFloodlightsMayEndWithTheBeam) {
 TEST(CasesIes, OtherFormatsAreNamed) {
     EXPECT_EQ(error_of("Maker\r\n1\r\n0\r\n24\r\n15\r\n19\r\n5,0\r\nreport\r\n"),
               "line 1: this is EULUMDAT, not LM-63");
+    EXPECT_EQ(error_of("<!DOCTYPE html><title>404</title>"),
+              "line 1: this is XML or HTML, not the text of LM-63");
     EXPECT_EQ(error_of("\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<IESTM33-18/>"),
-              "line 1: this is XML, not the text of LM-63");
+              "line 1: this is XML or HTML, not the text of LM-63");
     EXPECT_EQ(error_of(clean() + "0 0\n"),
               "line 10: more numbers follow than 19 x 1 candela values");
 }

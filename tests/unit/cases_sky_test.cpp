@@ -151,6 +151,44 @@ TEST(CasesSky, ExposureAndColourCorrectionAreProducts) {
     EXPECT_EQ(green.r, 0.0F);
 }
 
+/// Programs write GAMMA=1 of linear pictures, and others of what may be linear or not.
+TEST(CasesSky, HeadersOfOtherProgramsAreReadOrNamed) {
+    const auto read = [](const std::string& header) {
+        return read_image(radiance_file(header + rgbe_format, "-Y 2 +X 4", 2, 4,
+                                        [](int, int) { return rgbe(120, 120, 120); }));
+    };
+    EXPECT_TRUE(read("# Made by a program\nSOFTWARE=x\nVIEW= -vtv\nGAMMA=1.0\n").notes.empty());
+    const EquirectangularImage image = read("GAMMA=0.4545\nPRIMARIES=0 0 0 0 0 0 0 0\n");
+    EXPECT_EQ(image.pixels[0], glm::vec3(120));
+    ASSERT_EQ(image.notes.size(), 2U);
+    EXPECT_EQ(image.notes[0], "GAMMA=0.4545 is ignored: its numbers are read as linear");
+    // Of a program whose numbers have decimal commas.
+    EXPECT_EQ(refused(radiance_file("EXPOSURE=2,5\n" + rgbe_format, "-Y 2 +X 4", 2, 4,
+                                    [](int, int) { return rgbe(1, 1, 1); })),
+              "EXPOSURE=2,5: a number above 0 expected");
+}
+
+/// A flat picture whose first pixel looks like the beginning of a run.
+TEST(CasesSky, DarkPixelsAreNotTakenForRuns) {
+    const EquirectangularImage image =
+        read_image(radiance_file(rgbe_format, "-Y 8 +X 16", 8, 16, [](int i, int k) {
+            return i == 0 && k == 0 ? std::string("\x02\x02\x02\x80", 4) : rgbe(9, 9, 9);
+        }));
+    EXPECT_EQ(image.pixels[0], glm::vec3(std::ldexp(2.0F, -8)));
+    EXPECT_EQ(image.pixels[127], glm::vec3(9));
+}
+
+/// Copies as text, between systems, have another byte before each line feed.
+TEST(CasesSky, CopiesAsTextAreRefused) {
+    std::string bytes = radiance_file(rgbe_format, "-Y 4 +X 8", 4, 8,
+                                      [](int, int k) { return rgbe(k == 3 ? '\n' : 20, 20, 20); });
+    for (std::size_t at = bytes.find('\n'); at != std::string::npos;
+         at = bytes.find('\n', at + 2)) {
+        bytes.insert(at, "\r");
+    }
+    EXPECT_EQ(refused(bytes).substr(0, 18), "was copied as text");
+}
+
 TEST(CasesSky, BothKindsOfRunLengthsAreRead) {
     const std::string resolution = "-Y 4 +X 8\n";
     std::string old = "#?RGBE\n" + rgbe_format + "\n" + resolution;
@@ -258,6 +296,20 @@ TEST(CasesSky, ChannelsAreFoundByTheirNames) {
     Exr grey(8, 4, 2);
     grey.spec.channelnames = {"Y", "A"};
     EXPECT_EQ(read_image(grey.bytes()).pixels[0], glm::vec3(1.0F));
+    for (const std::vector<std::string>& names : {std::vector<std::string>{"a", "r", "g", "b"},
+                                                  {"x", ".R", ".G", ".B"},
+                                                  {"Z", "red", "green", "blue"},
+                                                  {"channel3", "R", "G", "B"}}) {
+        Exr spelt(8, 4, 4);
+        spelt.spec.channelnames = names;
+        for (std::size_t i = 0; i < spelt.values.size(); ++i) {
+            spelt.values[i] = static_cast<float>(i % 4);
+        }
+        EXPECT_EQ(read_image(spelt.bytes()).pixels[0], glm::vec3(1, 2, 3)) << names[1];
+    }
+    Exr chroma(8, 4, 3);
+    chroma.spec.channelnames = {"BY", "RY", "Y"};
+    EXPECT_EQ(refused(chroma.bytes()), "has no channels R, G and B, but Y, BY, RY");
     Exr other(8, 4, 2);
     other.spec.channelnames = {"u", "v"};
     EXPECT_EQ(refused(other.bytes()), "has no channels R, G and B, but u, v");
