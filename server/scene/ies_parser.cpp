@@ -103,6 +103,23 @@ Head read_head(IesReader& reader, const std::string& file, const std::string& te
     reader.fail("there is no line that begins with TILT=");
 }
 
+/// The limits of a range as they are meant: files have two decimals, and 359.99 for 360.
+void snap_limits(std::vector<double>& angles) {
+    constexpr double rounding = 0.01 + 1e-6;
+    const auto snapped = [](double angle) {
+        const double right = 90.0 * std::round(angle / 90.0);
+        return std::abs(angle - right) <= rounding ? right : angle;
+    };
+    const double first = snapped(angles.front());
+    const double last = snapped(angles.back());
+    if (angles.size() == 1) {
+        angles.front() = first;
+    } else if (first < angles[1] && last > angles[angles.size() - 2]) {
+        angles.front() = first;
+        angles.back() = last;
+    }
+}
+
 void check_type_c(const IesReader& reader, IesProfile::Data& data) {
     const std::vector<double>& v = data.vertical;
     const std::vector<double>& h = data.horizontal;
@@ -114,7 +131,7 @@ void check_type_c(const IesReader& reader, IesProfile::Data& data) {
             fmt::format("its vertical angles end at {}°: it is dark beyond", v.back()));
     }
     const bool since_1995 = h.front() == 90.0 && h.back() == 270.0;
-    if (!since_1995 && h.front() != 0.0) {
+    if (!since_1995 && h.front() != 0.0 && h.size() > 1) {
         reader.fail("horizontal angles of type C go from 0 to 0, 90, 180 or 360");
     }
 }
@@ -241,6 +258,8 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
     reader.number("the input watts");
     data.vertical = reader.ascending("a vertical angle", rows, -90, 180);
     data.horizontal = reader.ascending("a horizontal angle", columns, -90, 360);
+    snap_limits(data.vertical);
+    snap_limits(data.horizontal);
     const bool type_c = data.type == IesProfile::Type::c;
     type_c ? check_type_c(reader, data) : check_types_a_and_b(reader, data);
     const double factor = multiplier * ballast * (head.year >= 2002 ? 1.0 : lamp_factor);

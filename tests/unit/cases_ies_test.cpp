@@ -193,6 +193,20 @@ TEST(CasesIes, VerticalAnglesMayEndAnywhere) {
               "line 6: vertical angles of type C begin at 0 or 90 and are at least two");
 }
 
+TEST(CasesIes, LimitsThatAreRoundedAreMeantAsTheyAre) {
+    const IesProfile profile =
+        parse_ies("f",
+                  "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 3 1 2 0 0 0\n1 1 1\n0.01 90 179.99\n"
+                  "0 180 359.99\n10 10 10\n20 20 20\n10 10 10\n");
+    EXPECT_TRUE(profile.data().notes.empty());
+    EXPECT_NEAR(profile.candela({0, 0, -1}), 10.0, 1e-9);
+    EXPECT_NEAR(profile.candela({0, -1, 0}), 15.0, 1e-9);
+    // The only plane of a round luminaire may have any angle.
+    const IesProfile round = parse_ies(
+        "f", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 180\n45\n10 10\n");
+    EXPECT_NEAR(round.candela({0, -1, 0}), 10.0, 1e-9);
+}
+
 /// Floodlights (types A and B) have only the angles of their beam.
 TEST(CasesIes, AnglesOfFloodlightsMayEndWithTheBeam) {
     for (const int type : {2, 3}) {
