@@ -26,12 +26,12 @@ AlphaStatistics alpha_statistics(const Texture& texture, float factor) {
     for (std::size_t i = 3; i < texture.rgba.size(); i += 4) {
         ++counts[texture.rgba[i]];
     }
-    const auto texels = static_cast<double>(texture.rgba.size() / 4);
+    const std::size_t texels = texture.rgba.size() / 4;
     AlphaStatistics result{0.0, 0.0, 0.0};
     double squares = 0.0;
     for (std::size_t value = 0; value < counts.size(); ++value) {
         const double alpha = static_cast<double>(factor) * static_cast<double>(value) / 255.0;
-        const double share = static_cast<double>(counts[value]) / texels;
+        const double share = static_cast<double>(counts[value]) / static_cast<double>(texels);
         const double cut = alpha >= half_covered ? alpha - 1.0 : alpha;
         result.mean += share * alpha;
         squares += share * alpha * alpha;
