@@ -48,7 +48,8 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
                        report.edges.boundary, report.edges.non_manifold);
     for (const EnclosedLight& lamp : report.enclosed) {
-        out << fmt::format("no light    of '{}': '{}' encloses it\n", lamp.light, lamp.object);
+        out << fmt::format("enclosed    '{}': '{}' encloses it, none of its light gets out\n",
+                           lamp.light, lamp.object);
     }
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
     if (scene.environment) {
