@@ -47,6 +47,15 @@ TEST(CasesSpot, TheEdgeIsWhereTheOuterConeIs) {
     }
 }
 
+/// Exporters write the largest float for lights that reach everywhere.
+TEST(CasesSpot, RangesMayBeTheLargestFloat) {
+    GltfBuilder builder = one_triangle();
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 5}, {"range", 3.40282347e+38}}};
+    builder.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    EXPECT_EQ(builder.load().punctual_lights.size(), 1U);
+}
+
 GltfBuilder film(const Json& material, const std::vector<std::uint8_t>& rgba, int width) {
     GltfBuilder builder;
     const int texture = builder.add_view(png(width, 1, rgba));
