@@ -142,7 +142,8 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
     to_message(setting.colour, out->mutable_colour());
     out->set_on(setting.on);
     out->set_loaded_intensity(unit * loaded);
-    to_message(setting.loaded / std::max(loaded, 1e-30F), out->mutable_loaded_colour());
+    to_message(loaded > 0.0F ? setting.loaded / loaded : light.dark_colour,
+               out->mutable_loaded_colour());
     describe_figures(loaded_figures(light), out);
 }
 
@@ -260,7 +261,8 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_on(light.on);
         const float loaded = luminance(light.loaded);
         out->set_loaded_intensity(loaded);
-        to_message(light.loaded / std::max(loaded, 1e-30F), out->mutable_loaded_colour());
+        to_message(loaded > 0.0F ? light.loaded / loaded : light.colour,
+                   out->mutable_loaded_colour());
         describe_figures(loaded_figures(light), out);
     }
     for (const PunctualLight& light : scene.punctual_lights) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "scene/gltf_loader.h"
 #include "scene/gltf_max_phong.h"
 #include "scene/gltf_schema.h"
+#include "scene/gltf_uri.h"
 
 namespace raybundle {
 namespace {
@@ -40,6 +43,7 @@ GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),
                model_.bufferViews) {
     check_accessors(*this);
+    note_spelling(container.json);
     model_.images = read_images(path, array_or_empty(container.json, "images"));
     note_ignored_extensions(container.json, *this);
 }
@@ -50,6 +54,32 @@ void GltfDocument::note(const std::string& text) {
         notices_.push_back(text);
     } else if (is_new && notices_.size() == max_notices) {
         notices_.emplace_back("there are more notices like these");
+    }
+}
+
+/// Names the files that are spelt otherwise than the scene says.
+void GltfDocument::note_spelling(const Json& json) {
+    const auto note_file = [&](const std::string& json_path, const std::string& uri) {
+        if (const auto found = other_spelling(path_, json_path, uri)) {
+            note(
+                fmt::format("{}: there is no file \"{}\": \"{}\" is read", json_path, uri, *found));
+        }
+    };
+    const auto note_files = [&](const Json& parent, const std::string& path, const char* name) {
+        const Json& list = array_or_empty(parent, name);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (const Json* uri = find_member(list[i], "uri")) {
+                note_file(item_path(path.c_str(), i) + ".uri", uri->get<std::string>());
+            }
+        }
+    };
+    note_files(json, "images", "images");
+    note_files(json, "buffers", "buffers");
+    if (const Json* lights = find_member(extensions_, "EXT_lights_ies")) {
+        note_files(*lights, "extensions.EXT_lights_ies.lights", "lights");
+    }
+    if (daylight_.environment) {
+        note_file("extras.raybundle.daylight.environment", *daylight_.environment);
     }
 }
 

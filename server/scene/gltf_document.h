@@ -47,6 +47,8 @@ class GltfDocument {
     [[noreturn]] void fail(const std::string& json_path, const std::string& reason) const;
 
   private:
+    void note_spelling(const Json& json);
+
     std::string path_;
     Daylight daylight_;
     tinygltf::Model model_;

@@ -149,4 +149,29 @@ int image_of(const GltfDocument& document, int texture) {
     return source;
 }
 
+float mean_of_channel(GltfDocument& document, const tinygltf::Value& extension, const char* name,
+                      std::size_t channel, const std::string& what) {
+    if (!extension.Has(name)) {
+        return 1.0F;
+    }
+    try {
+        const int image = image_of(document, integer_or(extension.Get(name), "index", -1));
+        if (image < 0) {
+            return 1.0F;
+        }
+        const DecodedImage decoded = decode_image(document, image);
+        double sum = 0.0;
+        for (std::size_t i = channel; i < decoded.rgba.size(); i += 4) {
+            sum += decoded.rgba[i];
+        }
+        document.note(fmt::format("textures of {} are read as their means", what));
+        const std::size_t texels = decoded.rgba.size() / 4;
+        return static_cast<float>(sum / (255.0 * static_cast<double>(texels)));
+    } catch (const SceneError& error) {
+        document.note(fmt::format("a texture of {} is ignored: {}: {}", what, error.json_path(),
+                                  error.reason()));
+        return 1.0F;
+    }
+}
+
 }  // namespace raybundle

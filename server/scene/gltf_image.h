@@ -28,4 +28,9 @@ DecodedImage decode_image(const GltfDocument& document, int image);
 /// without fallback.
 int image_of(const GltfDocument& document, int texture);
 
+/// Mean of a channel of an extension's texture over all its texels, 0 to 1, with a notice; 1
+/// without one that can be read. what: has such textures, for the notice.
+float mean_of_channel(GltfDocument& document, const tinygltf::Value& extension, const char* name,
+                      std::size_t channel, const std::string& what);
+
 }  // namespace raybundle

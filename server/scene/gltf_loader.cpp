@@ -50,9 +50,10 @@ void name_materials(Scene& scene) {
 
 /// Gives the punctual lights of a name the distribution of a file, "LIGHT=FILE"; their colour
 /// stays.
-void apply_ies(const std::string& choice, Scene& scene) {
+void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) {
     const std::size_t equals = choice.find('=');
     const std::string name = choice.substr(0, equals);
+    const std::string file = choice.substr(equals + 1);
     std::shared_ptr<const IesProfile> profile;
     std::string names;
     for (PunctualLight& light : scene.punctual_lights) {
@@ -61,13 +62,17 @@ void apply_ies(const std::string& choice, Scene& scene) {
             continue;
         }
         if (!profile) {
-            profile = std::make_shared<const IesProfile>(read_ies(choice.substr(equals + 1)));
+            profile = std::make_shared<const IesProfile>(read_ies(file));
         }
         light.kind = PunctualKind::point;
-        light.intensity /= luminance(light.intensity);
+        light.intensity = colour_of(light);
         light.profile = profile;
     }
-    if (!profile) {
+    if (profile) {
+        for (const std::string& note : profile->data().notes) {
+            document.note(fmt::format("IES file '{}': {}", file, note));
+        }
+    } else {
         throw SceneError(scene.path, "",
                          fmt::format("--ies: there is no point light or spot '{}'; punctual "
                                      "lights: {}",
@@ -123,7 +128,7 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     bake_objects(document, tree, geometries, plans, default_material, scene);
     read_punctual_lights(document, tree, plans, scene);
     for (const std::string& choice : settings.ies) {
-        apply_ies(choice, scene);
+        apply_ies(choice, document, scene);
     }
     scene.removed.duplicate_faces = remove_duplicate_faces(scene);
     if (scene.removed.duplicate_faces > 0) {
@@ -142,7 +147,8 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     measure_lights(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
-    scene.notices = document.notices();
+    scene.notices.insert(scene.notices.begin(), document.notices().begin(),
+                         document.notices().end());
     return scene;
 }
 

@@ -36,6 +36,8 @@ struct PunctualLight {
     /// Directional: illuminance of a surface that faces it, lx; else luminous intensity, cd, of a
     /// spot along its axis.
     glm::vec3 intensity{0.0F};
+    glm::vec3 dark_colour{
+        1.0F};  ///< of luminance 1: its colour where the file gives it intensity 0
     float angular_radius = 0.0F;  ///< directional: half of the diameter of its disc, radians
     bool of_sky = false;          ///< part of Scene::environment
     float inner_cosine = 1.0F;    ///< spot: full intensity within this cone
@@ -45,6 +47,9 @@ struct PunctualLight {
     /// Once it has been changed; `intensity` is 0 while it is off.
     std::optional<PunctualSetting> setting;
 };
+
+/// Of luminance 1.
+glm::vec3 colour_of(const PunctualLight& light);
 
 /// Also of a light that has never been changed.
 PunctualSetting setting_of(const PunctualLight& light);

@@ -90,6 +90,8 @@ struct Material {
     float reflectance = 1.0F;           ///< factor of the whole BRDF; 1 in files
     glm::vec3 emission{0.0F};           ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
+    /// Of a lamp that the file switches off, by an emissiveStrength of 0: its emissiveFactor.
+    glm::vec3 dark_emission{0.0F};
     bool double_sided = false;
     /// KHR_materials_diffuse_transmission: share of the light on one side that is sent from the
     /// other, like a Lambert surface's. With it base_colour is what is left to reflect, there is no
@@ -189,7 +191,7 @@ struct Scene {
     std::vector<Object> objects;  ///< at least one
     std::vector<Camera> cameras;  ///< at least one: a framing default where the file has none
     std::vector<Light> lights;
-    std::vector<PunctualLight> punctual_lights;  ///< none of them black
+    std::vector<PunctualLight> punctual_lights;
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
@@ -204,9 +206,7 @@ inline bool two_sided(const Scene& scene, const Triangle& triangle) {
 }
 
 /// Whether anything but a sky emits light.
-inline bool has_emitter(const Scene& scene) {
-    return !scene.lights.empty() || !scene.punctual_lights.empty();
-}
+bool has_emitter(const Scene& scene);
 
 /// The light in the world, its object at its initial place.
 inline PlacedLight place_light(const Scene& scene, const PunctualLight& light) {

@@ -48,6 +48,10 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
         scene.removed.solid_insides);
     out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
                        report.edges.boundary, report.edges.non_manifold);
+    for (const EnclosedLight& lamp : report.enclosed) {
+        out << fmt::format("enclosed    '{}': '{}' encloses it, none of its light gets out\n",
+                           lamp.light, lamp.object);
+    }
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
     if (scene.environment) {
         out << fmt::format("environment {}\n", scene.environment->description());
@@ -240,6 +244,9 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"cameras", cameras_json(scene)},
         {"textures", textures_json(scene)},
         {"notices", scene.notices}};
+    for (const EnclosedLight& lamp : report.enclosed) {
+        json["enclosedLights"].push_back({{"light", lamp.light}, {"object", lamp.object}});
+    }
     if (report.unit_hint) {
         json["unitHint"] = *report.unit_hint;
     }
