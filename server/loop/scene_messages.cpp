@@ -6,6 +6,7 @@
 #include "journal/change_sum.h"
 #include "scene/effects_plan.h"
 #include "scene/light_figures.h"
+#include "scene/object_limits.h"
 
 namespace raybundle {
 
@@ -185,7 +186,11 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
     if (change.has_move_object()) {
         const bool known = id >= 1 && id <= scene.objects.size();
         if (known && scene.objects[id - 1].movable) {
-            return {};
+            const std::string problem =
+                problem_of(scene, id - 1, from_message(change.move_object().transform()));
+            return problem.empty()
+                       ? v1::Error()
+                       : error(v1::Error::INVALID_ARGUMENT, "moveObject.transform." + problem);
         }
         return error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
                      "moveObject.object: no movable object " + std::to_string(id));

@@ -12,6 +12,8 @@
 #include <optional>
 #include <string_view>
 
+#include "scene/object_limits.h"
+
 namespace raybundle {
 
 namespace {
@@ -246,6 +248,9 @@ class ScriptReader {
             if (std::min({size.x, size.y, size.z}) < smallest) {
                 key.at("scale").refuse("must not be zero");
             }
+        }
+        if (const std::string problem = problem_of(scene_, object, transform); !problem.empty()) {
+            key.refuse(problem);
         }
         if (time == 0.0) {
             keys.erase(0.0);

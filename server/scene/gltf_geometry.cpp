@@ -87,14 +87,7 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix) {
 }
 
 Bounds find_world_bounds(const NodeGeometry& geometry, const GltfNode& node) {
-    Bounds local;
-    for (const PrimitiveData& primitive : geometry.primitives) {
-        for (const glm::uvec3& triangle : primitive.triangles) {
-            for (int k = 0; k < 3; ++k) {
-                local.add(primitive.positions[triangle[k]]);
-            }
-        }
-    }
+    const Bounds local = geometry.local_bounds();
     Bounds world;
     if (local.empty()) {
         return world;
@@ -171,6 +164,18 @@ std::size_t NodeGeometry::triangle_count() const {
         count += primitive.triangles.size();
     }
     return count * node_from_mesh.size();
+}
+
+Bounds NodeGeometry::local_bounds() const {
+    Bounds local;
+    for (const PrimitiveData& primitive : primitives) {
+        for (const glm::uvec3& triangle : primitive.triangles) {
+            for (int k = 0; k < 3; ++k) {
+                local.add(primitive.positions[triangle[k]]);
+            }
+        }
+    }
+    return local;
 }
 
 std::vector<NodeGeometry> read_geometry(GltfDocument& document, const GltfNodeTree& tree,

@@ -15,11 +15,11 @@
 #include "scene/gltf_camera.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_document.h"
-#include "scene/gltf_geometry.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_node_tree.h"
 #include "scene/gltf_objects.h"
+#include "scene/gltf_place.h"
 #include "scene/gltf_primitive.h"
 #include "scene/lights.h"
 #include "scene/solid_shells.h"
@@ -119,11 +119,11 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     Scene scene;
     scene.path = document.path();
     scene.name = std::filesystem::path(scene.path).stem().string();
-    const GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
+    GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
     const std::uint32_t default_material = read_materials(document, scene);
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
-        read_geometry(document, tree, settings.metres_per_unit);
+        read_placed_geometry(document, tree, settings.metres_per_unit, scene);
     const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
     bake_objects(document, tree, geometries, plans, default_material, scene);
     read_punctual_lights(document, tree, plans, scene);

@@ -195,7 +195,8 @@ struct Scene {
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
-    Bounds bounds;  ///< world space
+    Bounds bounds;           ///< world space
+    glm::dvec3 origin{0.0};  ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

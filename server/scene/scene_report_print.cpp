@@ -34,6 +34,10 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     out << fmt::format("{} ({})\n", scene.name, scene.path);
     out << fmt::format("bounds      {}  to  {}  ({} m)\n", text_of(scene.bounds.min),
                        text_of(scene.bounds.max), text_of(scene.bounds.extent()));
+    if (scene.origin != glm::dvec3(0.0)) {
+        out << fmt::format("origin      {:.0f}, {:.0f}, {:.0f} m of the file's coordinates\n",
+                           scene.origin.x, scene.origin.y, scene.origin.z);
+    }
     if (report.unit_hint) {
         out << fmt::format("unit        {}\n", *report.unit_hint);
     }
@@ -222,6 +226,7 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"name", scene.name},
         {"path", scene.path},
         {"bounds", json_of(scene.bounds)},
+        {"origin", {{"x", scene.origin.x}, {"y", scene.origin.y}, {"z", scene.origin.z}}},
         {"triangles", scene.triangles.size()},
         {"vertices", report.referenced_vertices},
         {"area", report.area},

@@ -121,6 +121,7 @@
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_SLOPES 23              // rgba32ui: RadianceSlope
+#define UNIT_SHADOW_EDGES 24      // r8ui array: see first_shot.glsl
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f

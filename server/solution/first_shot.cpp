@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/first_shot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gpu/gl_scope.h"
@@ -10,6 +11,10 @@ namespace raybundle {
 namespace {
 
 constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
+/// Rays to lights that one invocation follows. llvmpipe ends an invocation's loops after 65 535
+/// rounds, all loops together: 4000 boxes a ray are left.
+constexpr unsigned most_rays = 16;
+
 /// Parts along an edge of a patch: many patches are small ones, and many lights average over what
 /// each of them misses.
 unsigned divisions_of(std::uint32_t patches, std::size_t lights) {
@@ -62,10 +67,25 @@ void FirstShot::update(bool radiance_follows) {
     const GlScope scope("first shot");
     bind();
     set_uniforms(shoot_);
+    const unsigned divisions = divisions_of(scene_.patch_count(), scene_.punctual_lights().size());
     shoot_.set("patch_count", scene_.patch_count());
     shoot_.set("radiance_follows", radiance_follows);
-    shoot_.set("divisions", divisions_of(scene_.patch_count(), scene_.punctual_lights().size()));
-    shoot_.dispatch(scene_.patch_count());
+    shoot_.set("divisions", divisions);
+    dispatch(shoot_, scene_.patch_count(), most_rays / (divisions * divisions));
+}
+
+void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads) const {
+    dispatch(program, threads, most_rays);
+}
+
+void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads,
+                         unsigned most_lights) const {
+    const auto lights = static_cast<unsigned>(scene_.punctual_lights().size());
+    for (unsigned first = 0; first < lights; first += most_lights) {
+        program.set("first_light", first);
+        program.set("end_light", std::min(first + most_lights, lights));
+        program.dispatch(threads);
+    }
 }
 
 void FirstShot::bind() const {

@@ -31,6 +31,8 @@ class FirstShot {
     void bind() const;
     /// Sets the uniforms of shaders/first_shot.glsl.
     void set_uniforms(const ShaderProgram& program) const;
+    /// Runs a program of one invocation a thread that adds the light of some of the lights.
+    void dispatch(const ShaderProgram& program, std::size_t threads) const;
     /// Irradiance per patch, radiance units. Synchronous.
     [[nodiscard]] std::vector<glm::vec3> read_irradiance() const;
     [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;
@@ -39,6 +41,8 @@ class FirstShot {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    void dispatch(const ShaderProgram& program, std::size_t threads, unsigned most_lights) const;
+
     const GpuScene& scene_;
     ShadowMaps maps_;
     Buffer lights_, patches_;

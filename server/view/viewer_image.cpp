@@ -101,7 +101,7 @@ void ViewerImage::shoot_first() const {
     }
     const GlScope scope("pixel first shot");
     store_.first_shot()->set_uniforms(programs_.first_shot);
-    programs_.first_shot.dispatch(pixel_count(size_));
+    store_.first_shot()->dispatch(programs_.first_shot, pixel_count(size_));
 }
 
 void ViewerImage::create_pixel_textures() {

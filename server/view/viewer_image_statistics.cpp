@@ -8,6 +8,26 @@
 
 namespace raybundle {
 
+namespace {
+
+/// Of a sky: less of it comes into closed rooms by what bundles do not resolve (`ClosedRoom*` finds
+/// 2e-5), and is not worth a picture.
+constexpr double unresolved_sky = 1e-4;
+
+/// Mean luminance of the sky towards the corners of a cube, cd/m².
+double sky_luminance(const GpuScene& scene) {
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8 && scene.has_sky(); ++corner) {
+        const glm::vec3 towards((corner & 1U) != 0 ? 1.0F : -1.0F,
+                                (corner & 2U) != 0 ? 1.0F : -1.0F,
+                                (corner & 4U) != 0 ? 1.0F : -1.0F);
+        sum += static_cast<double>(luminance(scene.sky_towards(glm::normalize(towards))));
+    }
+    return 0.125 * sum * static_cast<double>(scene.radiance_unit());
+}
+
+}  // namespace
+
 /// What the pixels show is another thing from now on, or of other accuracy.
 void ViewerImage::restart_scatter() {
     scatter_.clear();
@@ -124,7 +144,9 @@ void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
 
 float ViewerImage::automatic_exposure() const {
     // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
-    const double stops = -statistics_.mean_log_luminance / std::log(2.0);
+    // A room that next to nothing of the sky gets into stays dark.
+    const double least = std::log(std::max(unresolved_sky * sky_luminance(scene_), 1e-30));
+    const double stops = -std::max(statistics_.mean_log_luminance, least) / std::log(2.0);
     return static_cast<float>(std::clamp(stops, -30.0, 30.0));
 }
 
