@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/session.h"
 
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -11,22 +10,6 @@ namespace raybundle {
 namespace {
 
 constexpr int kMaxWrongTokens = 3;  ///< of one connection
-
-/// Major number of "major.minor"; nothing where the text is not that.
-std::optional<int> major_version(std::string_view text) {
-    int major = 0;
-    int minor = 0;
-    const char* const end = text.data() + text.size();
-    const auto [dot, major_error] = std::from_chars(text.data(), end, major);
-    if (major_error != std::errc() || dot == end || *dot != '.') {
-        return std::nullopt;
-    }
-    const auto [rest, minor_error] = std::from_chars(dot + 1, end, minor);
-    if (minor_error != std::errc() || rest != end || major < 0 || minor < 0) {
-        return std::nullopt;
-    }
-    return major;
-}
 
 /// Name of the message in the words of the client, e.g. "moveObject".
 std::string body_name(const v1::ClientMessage& message) {
@@ -64,8 +47,8 @@ void Session::on_fragment(std::string_view bytes, bool first, bool last, bool bi
         }
         return;
     }
-    ParsedMessage parsed =
-        binary_ ? parse_binary_message(buffer_, limits_) : parse_text_message(buffer_, limits_);
+    ParsedMessage parsed = binary_ ? parse_binary_message(buffer_, limits_, reading_)
+                                   : parse_text_message(buffer_, limits_, reading_);
     buffer_.clear();
     if (const auto* refusal = std::get_if<Refusal>(&parsed)) {
         refuse(*refusal);
@@ -87,6 +70,12 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
                 id});
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
+        if (id) {
+            v1::ServerMessage answer;
+            answer.set_reply_to(*id);
+            answer.mutable_ok();
+            link_.send(answer);
+        }
     } else if (message.has_ping()) {
         v1::ServerMessage answer;
         if (id) {
@@ -103,12 +92,12 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
 bool Session::speaks_our_version(const v1::ClientMessage& message) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     const std::string& version = message.hello().protocol();
-    const auto major = major_version(version);
-    if (!major) {
+    const auto spoken = parse_protocol_version(version);
+    if (!spoken) {
         refuse({v1::Error::INVALID_ARGUMENT, "hello.protocol: must be major.minor, as in 1.0", id});
         return false;
     }
-    if (major != major_version(kProtocolVersion)) {
+    if (spoken->major != own_protocol_version().major) {
         refuse_and_close({v1::Error::UNIMPLEMENTED,
                           "hello.protocol: client speaks " + version + ", server speaks " +
                               std::string(kProtocolVersion),
@@ -140,6 +129,7 @@ void Session::on_hello(v1::ClientMessage message) {
         return;
     }
     pass_ = std::get<Pass>(answer);
+    reading_ = reading_of(message.hello());
     message.mutable_hello()->clear_token();  // nobody behind the gate needs it
     inbox_.joined(link_.viewer(), std::move(message), pass_->role);
 }

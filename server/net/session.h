@@ -8,14 +8,12 @@
 
 #include "net/gate.h"
 #include "net/inbox.h"
+#include "net/protocol_version.h"
 #include "net/token_bucket.h"
 #include "net/viewer_link.h"
 #include "net/wire_codec.h"
 
 namespace raybundle {
-
-/// "major.minor" of the protocol spoken here.
-inline constexpr std::string_view kProtocolVersion = "1.0";
 
 /// The receiving side of one viewer: puts fragments together, insists on a hello in a version
 /// spoken here that passes the gate, refuses what the viewer's role does not allow, answers pings,
@@ -61,6 +59,7 @@ class Session {
     TokenBucket complaints_;  ///< about too many messages, one a second
     std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
     bool binary_ = false;
+    Reading reading_ = Reading::strict;
     std::optional<Pass> pass_;  ///< once hello has been accepted
     int wrong_tokens_ = 0;
 };
