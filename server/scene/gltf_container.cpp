@@ -17,6 +17,9 @@ namespace {
 constexpr std::uint64_t max_scene_file_bytes = 2ULL << 30U;
 // Deeper than any exporter nests; bounds the recursion of everything that walks the JSON.
 constexpr int max_json_depth = 128;
+// Derived: a token (a value, a key, an end) takes up to 50 bytes in memory, so these are at most 1
+// GB.
+constexpr std::size_t max_json_tokens = 20'000'000;
 constexpr std::uint32_t glb_magic = 0x46546C67;
 constexpr std::uint32_t chunk_json = 0x4E4F534A;
 constexpr std::uint32_t chunk_binary = 0x004E4942;
@@ -36,14 +39,19 @@ std::string without_exception_id(const std::string& what) {
 }
 
 Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
-    const auto bound_depth = [&](int depth, Json::parse_event_t, Json&) {
+    std::size_t tokens = 0;
+    const auto bound = [&](int depth, Json::parse_event_t, Json&) {
+        if (++tokens > max_json_tokens) {
+            throw SceneError(path, "",
+                             fmt::format("JSON with more than {} tokens", max_json_tokens));
+        }
         if (depth > max_json_depth) {
             throw SceneError(path, "", fmt::format("JSON nested deeper than {}", max_json_depth));
         }
         return true;
     };
     try {
-        Json json = Json::parse(text.begin(), text.end(), bound_depth);
+        Json json = Json::parse(text.begin(), text.end(), bound);
         if (!json.is_object()) {
             throw SceneError(path, "", "not glTF: the JSON is not an object");
         }
