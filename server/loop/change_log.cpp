@@ -36,6 +36,15 @@ void ChangeLog::open() {
     }
 }
 
+/// Takes up a journal that could not be used before, if it goes on where this scene is.
+void ChangeLog::open_again() {
+    open();
+    if (journal_ && journal_->epoch() != epoch_) {
+        spdlog::error("the journal can be used again, but has changes that are not shown: restart");
+        journal_.reset();
+    }
+}
+
 void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     if (!journal_) {
         return;
@@ -105,6 +114,9 @@ void ChangeLog::restore_history(const Scene& scene) {
 bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before) {
     change.set_epoch(epoch_ + 1);
     if (required_ && !journal_) {
+        open_again();
+    }
+    if (required_ && !journal_) {
         ++failures_;
         return false;
     }
@@ -124,6 +136,9 @@ bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before)
 }
 
 bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (required_ && !journal_) {
+        open_again();
+    }
     if (required_ && !journal_) {
         ++failures_;
         return false;
