@@ -63,21 +63,29 @@ class NetworkEnd {
     Server& server_;
 };
 
-/// Lets the server ask a loop for its metrics while both exist.
+/// Lets the server ask a loop for its metrics, and whether changes can be saved, while all exist.
 class MetricsSource {
   public:
-    MetricsSource(Server& server, const RenderLoop& loop) : server_(server), loop_(loop) { use(); }
+    MetricsSource(Server& server, const RenderLoop& loop, const ChangeLog& log)
+        : server_(server), loop_(loop), log_(log) {
+        use();
+    }
     /// Answers from now on.
     void use() {
         server_.set_metrics_source([this] { return loop_.metrics(); });
+        server_.set_editable_source([this] { return log_.working(); });
     }
-    ~MetricsSource() { server_.set_metrics_source({}); }
+    ~MetricsSource() {
+        server_.set_metrics_source({});
+        server_.set_editable_source({});
+    }
     MetricsSource(const MetricsSource&) = delete;
     MetricsSource& operator=(const MetricsSource&) = delete;
 
   private:
     Server& server_;
     const RenderLoop& loop_;
+    const ChangeLog& log_;
 };
 
 /// Why a loop ends: `leave` is set last.
@@ -95,7 +103,7 @@ struct ServedScene {
         : log(open_change_log(options, loaded)),
           loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
                std::move(loaded.mesh), settings, server, log),
-          metrics(server, loop) {}
+          metrics(server, loop, log) {}
 
     ChangeLog log;
     RenderLoop loop;

@@ -271,8 +271,15 @@ class FieldWalk : public nlohmann::json_sax<Json> {
 
     bool check_enum(const Json& value, const FieldDescriptor& field) {
         if (!value.is_string()) {
-            return value.is_number() && std::abs(number_of(value)) <= INT32_MAX &&
-                   number_of(value) == std::floor(number_of(value));
+            const double number = number_of(value);
+            if (!(std::abs(number) <= INT32_MAX && number == std::floor(number))) {
+                return false;
+            }
+            if (field.enum_type()->FindValueByNumber(static_cast<int>(number)) == nullptr) {
+                note_unknown(unknown_value(path(), std::to_string(static_cast<int>(number)),
+                                           *field.enum_type()));
+            }
+            return true;
         }
         const auto& name = value.get_ref<const std::string&>();
         if (field.enum_type()->FindValueByName(name) == nullptr) {

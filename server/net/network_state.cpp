@@ -38,6 +38,16 @@ void NetworkState::set_metrics_source(std::function<std::string()> source) {
     metrics_source_ = std::move(source);
 }
 
+void NetworkState::set_editable_source(std::function<bool()> source) {
+    const std::lock_guard lock(metrics_mutex_);
+    editable_source_ = std::move(source);
+}
+
+bool NetworkState::editable() const {
+    const std::lock_guard lock(metrics_mutex_);
+    return !editable_source_ || editable_source_();
+}
+
 void NetworkState::set_upload_factory(UploadFactory factory) {
     const std::lock_guard lock(upload_mutex_);
     upload_factory_ = std::move(factory);

@@ -9,7 +9,9 @@
 #include <string>
 #include <thread>
 
+#include "embedded_file.h"
 #include "net/address_count.h"
+#include "net/encoded_files.h"
 #include "net/http_transfer.h"
 #include "net/http_uploads.h"
 #include "net/network_state.h"
@@ -67,6 +69,7 @@ class NetworkThread {
     int end_transfer(lws* connection);
 
     NetworkState& state_;
+    const EncodedFiles encoded_files_{client_files()};
     std::thread thread_;
     std::mutex context_mutex_;  ///< guards context_ against wake() while it is destroyed
     lws_context* context_ = nullptr;

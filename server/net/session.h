@@ -59,8 +59,8 @@ class Session {
     TokenBucket complaints_;  ///< about too many messages, one a second
     std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
     bool binary_ = false;
-    Reading reading_ = Reading::strict;
-    std::optional<Pass> pass_;  ///< once hello has been accepted
+    Reading reading_ = Reading::lenient;  ///< until hello says how: anything else is refused anyway
+    std::optional<Pass> pass_;            ///< once hello has been accepted
     int wrong_tokens_ = 0;
 };
 

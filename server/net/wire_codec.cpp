@@ -120,7 +120,9 @@ ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits
         json_util::JsonStringToMessage({text.data(), text.size()}, &message, options);
     if (!status.ok()) {
         spdlog::debug("protobuf: {}", status.ToString());
-        return Refusal{v1::Error::INVALID_ARGUMENT, "the message cannot be read", scan.id};
+        return Refusal{v1::Error::INVALID_ARGUMENT,
+                       fields.unknown.empty() ? "the message cannot be read" : fields.unknown,
+                       scan.id};
     }
     Unknown unknown{unknown_key(scan.keys), fields.unknown};
     if (unknown.part.empty()) {
