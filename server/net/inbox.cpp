@@ -58,10 +58,10 @@ Inbox::Events::iterator Inbox::find_mergeable(ViewerId viewer, const v1::ClientM
     return events_.end();
 }
 
-bool Inbox::push(ViewerId viewer, v1::ClientMessage message) {
+bool Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
     {
         const std::lock_guard lock(mutex_);
-        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, v1::EDITOR};
+        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role};
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {

@@ -29,7 +29,7 @@ class Inbox {
     void joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role = v1::EDITOR);
 
     /// False where the viewer has too many requests waiting; the message is not taken then.
-    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message);
+    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message, v1::Role role = v1::EDITOR);
 
     /// Forgets what waits of this viewer; if the render thread has not heard of it yet, it never
     /// will.

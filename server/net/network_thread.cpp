@@ -10,8 +10,10 @@
 #include <optional>
 #include <string_view>
 
+#include "net/clock.h"
 #include "net/http_request.h"
 #include "net/network_context.h"
+#include "net/peer_name.h"
 #include "net/upgrade_check.h"
 
 namespace raybundle {
@@ -129,6 +131,7 @@ void NetworkThread::on_woken() {
     answer_uploads();
     const bool recheck = recheck_passes_.exchange(false);
     for (const auto& [connection, viewer] : viewers_) {
+        viewer->next_slice();
         if (recheck) {
             viewer->check_pass();
         } else {
@@ -152,6 +155,22 @@ void NetworkThread::add_connection(lws* connection) {
     std::string key = peer_address(lws_get_socket_fd(connection)).key;
     addresses_.add(key);
     connections_.emplace(connection, std::move(key));
+}
+
+std::string NetworkThread::peer_of(lws* connection) const {
+    return peer_name(peer_address(lws_get_socket_fd(connection)).text,
+                     request_header(connection, WSI_TOKEN_X_FORWARDED_FOR),
+                     state_.settings.trusted_proxies);
+}
+
+/// Role of the request's token; a wrong one is noted.
+std::optional<v1::Role> NetworkThread::role_of(lws* connection, std::string_view where) {
+    const std::string token = request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION);
+    const auto role = state_.gate.role_of(token);
+    if (!role && !token.empty()) {
+        state_.gate.note_wrong_token(peer_of(connection), where, server_time_ms());
+    }
+    return role;
 }
 
 void NetworkThread::remove_connection(lws* connection) {
@@ -194,7 +213,8 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
     }
     switch (reason) {
         case LWS_CALLBACK_ESTABLISHED:
-            viewers_[connection] = std::make_unique<ViewerConnection>(connection, state_);
+            viewers_[connection] =
+                std::make_unique<ViewerConnection>(connection, state_, peer_of(connection));
             return 0;
         case LWS_CALLBACK_CLOSED:
             viewers_.erase(connection);
@@ -264,8 +284,8 @@ bool NetworkThread::confirm_upgrade(lws* connection) {
         return true;
     }
     ++state_.counters.connections_refused;
-    spdlog::warn("refused a WebSocket connection to {} from origin {}: {}", request.path,
-                 request.origin, refusal->status);
+    spdlog::warn("refused a WebSocket connection of {} to {} from origin {}: {}",
+                 peer_of(connection), request.path, request.origin, refusal->status);
     write_refusal(connection, *refusal);
     return false;
 }
@@ -284,8 +304,7 @@ int NetworkThread::on_http_request(lws* connection) {
     content.accept_encoding = request_header(connection, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
     content.if_none_match = request_header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);
     if (path == "/metrics") {
-        content.metrics_allowed =
-            state_.gate.opens_metrics(request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
+        content.metrics_allowed = role_of(connection, path).has_value();
     }
     if (path == "/metrics" && content.metrics_allowed) {
         content.metrics = state_.metrics();
@@ -305,8 +324,7 @@ int NetworkThread::answer(lws* connection, HttpResponse response) {
 int NetworkThread::on_upload(lws* connection, const std::string& path) {
     const UploadRequest request{
         path, request_header(connection, WSI_TOKEN_ORIGIN),
-        request_header(connection, WSI_TOKEN_HOST),
-        state_.gate.role_of(request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION)),
+        request_header(connection, WSI_TOKEN_HOST), role_of(connection, path),
         parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
     auto refusal = uploads_.begin(connection, request);
     return refusal ? answer(connection, std::move(*refusal)) : 0;

@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "embedded_file.h"
@@ -58,6 +60,8 @@ class NetworkThread {
     [[nodiscard]] bool accepts(int socket);
     void add_connection(lws* connection);
     void remove_connection(lws* connection);
+    [[nodiscard]] std::string peer_of(lws* connection) const;
+    std::optional<v1::Role> role_of(lws* connection, std::string_view where);
     bool confirm_upgrade(lws* connection);
     int on_http_request(lws* connection);
     int on_http_event(lws* connection, int reason, void* in, std::size_t size);

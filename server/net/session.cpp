@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/session.h"
 
+#include <spdlog/spdlog.h>
+
 #include <optional>
 #include <utility>
 
@@ -22,7 +24,7 @@ std::string body_name(const v1::ClientMessage& message) {
 
 void Session::on_fragment(std::string_view bytes, bool first, bool last, bool binary,
                           double now_ms) {
-    if (link_.closing()) {
+    if (link_.closing() || held_) {
         return;
     }
     if (first) {
@@ -60,7 +62,7 @@ void Session::on_fragment(std::string_view bytes, bool first, bool last, bool bi
 void Session::on_message(v1::ClientMessage message, double now_ms) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     if (message.has_hello()) {
-        on_hello(std::move(message));
+        on_hello(std::move(message), now_ms);
     } else if (!pass_) {
         refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
     } else if (const v1::Role needed = required_role(message.body_case()); pass_->role < needed) {
@@ -83,7 +85,7 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         }
         answer.mutable_pong()->set_server_time_ms(server_time_ms());
         link_.send(answer);
-    } else if (!inbox_.push(link_.viewer(), std::move(message))) {
+    } else if (!inbox_.push(link_.viewer(), std::move(message), pass_->role)) {
         refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
     }
 }
@@ -108,7 +110,7 @@ bool Session::speaks_our_version(const v1::ClientMessage& message) {
     return true;
 }
 
-void Session::on_hello(v1::ClientMessage message) {
+void Session::on_hello(v1::ClientMessage message, double now_ms) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     if (pass_) {
         refuse({v1::Error::INVALID_ARGUMENT, "hello: has been said already", id});
@@ -120,18 +122,48 @@ void Session::on_hello(v1::ClientMessage message) {
     auto answer = gate_.enter(message.hello());
     if (auto* denial = std::get_if<Denial>(&answer)) {
         denial->refusal.id = id;
-        const bool enough = ++wrong_tokens_ >= kMaxWrongTokens;
-        if (denial->close || enough) {
-            refuse_and_close(denial->refusal, denial->close.value_or(CloseCode::policy_violation));
-        } else {
-            refuse(denial->refusal);
-        }
+        const bool wrong = denial->refusal.code == v1::Error::UNAUTHENTICATED;
+        on_denied(*denial, wrong && !message.hello().token().empty(), now_ms);
         return;
     }
     pass_ = std::get<Pass>(answer);
     reading_ = reading_of(message.hello());
+    spdlog::info("viewer {} from {} is '{}', {}{}", link_.viewer(), peer_, message.hello().name(),
+                 v1::Role_Name(pass_->role),
+                 pass_->token_name.empty() ? "" : " by the token '" + pass_->token_name + "'");
     message.mutable_hello()->clear_token();  // nobody behind the gate needs it
     inbox_.joined(link_.viewer(), std::move(message), pass_->role);
+}
+
+/// The answer to a wrong token waits the longer the more there were.
+void Session::on_denied(const Denial& denial, bool wrong_token, double now_ms) {
+    held_ = Held{denial, now_ms};
+    if (++wrong_tokens_ >= kMaxWrongTokens && !denial.close) {
+        held_->denial.close = CloseCode::policy_violation;
+    }
+    const double delay = wrong_token ? gate_.note_wrong_token(peer_, "hello", now_ms) : 0.0;
+    if (delay > 0.0) {
+        held_->until_ms = now_ms + delay;
+    } else {
+        release_held();
+    }
+}
+
+std::optional<double> Session::held_until() const {
+    return held_ ? std::optional(held_->until_ms) : std::nullopt;
+}
+
+void Session::release_held() {
+    if (!held_) {
+        return;
+    }
+    const Denial denial = std::move(held_->denial);
+    held_.reset();
+    if (denial.close) {
+        refuse_and_close(denial.refusal, *denial.close);
+    } else {
+        refuse(denial.refusal);
+    }
 }
 
 void Session::check_pass() {
