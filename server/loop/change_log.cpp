@@ -25,14 +25,19 @@ void ChangeLog::resume() {
 void ChangeLog::open() {
     try {
         journal_.emplace(settings_);
+        working_ = true;
+        problem_.clear();
         if (journal_->set_aside()) {
             spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
                           *journal_->set_aside());
         }
     } catch (const JournalError& error) {
         working_ = false;
-        spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
-                      error.what());
+        if (problem_ != error.what()) {  // each change tries again
+            problem_ = error.what();
+            spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
+                          problem_);
+        }
     }
 }
 
@@ -42,6 +47,7 @@ void ChangeLog::open_again() {
     if (journal_ && journal_->epoch() != epoch_) {
         spdlog::error("the journal can be used again, but has changes that are not shown: restart");
         journal_.reset();
+        working_ = false;
     }
 }
 

@@ -64,6 +64,7 @@ class ChangeLog {
     void restore_history(const Scene& scene);
 
     JournalSettings settings_;
+    std::string problem_;  ///< why the journal cannot be used, as last logged
     bool required_ = false;
     std::atomic<bool> working_{true};
     std::optional<SessionJournal> journal_;

@@ -16,8 +16,11 @@ WrongTokens::Answer WrongTokens::note(const std::string& peer, double now_ms) {
     Answer answer;
     answer.of_this_peer = known.count;
     answer.worth_a_line = std::has_single_bit(known.count);
-    for (std::uint64_t i = 1; i < known.count && answer.delay_ms < last_delay_ms; ++i) {
+    for (std::uint64_t i = free_tries; i < known.count && answer.delay_ms < last_delay_ms; ++i) {
         answer.delay_ms = std::clamp(2.0 * answer.delay_ms, first_delay_ms, last_delay_ms);
+    }
+    if (peers_.size() > max_peers) {
+        forget_oldest();
     }
     return answer;
 }
@@ -26,11 +29,12 @@ void WrongTokens::forget_old(double now_ms) {
     std::erase_if(peers_, [now_ms](const auto& entry) {
         return now_ms - entry.second.last_ms > forgotten_ms;
     });
-    if (peers_.size() >= max_peers) {
-        peers_.erase(std::min_element(
-            peers_.begin(), peers_.end(),
-            [](const auto& a, const auto& b) { return a.second.last_ms < b.second.last_ms; }));
-    }
+}
+
+void WrongTokens::forget_oldest() {
+    peers_.erase(std::min_element(peers_.begin(), peers_.end(), [](const auto& a, const auto& b) {
+        return a.second.last_ms < b.second.last_ms;
+    }));
 }
 
 std::uint64_t WrongTokens::total() const {

@@ -12,13 +12,15 @@ namespace raybundle {
 /// up: whoever shares an address with a guesser gets in. Any thread; no clock of its own.
 class WrongTokens {
   public:
+    /// Answered at once: who mistypes may correct himself as often as one connection lets him.
+    static constexpr std::uint64_t free_tries = 3;
     static constexpr double first_delay_ms = 250.0;
     static constexpr double last_delay_ms = 4000.0;  ///< below the time for hello
     static constexpr double forgotten_ms = 60000.0;  ///< after the last wrong token
     static constexpr std::size_t max_peers = 4096;   ///< remembered; the oldest is forgotten
 
     struct Answer {
-        double delay_ms = 0.0;           ///< 0 at the first wrong token, then doubling
+        double delay_ms = 0.0;           ///< 0 for the free tries, then doubling
         bool worth_a_line = true;        ///< of the log: the 1st, 2nd, 4th, 8th ... of a peer
         std::uint64_t of_this_peer = 1;  ///< so far
     };
@@ -34,6 +36,7 @@ class WrongTokens {
     };
 
     void forget_old(double now_ms);
+    void forget_oldest();
 
     mutable std::mutex mutex_;
     std::map<std::string, Peer> peers_;

@@ -32,7 +32,13 @@ constexpr const char* item_arrays[] = {
     "meshes",    "nodes",      "samplers", "scenes",      "skins",   "textures",
 };
 
-/// Nodes, primitives and so on, before tinygltf makes objects of them.
+/// Entries of an array; 0 where it is none, which check_schema() complains about.
+std::size_t entries(const Json& object, const char* name) {
+    const Json* array = object.is_object() ? find_member(object, name) : nullptr;
+    return array != nullptr && array->is_array() ? array->size() : 0;
+}
+
+/// Nodes, primitives and so on, before anybody walks over them or tinygltf makes objects of them.
 void check_item_count(const std::string& path, const Json& json) {
     std::size_t items = 0;
     const auto count = [&](std::size_t more, const std::string& json_path) {
@@ -45,19 +51,17 @@ void check_item_count(const std::string& path, const Json& json) {
         }
     };
     for (const char* name : item_arrays) {
-        count(array_or_empty(json, name).size(), name);
+        count(entries(json, name), name);
     }
-    std::size_t index = 0;
-    for (const Json& mesh : array_or_empty(json, "meshes")) {
-        count(array_or_empty(mesh, "primitives").size(),
-              item_path("meshes", index++) + ".primitives");
+    for (std::size_t i = 0; i < entries(json, "meshes"); ++i) {
+        count(entries(json["meshes"][i], "primitives"), item_path("meshes", i) + ".primitives");
     }
 }
 
 /// Moves what the model is made from out of the JSON.
 tinygltf::Model read_checked_model(const std::string& path, Json& json, Daylight& daylight) {
-    check_schema(path, json);
     check_item_count(path, json);
+    check_schema(path, json);
     daylight = read_daylight(path, json);
     check_max_phong(path, json);
     // Before any buffer is read: an unreadable extension is the better message than its symptoms.

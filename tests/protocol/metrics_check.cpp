@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <regex>
 #include <set>
@@ -111,7 +112,8 @@ class Checker {
         const auto [rest, error] =
             std::from_chars(value.data(), value.data() + value.size(), number);
         const bool named = value == "NaN" || value == "+Inf" || value == "-Inf";
-        if (!named && (error != std::errc() || rest != value.data() + value.size())) {
+        if (!named && (!std::isfinite(number) || error != std::errc() ||
+                       rest != value.data() + value.size())) {
             complain(line, "has no number");
         }
     }

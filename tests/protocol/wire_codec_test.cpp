@@ -120,7 +120,7 @@ TEST(WireCodec, ErrorsDoNotShowTheParser) {
           R"({"setTarget":{"seconds":1,"relativeError":1}})", R"({"setLight":"x"})",
           R"({"setLight":{"light":1,"intensity":"1,5"}})"}) {
         const std::string said = refused(parse_text_message(text)).text;
-        for (const char* word : {"proto", "oneof", "TYPE_", "INVALID_ARGUMENT", "value:"}) {
+        for (const char* word : {"proto", "oneof", "TYPE_", "INVALID_ARGUMENT", "google"}) {
             EXPECT_EQ(said.find(word), std::string::npos) << text << ": " << said;
         }
     }
