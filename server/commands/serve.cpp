@@ -12,6 +12,7 @@
 
 #include "commands/command.h"
 #include "commands/effect_bench.h"
+#include "commands/metrics_source.h"
 #include "commands/preparation.h"
 #include "commands/scene_opener.h"
 #include "commands/scene_watch.h"
@@ -55,23 +56,6 @@ ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
     return ChangeLog(settings);
 }
 
-/// Lets the server ask a loop for its metrics while both exist.
-class MetricsSource {
-  public:
-    MetricsSource(Server& server, const RenderLoop& loop) : server_(server), loop_(loop) { use(); }
-    /// Answers from now on.
-    void use() {
-        server_.set_metrics_source([this] { return loop_.metrics(); });
-    }
-    ~MetricsSource() { server_.set_metrics_source({}); }
-    MetricsSource(const MetricsSource&) = delete;
-    MetricsSource& operator=(const MetricsSource&) = delete;
-
-  private:
-    Server& server_;
-    const RenderLoop& loop_;
-};
-
 /// Why a loop ends: `leave` is set last.
 struct Control {
     explicit Control(Server& server) : preparation(server) {}
@@ -109,7 +93,7 @@ struct ServedScene {
         : log(open_change_log(options, loaded)),
           loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
                std::move(loaded.mesh), settings, server, log),
-          metrics(server, loop) {}
+          metrics(server, loop, log) {}
 
     ChangeLog log;
     RenderLoop loop;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "gpu/egl_context.h"
 #include "loop/picture_refusal.h"
+#include "loop/snapshot_quota.h"
 #include "stream/elapsed.h"
 #include "stream/image_encoder.h"
 #include "view/image_file.h"
@@ -40,15 +42,21 @@ SnapshotDesk::SnapshotDesk(Server& server, MakeEarlier make_earlier)
 SnapshotDesk::~SnapshotDesk() = default;
 
 void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const PictureLook& look) {
-    if (requests_.size() >= max_waiting) {
-        server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED,
-                            "too many snapshots wait already");
+    std::vector<WaitingSnapshot> waiting;
+    for (const Request& other : requests_) {
+        waiting.push_back({other.event.viewer, other.event.role});
+    }
+    const WaitingSnapshot next{request.viewer, request.role};
+    if (const auto refusal = refuse_snapshot(waiting, next)) {
+        server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED, *refusal);
         return;
     }
-    requests_.push_back({request, camera, look});
+    Request added{request, camera, look};
     if (!request.message.snapshot().has_epoch()) {
-        requests_.back().look = {DisplayMode::photo, look.exposure, {}};
+        added.look = {DisplayMode::photo, look.exposure, {}};
     }
+    const auto place = static_cast<std::ptrdiff_t>(place_of_snapshot(waiting, next));
+    requests_.insert(requests_.begin() + place, std::move(added));
 }
 
 const ViewerImage* SnapshotDesk::picture_of(ViewerId viewer) const {

@@ -35,7 +35,7 @@ class Inbox {
     void set_on_joined(std::function<void(ViewerId)> call) { on_joined_ = std::move(call); }
 
     /// False where the viewer has too many requests waiting; the message is not taken then.
-    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message);
+    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message, v1::Role role = v1::EDITOR);
 
     /// Forgets what waits of this viewer; if the render thread has not heard of it yet, it never
     /// will.

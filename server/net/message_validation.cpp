@@ -163,6 +163,9 @@ void check_body(const v1::SetTarget& target, Checker& check) {
 }
 
 void check_body(const v1::SetDisplay& display, Checker& check) {
+    check.require(display.ByteSizeLong() > 0, "setDisplay",
+                  "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines or "
+                  "scaleUnit");
     if (display.has_mode()) {
         check.require(v1::SetDisplay::Mode_IsValid(display.mode()) &&
                           display.mode() != v1::SetDisplay::MODE_UNSPECIFIED,
@@ -200,6 +203,8 @@ void check_body(const v1::MoveObject& move, Checker& check) {
 
 void check_body(const v1::SetLight& light, Checker& check) {
     check.require(light.light() >= 1, "setLight.light", "is missing");
+    check.require(light.has_intensity() || light.has_on() || light.has_colour(), "setLight",
+                  "changes nothing: needs intensity, on or colour");
     check.require(light.intensity() >= 0.0F, "setLight.intensity", "must not be negative");
     if (light.has_colour()) {
         check.colour(light.colour(), static_cast<float>(kMaxNumber), "setLight.colour",
@@ -211,6 +216,8 @@ void check_body(const v1::SetLight& light, Checker& check) {
 
 void check_body(const v1::SetMaterial& material, Checker& check) {
     check.require(material.material() >= 1, "setMaterial.material", "is missing");
+    check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
+                  "setMaterial", "changes nothing: needs baseColour, roughness or metallic");
     check.colour(material.base_colour(), 1.0F, "setMaterial.baseColour", "must be 0..1");
     check.share(material.roughness(), "setMaterial.roughness");
     check.share(material.metallic(), "setMaterial.metallic");

@@ -20,6 +20,11 @@ struct DecodedImage {
 /// name get their JSON path. Throws SceneError if the bytes do not exist.
 std::vector<tinygltf::Image> read_images(const std::string& file, const Json& json);
 
+/// Adds up what the images of all materials take once decoded, by their headers, so that nothing is
+/// decoded of a file that goes beyond the limit. Throws SceneError. Left out: images in files of
+/// their own, which decode_image() counts.
+void check_image_sizes(const GltfDocument& document);
+
 /// Decodes an entry of "images": PNG, JPEG or WebP, by content. Throws SceneError; KTX2 is refused
 /// by the name of its extension.
 DecodedImage decode_image(const GltfDocument& document, int image);

@@ -18,8 +18,6 @@
 namespace raybundle {
 namespace {
 
-constexpr std::size_t max_texture_bytes = 2ULL << 30U;
-
 const tinygltf::Value* specular_glossiness(const tinygltf::Material& material) {
     return find_extension(material.extensions, "KHR_materials_pbrSpecularGlossiness");
 }
@@ -281,11 +279,6 @@ class MaterialReader {
 
     void add_texture(int image, bool repeat_u, bool repeat_v) {
         DecodedImage decoded = decode_image(document_, image);
-        if (decoded.rgba.size() > max_texture_bytes - texture_bytes_) {
-            document_.fail(item_path("images", image),
-                           fmt::format("decoded images exceed {} bytes", max_texture_bytes));
-        }
-        texture_bytes_ += decoded.rgba.size();
         scene_.textures.push_back({item(document_.model().images, image).name, decoded.width,
                                    decoded.height, repeat_u, repeat_v, std::move(decoded.rgba)});
     }
@@ -293,12 +286,12 @@ class MaterialReader {
     GltfDocument& document_;
     Scene& scene_;
     std::map<std::tuple<int, bool, bool>, int> known_;
-    std::size_t texture_bytes_ = 0;
 };
 
 }  // namespace
 
 std::uint32_t read_materials(GltfDocument& document, Scene& scene) {
+    check_image_sizes(document);
     MaterialReader reader(document, scene);
     for (std::size_t i = 0; i < document.model().materials.size(); ++i) {
         reader.read(i);
