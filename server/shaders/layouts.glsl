@@ -317,7 +317,7 @@ struct PixelSurface {
     uint facet;        // also of black backs; and flags, PIXEL_...
 };
 
-#define PIXEL_EMITTER 0x80000000u
+#define PIXEL_EMITTER 0x80000000u  // or, of a PIXEL_CONTINUED, shows one or the sky
 #define PIXEL_SKY 0x40000000u
 #define PIXEL_BACK 0x20000000u  // the facet's back is seen
 #define PIXEL_GLOSSY 0x10000000u
