@@ -67,6 +67,21 @@ TEST(VarianceOfMean, BeginsAsOfIndependentSamplesAndFallsWithTheSequence) {
 
 /// So many times more samples bring the noise, which falls with their power, to where the interval
 /// ends at the target.
+/// By chance the iterate is a few times the noise ahead, the more samples the more.
+TEST(LagOfMean, IsNothingByChanceAndNearlyAllThatIsFarBeyond) {
+    for (const SampleOrder order : {SampleOrder::low_discrepancy, SampleOrder::shuffled}) {
+        for (const bool sky : {false, true}) {
+            EXPECT_EQ(lag_of_mean(0.0, 0.0, 0, order, sky), 0.0);
+            EXPECT_EQ(lag_of_mean(0.01, 0.01, 1000, order, sky), 0.0);
+            EXPECT_EQ(lag_of_mean(-0.01, 0.01, 1000, order, sky), 0.0);
+            EXPECT_NEAR(lag_of_mean(0.4, 0.01, 1000, order, sky), 0.4, 0.02);
+            EXPECT_NEAR(lag_of_mean(-0.4, 0.01, 1000, order, sky), 0.4, 0.02);
+        }
+    }
+    EXPECT_EQ(lag_of_mean(0.09, 0.02, 1024, SampleOrder::low_discrepancy, false), 0.0);
+    EXPECT_GT(lag_of_mean(0.11, 0.02, 1024, SampleOrder::low_discrepancy, false), 0.0);
+}
+
 TEST(SamplesFactor, LeadsToTheTarget) {
     constexpr double noise = 0.2;
     constexpr double rest = 0.005;
