@@ -16,9 +16,25 @@ layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 it
 uniform float logarithm_floor;   // radiance units
 uniform float unsampled_error;   // relative error to assume where nothing is known yet
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
+uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
 uniform float fresh_share;       // samples with less than this share of the weight say nothing
 
 vec2 drift = vec2(0.0);  // of this invocation's probes
+
+/// By how much the iterate of a patch's irradiance is ahead of its mean, as luminance of what is sent of it.
+float ahead(uint id, vec3 sent_share) {
+    return luminance(sent_share * (iterate[id].rgb - mean_irradiance[id].rgb)) * inverse_pi;
+}
+
+/// The same of what comes through from the other side, which is known per patch and has no samples of its own.
+float ahead_behind(uint id) {
+#ifdef TRANSMISSION
+    vec4 through = transmittance[id];
+    return through.rgb == vec3(0.0) ? 0.0 : ahead(floatBitsToUint(through.w), through.rgb);
+#else
+    return 0.0;
+#endif
+}
 
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
@@ -45,7 +61,8 @@ vec4 probe_statistics(uint probe) {
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
     float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
-    drift += vec2(reflectance * luminance(iterate[p.patch_id].rgb - mean_irradiance[p.patch_id].rgb), l);
+    float through = share * ahead_behind(p.patch_id);
+    drift += vec2(share * ahead(p.patch_id, pixel_albedo(p)) + through, l);
     float weight = pixel_weight(texelFetch(pixel_irradiance_texels, int(index)), view.weights.x);
     float own_weight = view.weights.y;
     if (weight <= 0.0 || own_weight <= fresh_share * weight) {
@@ -55,7 +72,8 @@ vec4 probe_statistics(uint probe) {
     float variance = mean_and_variance(probe, own_weight, view.weights.z).y * variance_of_mean;
     // The sums may be younger than the mean that is shown.
     variance *= min(own_weight / weight, 1.0);
-    return vec4(min(variance * reflectance * reflectance, l * l), l * l, logarithm, 1.0);
+    variance = variance * reflectance * reflectance + through * through * variance_of_patches;
+    return vec4(min(variance, l * l), l * l, logarithm, 1.0);
 }
 
 void main() {

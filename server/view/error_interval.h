@@ -35,6 +35,10 @@ double variance_of_mean(std::uint64_t samples, SampleOrder order);
 /// picture. So much counts for nothing.
 double lag_of_mean(double ahead, double noise, std::uint64_t samples, SampleOrder order, bool sky);
 
+/// Variance of the mean of so many samples over that of the iterate, were they independent: 2/(n
+/// s).
+double variance_of_patches(std::uint64_t samples, bool sky);
+
 /// What pixels do not resolve, relative: squared differences, over the picture's squared light,
 /// that smoothing makes at edges and that other pixels have from their four neighbours.
 double discretisation_error(double at_edges, double elsewhere);

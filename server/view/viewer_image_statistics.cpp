@@ -47,6 +47,8 @@ void ViewerImage::request_statistics() {
                              static_cast<float>(std::min(statistics_.noise, 1.0)));
     programs_.statistics.set(
         "variance_of_mean", static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
+    programs_.statistics.set("variance_of_patches", static_cast<float>(variance_of_patches(
+                                                        scatter_samples_, scene_.has_sky())));
     programs_.statistics.set("fresh_share", scatter_samples_ < GROUP_SIZE ? 2.0F : 0.16F);
     programs_.statistics.dispatch(statistics_groups * 64);
     if (ends_ == nullptr &&

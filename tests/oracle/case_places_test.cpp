@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "scene/gltf_loader.h"
 #include "scene/patch_mesh.h"
@@ -101,6 +102,58 @@ TEST(CasesPlaces, CorridorIsUnknownWhileItsLightStillRises) {
             lit = now;
             high = image.statistics().error_high;
         }
+    }
+}
+
+struct GlobePicture {
+    std::vector<glm::vec4> pixels;
+    double noise = 0.0;  ///< relative, as the picture states it
+};
+
+/// The lower half of the globe and nothing else.
+GlobePicture picture_of_globe(std::uint64_t seed) {
+    Scene scene = load_gltf(places + "globe_frosted.gltf");
+    TessellationSettings tessellation;
+    tessellation.patch_size = 0.15F;
+    const PatchMesh mesh = tessellate(scene, tessellation);
+    SolverSettings settings;
+    settings.seed = seed;
+    settings.coarse = {128, 256};
+    Solver solver(scene, mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, {32, 24});
+    Camera camera;
+    camera.eye = {2.0F, 1.0F, 1.9F};
+    camera.target = {2.0F, 2.3F, 2.0F};
+    camera.vertical_fov = 0.2F;
+    image.set_camera(camera);
+    image.rest();
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 256; ++i) {
+        solver.step(receivers);
+    }
+    image.request_statistics();
+    image.finish_statistics();
+    return {image.read_radiance(), image.statistics().noise};
+}
+
+/// What comes through frosted glass is known per patch: a pixel has no samples of it that scatter.
+TEST(CasesPlaces, FrostedGlobeKnowsTheNoiseOfWhatComesThrough) {
+    const GlobePicture one = picture_of_globe(1);
+    const GlobePicture other = picture_of_globe(2);
+    double differences = 0.0;
+    double light = 0.0;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+        const auto a = static_cast<double>(one.pixels[i].g);
+        const auto b = static_cast<double>(other.pixels[i].g);
+        differences += 0.5 * (a - b) * (a - b);
+        light += 0.5 * (a * a + b * b);
+    }
+    const double noise = std::sqrt(differences / light);
+    // Two pictures say it to within a factor of 2, since all that comes through has one level.
+    for (const GlobePicture* picture : {&one, &other}) {
+        EXPECT_GT(picture->noise, 0.25 * noise);  // 0.01 of it without what comes through
+        EXPECT_LT(picture->noise, 4.0 * noise);
     }
 }
 
