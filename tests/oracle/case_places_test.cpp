@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places of tests/cases whose light is known: small, thin and touching things, mirrors' edges.
+// Places of tests/cases: a furnace of small, thin and touching things, a corridor, a frosted globe.
 #include <gtest/gtest.h>
 
 #include <algorithm>
