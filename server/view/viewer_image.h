@@ -178,7 +178,7 @@ class ViewerImage : public BundleReceiver {
     void shade_continued(const Buffer& radiance);
     /// The sums of view_statistics.comp and view_detail.comp as last requested; waits for them.
     struct StatisticsSums {
-        glm::dvec4 light{0.0}, detail{0.0};
+        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0};
     };
     StatisticsSums statistics_sums();
 
@@ -231,7 +231,7 @@ class ViewerImage : public BundleReceiver {
     void refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size);
     void begin_change();
     void interpolate_vertices();
-    void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
+    void evaluate(const StatisticsSums& sums);
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] float near_distance() const { return near_share * scene_.diameter(); }

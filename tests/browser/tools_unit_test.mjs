@@ -9,7 +9,8 @@ import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
 import {effectCost, pathInWords} from '../../client_web/effects.js';
 import {
-    carriedGrid, csvCell, gridCsv, gridOn, mainFace, measuredAgain, pointsOf, spreadOver, standardStep, summaryOf,
+    carriedGrid, csvCell, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, standardStep,
+    summaryOf,
     typicalError,
 } from '../../client_web/grid.js';
 import {stateOf} from '../../client_web/grid_panel.js';
@@ -192,6 +193,20 @@ describe('a measuring grid', () => {
         const summary = summaryOf([100, -1, 300, 200]);
         assert.deepEqual(summary, {measured: 3, minimum: 100, mean: 200, maximum: 300, uniformity: 0.5});
         assert.equal(summaryOf([-1, -1]), null);
+    });
+
+    it('says how well mean and uniformity are known', () => {
+        const {meanError, mean, uniformity} = intervalsOf([100, -1, 300, 200], [0.01, -1, 0.01, 0.01]);
+        close(meanError, 0.01, 1e-12);
+        close(mean.low, 200 * (1 - 0.0196), 1e-9);
+        close(mean.high, 200 * (1 + 0.0196), 1e-9);
+        close(uniformity.high, 0.5 * (1 + 0.0196), 1e-9);
+        assert.ok(uniformity.low < 0.5 * (1 - 0.0196) && uniformity.low > 0.48);
+        const many = intervalsOf(Array(100).fill(200), Array(100).fill(0.01));
+        assert.ok(many.uniformity.low < 0.97 && many.uniformity.high === 1);
+        assert.equal(intervalsOf([100, 200], [0.01, -1]), null, 'not known');
+        assert.equal(intervalsOf([0, -1], [-1, -1]), null, 'dark');
+        assert.deepEqual(intervalsOf([0, 200], [-1, 0.01]).uniformity, {low: 0, high: 0}, 'what is black is known');
     });
 
     it('becomes a table', () => {
