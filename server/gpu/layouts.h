@@ -24,7 +24,7 @@ static_assert(sizeof(RadianceSlope) == 16 && sizeof(VertexLight) == 32);
 static_assert(sizeof(Shooter) == 128 && offsetof(Shooter, normal) == 16);
 static_assert(sizeof(Counters) == 48);
 static_assert(sizeof(FacetGeometry) == 64 && offsetof(FacetGeometry, root_code) == 48);
-static_assert(sizeof(FluxSums) == 80 && sizeof(Balance) == 96);
+static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 64);
 static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_patch) == 16);
 static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);

@@ -36,8 +36,6 @@ void main() {
         float kept = min(1.0, remembered_samples / max(balance.outgoing.w, 1e-6));
         balance.escaped *= kept;
         balance.outgoing *= kept;
-        balance.unlit_escaped *= kept;
-        balance.unlit_outgoing *= kept;
     }
     if (i >= patch_count) {
         return;

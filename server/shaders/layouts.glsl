@@ -203,7 +203,7 @@ struct Shooter {
     vec3 position_before;  // the same point at place 1
     float density_before;
     vec3 normal_before;
-    uint unlit;      // 1: it receives next to nothing, unlit.glsl
+    uint pad0;
     vec4 weights;    // barycentric, of the point in the patch
 };
 
@@ -223,8 +223,6 @@ struct FluxSums {
     vec4 incident;   // sum of A x: what the iterate says the patches receive
     vec4 reflected;  // sum of A albedo x
     vec4 emitted;    // sum of A pi L_e; w: of A
-    vec4 unlit_reflected;  // shares of unlit patches (unlit.glsl) in the two sums above
-    vec4 unlit_emitted;
 };
 
 // Global energy balance, see solution_balance.comp.
@@ -232,10 +230,7 @@ struct Balance {
     vec4 scale;      // last factor applied to the iterate
     vec4 escaped;    // weighted sum of estimates of the flux that no patch receives
     vec4 outgoing;   // weighted sum of the flux that was sent, w = weight
-    vec4 unlit_escaped;   // shares of shooters that are unlit in the two sums above
-    vec4 unlit_outgoing;
-    vec4 constant;   // rgb: constant radiance term (ch. 5.5) of the running iterations, 0 where it is off;
-                     // w: irradiance below which a patch is unlit, radiance units
+    vec4 constant;   // rgb: constant radiance term (ch. 5.5) of the running iterations, 0 where it is off
 };
 
 struct VertexData {

@@ -4,42 +4,20 @@
 layout(local_size_x = 1) in;
 layout(std430, binding = BINDING_FLUX) buffer FluxBuffer { FluxSums flux[]; };
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
-layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
-#include "luminance.glsl"
-#include "unlit.glsl"
 uniform uint block_count;
 uniform bool balanced;  // a sky sends flux of its own: no balance
 uniform bool constant_radiance;
 uniform bool shoots_only;  // nothing but perspective bundles: no line that meets nothing is ever looked at
 
-/// Share of what was shot that reached a patch, or the share that is assumed where nothing was shot.
-vec3 measured_share(vec3 escaped, vec3 sent, vec3 assumed) {
-    vec3 k = assumed;
+/// Share of outgoing flux that reaches a patch: of what was shot, not of what there is to shoot, since few shots
+/// are far from that.
+vec3 arriving_share() {
+    vec3 sent = balance.outgoing.rgb;
+    vec3 k = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
-        if (sent[c] > 0.0) {
-            k[c] = clamp(1.0 - escaped[c] / sent[c], 0.0, 1.0);
-        }
+        k[c] = sent[c] > 0.0 ? clamp(1.0 - balance.escaped[c] / sent[c], 0.0, 1.0) : 1.0;
     }
     return k;
-}
-
-/// Shares of outgoing flux that reach a patch, measured by shots of lit and of unlit patches: of what was
-/// shot, not of what there is to shoot, since few shots are far from that.
-struct ArrivingShares {
-    vec3 of_lit, of_unlit;
-};
-
-ArrivingShares arriving_shares() {
-    ArrivingShares k;
-    k.of_lit = measured_share(balance.escaped.rgb - balance.unlit_escaped.rgb,
-                              balance.outgoing.rgb - balance.unlit_outgoing.rgb, vec3(1.0));
-    k.of_unlit = measured_share(balance.unlit_escaped.rgb, balance.unlit_outgoing.rgb, k.of_lit);
-    return k;
-}
-
-/// What of a flux of lit and unlit patches arrives; all: of both, unlit: of the unlit ones.
-vec3 arriving(ArrivingShares k, vec4 all, vec4 unlit) {
-    return k.of_lit * (all.rgb - unlit.rgb) + k.of_unlit * unlit.rgb;
 }
 
 /// One-aggregate correction (as in iterative aggregation-disaggregation): the slowest mode of the
@@ -50,16 +28,13 @@ vec3 arriving(ArrivingShares k, vec4 all, vec4 unlit) {
 /// iteration forgets its start by itself, while what is known of k is mostly noise: the whole level would
 /// follow that.
 vec3 balanced_scale(FluxSums total) {
-    ArrivingShares shares = arriving_shares();
-    vec3 emitted = arriving(shares, total.emitted, total.unlit_emitted);
-    vec3 reflected = arriving(shares, total.reflected, total.unlit_reflected);
+    vec3 k = arriving_share();
     vec3 scale = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
-        float missing = total.incident[c] - reflected[c];
+        float missing = total.incident[c] - k[c] * total.reflected[c];
         if (missing > 0.0 && total.emitted[c] > 0.0 && balance.outgoing[c] > 0.0) {
-            float exact = clamp(emitted[c] / missing, 0.02, 50.0);
-            float k = (emitted[c] + reflected[c]) / (total.emitted[c] + total.reflected[c]);
-            scale[c] = pow(exact, smoothstep(0.3, 0.6, k));
+            float exact = clamp(k[c] * total.emitted[c] / missing, 0.02, 50.0);
+            scale[c] = pow(exact, smoothstep(0.3, 0.6, k[c]));
         }
     }
     return scale;
@@ -69,13 +44,11 @@ void main() {
     if (gl_GlobalInvocationID.x != 0u) {
         return;
     }
-    FluxSums total = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    FluxSums total = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0));
     for (uint b = 0u; b < block_count; ++b) {
         total.incident += flux[b].incident;
         total.reflected += flux[b].reflected;
         total.emitted += flux[b].emitted;
-        total.unlit_reflected += flux[b].unlit_reflected;
-        total.unlit_emitted += flux[b].unlit_emitted;
     }
     // From here on the sums are those of the scaled iterate.
     bool estimated = balanced && balance.outgoing.w > 0.0;
@@ -87,7 +60,6 @@ void main() {
     // from any constant.
     bool usable = constant_radiance &&
                   (!shoots_only || all(lessThanEqual(balance.escaped.rgb, 1e-4 * balance.outgoing.rgb)));
-    float area = max(total.emitted.w, 1e-30);
-    vec3 mean = arriving(arriving_shares(), total.reflected, total.unlit_reflected) / (3.14159265359 * area);
-    balance.constant = vec4(usable ? mean : vec3(0.0), unlit_share * luminance(total.incident.rgb) / area);
+    vec3 mean = arriving_share() * total.reflected.rgb / (3.14159265359 * max(total.emitted.w, 1e-30));
+    balance.constant = vec4(usable ? mean : vec3(0.0), 0.0);
 }

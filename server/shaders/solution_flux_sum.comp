@@ -8,9 +8,6 @@ layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { Patch
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
-layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
-#include "luminance.glsl"
-#include "unlit.glsl"
 #ifdef TRANSMISSION
 #include "transmission.glsl"
 #endif
@@ -38,9 +35,6 @@ FluxSums patch_flux(uint i) {
     }
 #endif
     f.emitted = area * vec4(pi * patch_source(i), 1.0);
-    bool unlit = is_unlit(i);
-    f.unlit_reflected = unlit ? f.reflected : vec4(0.0);
-    f.unlit_emitted = unlit ? f.emitted : vec4(0.0);
     return f;
 }
 
@@ -50,7 +44,7 @@ void main() {
     if (i < patch_count) {
         fluxes[lane] = patch_flux(i);
     } else {
-        fluxes[lane] = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+        fluxes[lane] = FluxSums(vec4(0.0), vec4(0.0), vec4(0.0));
     }
     for (uint stride = POWER_BLOCK / 2; stride > 0u; stride /= 2u) {
         barrier();
@@ -58,8 +52,6 @@ void main() {
             fluxes[lane].incident += fluxes[lane + stride].incident;
             fluxes[lane].reflected += fluxes[lane + stride].reflected;
             fluxes[lane].emitted += fluxes[lane + stride].emitted;
-            fluxes[lane].unlit_reflected += fluxes[lane + stride].unlit_reflected;
-            fluxes[lane].unlit_emitted += fluxes[lane + stride].unlit_emitted;
         }
     }
     if (lane == 0u && i < patch_count) {

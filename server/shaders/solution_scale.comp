@@ -22,8 +22,6 @@ void main() {
     if (i == 0u) {
         balance.escaped.rgb *= factor;
         balance.outgoing.rgb *= factor;
-        balance.unlit_escaped.rgb *= factor;
-        balance.unlit_outgoing.rgb *= factor;
     }
     if (i >= patch_count) {
         return;

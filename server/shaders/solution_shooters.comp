@@ -3,8 +3,6 @@
 #include "layouts.glsl"
 layout(local_size_x = 16) in;
 #include "power.glsl"
-layout(std430, binding = BINDING_SOURCE) readonly buffer SourceBuffer { vec4 source[]; };
-#include "unlit.glsl"
 layout(std430, binding = BINDING_CDF) readonly buffer CdfBuffer { float cdf[]; };
 layout(std430, binding = BINDING_WORLD_POSITIONS) readonly buffer WorldBuffer { vec4 world[]; };
 layout(std430, binding = BINDING_TRIANGLES) readonly buffer TriangleBuffer { uvec4 triangles[]; };
@@ -104,7 +102,7 @@ void main() {
     s.position_before = point_on(v + uint(world.length()) / 2u, weights) + lift * patches[before].normal;
     s.normal_before = patches[before].normal;
     s.density_before = density_at(before, larger, radiance[id].w);
-    s.unlit = is_unlit(id) ? 1u : 0u;
+    s.pad0 = 0u;
     s.weights = vec4(weights, 0.0);
     s.object = patches[id].object;
 #ifdef GLOSSY

@@ -23,7 +23,6 @@ layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 layout(std430, binding = BINDING_BALANCE) buffer BalanceBuffer { Balance balance; };
 uniform uint patch_count;
 uniform float shooter_density;  // p_j / A_j of a perspective bundle
-uniform bool unlit_shooter;  // unlit.glsl
 uniform bool scalar;    // the sums are form factors, to be multiplied by the shooter's radiance
 uniform float weight;   // of this sample in the mean
 uniform float step;     // of the iterate
@@ -52,10 +51,6 @@ void note_escaped_flux() {
     shot = finite_or_none(weight * shot);
     balance.escaped.rgb += share * shot;
     balance.outgoing += vec4(shot, weight);
-    if (unlit_shooter) {
-        balance.unlit_escaped.rgb += share * shot;
-        balance.unlit_outgoing += vec4(shot, weight);
-    }
     counters.escaped = 0;
 }
 

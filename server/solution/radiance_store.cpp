@@ -159,7 +159,6 @@ void RadianceStore::reshoot(float phase_weight) {
 
 void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("shooter_density", bundle.shooter_density);
-    update_.set("unlit_shooter", bundle.unlit_shooter ? 1 : 0);
     update_.set("patch_count", patch_count_);
     update_.set("scalar", bundle.scalar ? 1 : 0);
     update_.set("weight", bundle.weight);

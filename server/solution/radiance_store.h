@@ -30,7 +30,6 @@ struct BundleUpdate {
     float step = 1.0F;    ///< of the iterate
     /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
     float shooter_density = 0.0F;
-    bool unlit_shooter = false;  ///< the shooter is unlit, see shaders/unlit.glsl
     std::uint64_t iteration = 0;
     unsigned scatter = SCATTER_NOT_MEASURED;  ///< which sum of take_scatter() it joins
     glm::vec3 constant_irradiance{0.0F};      ///< that the bundle did not carry, radiance units

@@ -258,7 +258,6 @@ void Solver::run(const Planned& planned, unsigned slot,
                        .weight = settings.context.sample_weight,
                        .step = iterate_step(),
                        .shooter_density = planned.shooter.density,
-                       .unlit_shooter = planned.shooter.unlit != 0,
                        .iteration = iterations_,
                        .scatter = scatter,
                        .constant_irradiance = settings.context.constant_irradiance});
