@@ -30,7 +30,7 @@ namespace raybundle {
 class SnapshotDesk {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr double time_share = 0.18;          ///< of the solver's time while somebody moves
+    static constexpr double time_share = 0.18;  ///< of the solver's time while somebody moves
     static constexpr std::uint64_t least_samples = 32;  ///< before an error is believed
 
     /// Makes the scene as it was after a change; null where that is not known any more.

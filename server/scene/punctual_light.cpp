@@ -33,8 +33,8 @@ glm::vec3 colour_of(const PunctualLight& light) {
 }
 
 PunctualSetting setting_of(const PunctualLight& light) {
-    return light.setting.value_or(PunctualSetting{
-        light.intensity, colour_of(light), true, light.intensity});
+    return light.setting.value_or(
+        PunctualSetting{light.intensity, colour_of(light), true, light.intensity});
 }
 
 float intensity_unit(const PunctualLight& light) {
