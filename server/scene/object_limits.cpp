@@ -18,8 +18,11 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Distance from zero of the farthest corner along any axis, m.
+/// Distance from zero of the farthest corner along any axis, m; of an empty box, of its zero.
 double reach(const Bounds& box, const glm::dmat4& matrix) {
+    if (box.empty()) {
+        return largest(glm::dvec3(matrix[3]));
+    }
     double farthest = 0.0;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const glm::dvec3 point((corner & 1U) != 0 ? box.max.x : box.min.x,
@@ -41,7 +44,8 @@ std::string problem_of(const Scene& scene, std::size_t object, const Transform& 
     const Object& moved = scene.objects[object];
     const double limit = farthest_place(scene);
     const glm::dmat4 place = glm::dmat4(moved.world_from_parent) * glm::dmat4(transform.matrix());
-    const double centre = largest(glm::dvec3(place * glm::dvec4(moved.bounds.centre(), 1.0)));
+    const glm::dvec3 middle(moved.bounds.empty() ? glm::vec3(0.0F) : moved.bounds.centre());
+    const double centre = largest(glm::dvec3(place * glm::dvec4(middle, 1.0)));
     if (!(centre <= limit)) {
         return fmt::format(
             "translation: puts object {} {:.3g} m away from zero; the limit is {:.0f} m", moved.id,
