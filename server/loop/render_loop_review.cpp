@@ -377,7 +377,9 @@ bool RenderLoop::refine_pin(Pin& pin) {
 
 /// Looks at the light of one pin, and tells everybody where it has changed.
 void RenderLoop::check_pin() {
-    if (solver_->correcting() || solver_->statistics().settled < pin_check_settled) {
+    // Where the solver rests, no more light comes.
+    const bool arriving = !nobody_waits() && solver_->statistics().settled < pin_check_settled;
+    if (solver_->correcting() || arriving) {
         return;
     }
     Pin* pin = review_.next_pin();
