@@ -144,6 +144,48 @@ export function summaryOf(illuminance) {
 }
 
 /**
+ * @typedef {object} Interval
+ * @property {number} low
+ * @property {number} high
+ * @typedef {object} GridIntervals
+ * @property {number} meanError  relative standard error of the mean
+ * @property {Interval} mean  lx
+ * @property {Interval} uniformity
+ */
+
+/**
+ * 95 % intervals of what the points of a grid say together. Their errors are taken to be common, so that the
+ * mean is not known better than its points. The smallest of many values that each are off by chance lies
+ * below the smallest true one: the minimum is at least what all points together exceed in 95 % of cases, by
+ * P(Z > z) <= exp(-z^2 / 2) / 2, and at most what the lowest point can have.
+ *
+ * @param {number[]} illuminance  lx; negative: not measured
+ * @param {number[]} relativeError  standard errors; negative: not known
+ * @returns {GridIntervals | null}  null: some point's error is not known, or nothing is lit
+ */
+export function intervalsOf(illuminance, relativeError) {
+    const points = illuminance
+        .map((value, i) => ({value, error: relativeError[i] * value}))
+        .filter(({value}) => value >= 0);
+    const sum = points.reduce((all, {value}) => all + value, 0);
+    if (!(sum > 0) || points.some(({value, error}) => !(error >= 0) && value > 0)) {
+        return null;
+    }
+    const alone = 1.96;
+    const together = Math.max(alone, Math.sqrt(2 * Math.log((0.5 * points.length) / 0.025)));
+    const errors = points.reduce((all, {error}) => all + Math.max(error, 0), 0);
+    const mean = sum / points.length;
+    const half = (alone * errors) / points.length;
+    const least = (/** @type {number} */ deviations) =>
+        Math.max(Math.min(...points.map(({value, error}) => value + deviations * Math.max(error, 0))), 0);
+    return {
+        meanError: errors / sum,
+        mean: {low: Math.max(mean - half, 0), high: mean + half},
+        uniformity: {low: least(-together) / mean, high: Math.min(least(alone) / mean, 1)},
+    };
+}
+
+/**
  * @param {Grid} grid
  * @param {ProbeGridResult} result
  * @returns {string} table with a head, points that were not measured left empty

@@ -5,7 +5,8 @@
 import {onScale, turbo} from './colour.js';
 import {byId, fileName, saveFile, showValue} from './elements.js';
 import {
-    carriedGrid, faceName, gridCsv, gridOn, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf, typicalError,
+    carriedGrid, faceName, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf,
+    typicalError,
 } from './grid.js';
 import {SETTLED} from './readouts.js';
 import {Anchor} from './scene_model.js';
@@ -235,12 +236,16 @@ export class GridPanel {
         this.#state.textContent = this.shown ? stateOf(this.shown) : '';
         if (summary) {
             const {unit} = this.measuring;
-            const error = typicalError(this.shown?.result.relativeError ?? []);
+            const errors = this.shown?.result.relativeError ?? [];
+            const error = typicalError(errors);
+            const intervals = intervalsOf(this.shown?.result.illuminance ?? [], errors);
             const show = (/** @type {number} */ lux) => estimated(inUnit(lux, unit), unit, error);
             showValue('gridMin', show(summary.minimum));
             showValue('gridMean', show(summary.mean));
             showValue('gridMax', show(summary.maximum));
+            showValue('gridMeanInterval', intervals ? plusMinus(intervals.meanError) : NOT_YET);
             showValue('gridUniformity', summary.uniformity.toFixed(2));
+            showValue('gridUniformityInterval', intervals ? between(intervals.uniformity) : NOT_YET);
         }
         this.app.drawOverlay();
     }
@@ -282,6 +287,12 @@ export class GridPanel {
         });
     }
 }
+
+/**
+ * @param {import('./grid.js').Interval} interval
+ * @returns {string} e.g. "0.58 to 0.64"
+ */
+const between = ({low, high}) => `${low.toFixed(2)} to ${high.toFixed(2)}`;
 
 /**
  * How far a grid can be relied on.

@@ -35,6 +35,27 @@ export function dimmerPosition(share) {
     return Math.min(Math.max(position, 0), 1);
 }
 
+/**
+ * What people know a light by, beside the intensity that can be set.
+ *
+ * @param {Light} light
+ * @returns {string} empty where nothing is known
+ */
+export function lightFigures(light) {
+    const share = light.loadedIntensity ? light.intensity / light.loadedIntensity : 1;
+    const parts = [];
+    if (light.flux && light.unit !== 'LM') {
+        parts.push(`${threeDigits(share * light.flux)} lm`);
+    }
+    if (light.peak && light.unit !== 'CD') {
+        parts.push(`at most ${threeDigits(share * light.peak)} cd`);
+    }
+    if (light.watts) {
+        parts.push(`${Number(light.watts.toPrecision(3))} W`);
+    }
+    return parts.join(' · ');
+}
+
 /** @type {(position: number) => number} */
 export const dimmerShare = (position) => DIMMEST * (BRIGHTEST / DIMMEST) ** position;
 
@@ -241,6 +262,8 @@ export class LightPanel {
                 });
             }
         });
+        const figures = document.createElement('p');
+        figures.className = 'figures';
         const tinted = () => ({colour: blackBody(Number(kelvin.value))});
         kelvin.addEventListener('input', () => change.going(tinted()));
         kelvin.addEventListener('change', () => change.done(tinted()));
@@ -254,6 +277,8 @@ export class LightPanel {
             fields.dimmer.show(String(dimmerPosition(light.intensity / loaded())));
             dimmer.setAttribute('aria-valuetext', `${threeDigits(light.intensity)} ${unit}`);
             fields.value.show(shown());
+            figures.textContent = lightFigures(light);
+            figures.hidden = figures.textContent === '';
             const temperature = temperatureOf(light.colour);
             fields.kelvin.show(String(temperature));
             kelvinText.textContent = `${temperature} K`;
@@ -268,7 +293,8 @@ export class LightPanel {
         lit.append(on);
         head.append(title, lit);
         const card = document.createElement('li');
-        card.append(head, field('Dimmer', dimmer, value, unitText), note, field('Colour', kelvin, kelvinText), reset);
+        const dimming = field('Dimmer', dimmer, value, unitText);
+        card.append(head, dimming, figures, note, field('Colour', kelvin, kelvinText), reset);
         return card;
     }
 

@@ -41,21 +41,23 @@ const SETTLE_MS = 150;
  * @param {number} cssHeight
  * @param {number} pixelRatio
  * @param {number} maxPixels
- * @param {{maxWidth: number, maxHeight: number}} limits
+ * @param {import('./protocol.js').Limits} limits
  * @returns {Viewport}
  */
 export function fitViewport(cssWidth, cssHeight, pixelRatio, maxPixels, limits) {
     const width = Math.max(cssWidth * pixelRatio, 1);
     const height = Math.max(cssHeight * pixelRatio, 1);
+    const {maxWidth, maxHeight, maxViewportPixels, maxViewportEdge} = limits;
+    const most = {width: maxViewportEdge || maxWidth, height: maxViewportEdge || maxHeight};
     const factor = Math.min(
         1,
-        Math.sqrt(maxPixels / (width * height)),
-        limits.maxWidth / width,
-        limits.maxHeight / height,
+        Math.sqrt(Math.min(maxPixels, maxViewportPixels || Infinity) / (width * height)),
+        most.width / width,
+        most.height / height,
     );
     const side = (/** @type {number} */ length, /** @type {number} */ limit) =>
         Math.min(Math.max(Math.floor(length * factor), MIN_SIDE), limit);
-    return {width: side(width, limits.maxWidth), height: side(height, limits.maxHeight)};
+    return {width: side(width, most.width), height: side(height, most.height)};
 }
 
 /**
@@ -94,6 +96,7 @@ export class Picture extends EventTarget {
         super();
         this.element = element;
         this.canvas = canvas;
+        /** @type {import('./protocol.js').Limits} */
         this.limits = {maxWidth: 3840, maxHeight: 2160};
         const context = canvas.getContext('2d', {alpha: false});
         if (!context) {

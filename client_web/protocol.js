@@ -30,6 +30,18 @@ export const SUBPROTOCOL = 'raybundle.v1';
  */
 
 /**
+ * Viewports beyond the last two are served smaller. The first two are those of servers without the others.
+ *
+ * @typedef {object} Limits
+ * @property {number} maxWidth
+ * @property {number} maxHeight
+ * @property {number} [maxMessageBytes]
+ * @property {number} [maxSnapshotEdge]  pixels
+ * @property {number} [maxViewportPixels]
+ * @property {number} [maxViewportEdge]  pixels
+ */
+
+/**
  * @typedef {object} Light
  * @property {number} id
  * @property {string} name
@@ -40,6 +52,9 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {boolean} on
  * @property {number} [loadedIntensity]  as the scene file has it
  * @property {Vec3} [loadedColour]  likewise
+ * @property {number} [flux]  lm, at loadedIntensity
+ * @property {number} [peak]  largest luminous intensity, cd, at loadedIntensity
+ * @property {number} [watts]  as its photometric file states it
  */
 
 /**
@@ -82,7 +97,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Role} role
  * @property {number} epoch
  * @property {Scene} scene
- * @property {{maxWidth: number, maxHeight: number, maxMessageBytes: number}} limits
+ * @property {Limits} limits
+ * @property {Viewport} [viewport]  that is served
  * @property {string} [renderer]  of the server's GL
  * @property {boolean} [softwareRendering]
  * @property {boolean} [canOpenScenes]
@@ -202,7 +218,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @typedef {{scenes: SceneFile[], current: string, maxUploadBytes: number}} SceneList
  * @typedef {object} SceneOpening
  * @property {string} name
- * @property {number} by  viewer
+ * @property {number} by  viewer; 0: the server makes ready what it is to show, before the welcome
  * @property {string} byName
  * @property {'READING' | 'PREPARING' | 'COMPILING' | 'READY' | 'REJECTED'} stage
  * @property {string} reason  of REJECTED

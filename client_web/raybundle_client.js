@@ -21,6 +21,12 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
 const SILENCE_LIMIT_MS = 20000;
 /** Before the welcome, since a server may compile its shaders first. */
 const WELCOME_LIMIT_MS = 120000;
+const PREPARING = 'The server is there and gets the scene ready';
+const PREPARING_STEPS = /** @type {Record<string, string>} */ ({
+    READING: 'step 1 of 3, reading',
+    PREPARING: 'step 2 of 3, cutting into patches',
+    COMPILING: 'step 3 of 3, compiling',
+});
 const PING_INTERVAL_MS = 2000;
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 10000;
@@ -93,7 +99,7 @@ export class RaybundleClient extends EventTarget {
         this.#socket = socket;
         this.#lastHeard = performance.now();
         socket.onopen = () => {
-            this.#become(this.state, 'The server is there and gets the scene ready.');
+            this.#become(this.state, `${PREPARING}.`);
             this.#greet();
         };
         socket.onmessage = (event) => this.#receive(event.data);
@@ -282,6 +288,10 @@ export class RaybundleClient extends EventTarget {
         }
         if (message.sceneChanged) {
             this.#emit('sceneChanged', message.sceneChanged);
+        }
+        const step = PREPARING_STEPS[message.sceneOpening?.stage ?? ''];
+        if (step && this.state !== 'connected') {
+            this.#become(this.state, `${PREPARING}: ${step}.`);
         }
         const {replyTo, error} = message;
         const waiting = replyTo === undefined ? undefined : this.#waiting.get(replyTo);

@@ -119,7 +119,7 @@ export class SceneFiles {
         this.app = app;
         app.on('welcome', () => this.#welcomed());
         app.on('message', (/** @type {import('./protocol.js').ServerMessage} */ {sceneOpening, presence}) => {
-            if (sceneOpening) {
+            if (sceneOpening?.by) {
                 this.#opening(sceneOpening);
             }
             if (presence) {

@@ -13,21 +13,18 @@ import {requestSnapshot} from './snapshot_request.js';
  *
  * @param {number} width  pixels to have; 0: as on screen
  * @param {{width: number, height: number}} screen  pixels
- * @param {{maxWidth: number, maxHeight: number}} limits  of the server
+ * @param {import('./protocol.js').Limits} limits  of the server
  * @returns {{width: number, height: number}}
  */
 export function snapshotSize(width, screen, limits) {
     const wanted = width || screen.width;
-    const scale = Math.min(
-        wanted / screen.width,
-        limits.maxWidth / screen.width,
-        limits.maxHeight / screen.height,
-    );
+    const most = {width: limits.maxSnapshotEdge || limits.maxWidth, height: limits.maxSnapshotEdge || limits.maxHeight};
+    const scale = Math.min(wanted / screen.width, most.width / screen.width, most.height / screen.height);
     const side = (/** @type {number} */ pixels, /** @type {number} */ most) =>
         Math.min(Math.max(Math.round(pixels * scale), 1), most);
     return {
-        width: side(screen.width, limits.maxWidth),
-        height: side(screen.height, limits.maxHeight),
+        width: side(screen.width, most.width),
+        height: side(screen.height, most.height),
     };
 }
 

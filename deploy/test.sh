@@ -76,12 +76,27 @@ run_ctest() {
     count=$(junit_attribute "$report" tests)
     failures=$(junit_attribute "$report" failures)
     skipped=$(($(junit_attribute "$report" skipped) + $(junit_attribute "$report" disabled)))
+    count_cases "$build_dir/Testing/Temporary/LastTest.log"
     if ((status != 0 && failures == 0)); then
         failures=1 count=$((count + 1)) # ctest itself failed
     fi
     ((skipped == 0)) || echo "$skipped tests were skipped"
     passed=$((passed + count - failures - skipped))
     failed=$((failed + failures))
+}
+
+# Counts the tests within the programs of GoogleTest, each of which is one test of ctest: their numbers take the place
+# of the programs' in count, failures and skipped. $1: ctest's log with what all of them have printed.
+count_cases() {
+    local cases programs failed_cases failed_programs skipped_cases
+    read -r cases programs failed_cases failed_programs skipped_cases < <(awk '
+        /^\[==========\] [0-9]+ tests? from .* ran\./ { cases += $2; ++programs }
+        /^ *[0-9]+ FAILED TESTS?$/ { failed += $1; ++failed_programs }
+        /^\[  SKIPPED \] [0-9]+ tests?, listed below:/ { skipped += $4 }
+        END { print cases + 0, programs + 0, failed + 0, failed_programs + 0, skipped + 0 }' "$1")
+    count=$((count + cases - programs))
+    failures=$((failures + failed_cases - failed_programs))
+    skipped=$((skipped + skipped_cases))
 }
 
 # Integer attribute of a JUnit report's <testsuite>; 0 where the report or the attribute is missing.

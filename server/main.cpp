@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "commands/command.h"
+#include "commands/signal_watch.h"
 #include "gpu/egl_context.h"
 #include "options/cli_options.h"
 #include "options/log_settings.h"
@@ -35,6 +36,9 @@ int list_gpus() {
 }
 
 int run(const Options& options, const CLI::App& app) {
+    if (options.command != Options::Command::serve) {
+        raybundle::release_hangup();
+    }
     if (options.list_gpus) {
         return list_gpus();
     }
@@ -83,6 +87,8 @@ int parse_and_run(int argc, char** argv) {
         return report(raybundle::exit_usage, error);
     } catch (const raybundle::SceneError& error) {
         return report(raybundle::exit_scene_rejected, error);
+    } catch (const raybundle::GlError& error) {
+        return report(raybundle::exit_failed, error);
     } catch (const raybundle::GpuError& error) {
         return report(raybundle::exit_no_gpu, error);
     }
@@ -91,6 +97,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    raybundle::hold_hangup();
     try {
         return parse_and_run(argc, argv);
     } catch (const std::exception& error) {

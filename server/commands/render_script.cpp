@@ -126,8 +126,13 @@ class Sequence {
     void change_surfaces(double before, double time) {
         std::vector<std::uint32_t> materials;
         std::vector<std::uint32_t> reflecting;
+        bool lights = false;
         for (const LightEdit& edit : script_.lights_between(before, time)) {
-            materials.push_back(apply(loaded_.scene, edit));
+            lights = true;
+            const std::uint32_t material = apply(loaded_.scene, edit);
+            if (material != no_material) {
+                materials.push_back(material);
+            }
         }
         bool covered = true;
         for (const MaterialEdit& edit : script_.materials_between(before, time)) {
@@ -136,7 +141,7 @@ class Sequence {
             reflecting.push_back(material);
             covered = covered && solver_->covers(loaded_.scene, material);
         }
-        if (materials.empty()) {
+        if (materials.empty() && !lights) {
             return;
         }
         if (covered) {

@@ -3,12 +3,17 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 #include "commands/command.h"
 #include "commands/effect_bench.h"
+#include "commands/metrics_source.h"
+#include "commands/preparation.h"
 #include "commands/scene_opener.h"
 #include "commands/scene_watch.h"
 #include "commands/signal_watch.h"
@@ -51,41 +56,34 @@ ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
     return ChangeLog(settings);
 }
 
-/// Stops the network however the program ends.
+/// Why a loop ends: `leave` is set last.
+struct Control {
+    explicit Control(Server& server) : preparation(server) {}
+
+    std::atomic<bool> stop{false};   ///< the program ends
+    std::atomic<bool> leave{false};  ///< that, or another scene waits
+    std::mutex serving_mutex;
+    bool serving = false;  ///< a loop runs that looks at `leave`, or the program ends
+    Preparation preparation;
+    std::optional<SceneWatch> watch;
+    std::optional<SceneOpener> opener;
+};
+
+/// Stops the network however the program ends; signals leave that to it from then on.
 class NetworkEnd {
   public:
-    explicit NetworkEnd(Server& server) : server_(server) {}
-    ~NetworkEnd() { server_.stop(); }
+    NetworkEnd(Control& control, Server& server) : control_(control), server_(server) {}
+    ~NetworkEnd() {
+        const std::lock_guard lock(control_.serving_mutex);
+        control_.serving = true;
+        server_.stop();
+    }
     NetworkEnd(const NetworkEnd&) = delete;
     NetworkEnd& operator=(const NetworkEnd&) = delete;
 
   private:
+    Control& control_;
     Server& server_;
-};
-
-/// Lets the server ask a loop for its metrics while both exist.
-class MetricsSource {
-  public:
-    MetricsSource(Server& server, const RenderLoop& loop) : server_(server), loop_(loop) { use(); }
-    /// Answers from now on.
-    void use() {
-        server_.set_metrics_source([this] { return loop_.metrics(); });
-    }
-    ~MetricsSource() { server_.set_metrics_source({}); }
-    MetricsSource(const MetricsSource&) = delete;
-    MetricsSource& operator=(const MetricsSource&) = delete;
-
-  private:
-    Server& server_;
-    const RenderLoop& loop_;
-};
-
-/// Why a loop ends: `leave` is set last.
-struct Control {
-    std::atomic<bool> stop{false};   ///< the program ends
-    std::atomic<bool> leave{false};  ///< that, or another scene waits
-    std::optional<SceneWatch> watch;
-    std::optional<SceneOpener> opener;
 };
 
 /// A scene that is being served.
@@ -95,7 +93,7 @@ struct ServedScene {
         : log(open_change_log(options, loaded)),
           loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
                std::move(loaded.mesh), settings, server, log),
-          metrics(server, loop) {}
+          metrics(server, loop, log) {}
 
     ChangeLog log;
     RenderLoop loop;
@@ -109,6 +107,14 @@ std::uint64_t injected_fault() {
     const char* const text =
         std::getenv("RAYBUNDLE_TEST_GPU_LOST_AFTER");  // NOLINT(concurrency-mt-unsafe)
     return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+}
+
+/// Stands for a scene whose shaders take for ever, where a test wants one.
+void compile_for_ever() {
+    if (std::getenv("RAYBUNDLE_TEST_COMPILES_FOR_EVER") !=
+        nullptr) {  // NOLINT(concurrency-mt-unsafe)
+        std::this_thread::sleep_for(std::chrono::hours(1));
+    }
 }
 
 /// Serves one scene after the other.
@@ -139,16 +145,22 @@ class SceneServer {
     }
 
     void run() {
+        control_.preparation.begin(options_.scene);
+        {
+            const std::lock_guard lock(control_.serving_mutex);
+            server_.start();
+        }
         auto [file, loaded] = first_scene();
         shown_file_ = file;
-        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
-        server_.start();
         fmt::print("raybundle serves {} at {}\n", file, server_.address());
         std::fflush(stdout);
+        control_.preparation.reach(v1::SceneOpening::COMPILING);
+        compile_for_ever();
+        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
         watch(file);
         while (!control_.stop) {
             try {
-                served_->loop.run(control_.leave);
+                run_loop();
             } catch (const GpuError& error) {
                 recover(error);
                 continue;
@@ -163,6 +175,33 @@ class SceneServer {
     }
 
   private:
+    /// Runs the present loop until it is to be left.
+    void run_loop() {
+        served_->loop.rehearse(control_.leave);
+        control_.preparation.end();
+        set_serving(true);
+        try {
+            served_->loop.run(control_.leave);
+        } catch (const GpuError&) {
+            leave_loop();
+            throw;
+        }
+        leave_loop();
+    }
+
+    /// Who comes now hears that a scene is being made ready; unless the program ends.
+    void leave_loop() {
+        if (!control_.stop) {
+            control_.preparation.begin(shown_file_);
+            set_serving(false);
+        }
+    }
+
+    void set_serving(bool serving) {
+        const std::lock_guard lock(control_.serving_mutex);
+        control_.serving = serving;
+    }
+
     /// The scene that was shown last time, where the journal knows one; else that of the options.
     std::pair<std::string, LoadedScene> first_scene() {
         const std::string name =
@@ -176,14 +215,21 @@ class SceneServer {
                 Options options = options_;
                 options.scene = *file;
                 check_confined(*file);
-                LoadedScene loaded = load_scene(options);
+                LoadedScene loaded = load(options);
                 control_.opener->set_shown(*file);
                 return {*file, std::move(loaded)};
             } catch (const std::exception& error) {
                 spdlog::error("the scene of last time is not shown: {}", error.what());
             }
         }
-        return {options_.scene, load_scene(options_)};
+        return {options_.scene, load(options_)};
+    }
+
+    /// Viewers that wait hear of it.
+    LoadedScene load(const Options& options) {
+        control_.preparation.begin(options.scene);
+        return load_scene(options,
+                          [this] { control_.preparation.reach(v1::SceneOpening::PREPARING); });
     }
 
     void watch(const std::string& file) {
@@ -213,6 +259,7 @@ class SceneServer {
 
     void open(OpenedScene& scene) {
         control_.opener->announce(scene.progress, v1::SceneOpening::COMPILING);
+        control_.preparation.begin(scene.file);
         // On disk before anybody is told.
         const auto shown = [&](ChangeLog& log) {
             log.remember_scene(options_.scene, scene.progress.name());
@@ -250,7 +297,9 @@ class SceneServer {
         }
         Options options = options_;
         options.scene = shown_file_;
-        served_ = std::make_unique<ServedScene>(options_, load_scene(options), settings_, server_);
+        LoadedScene loaded = load(options);
+        control_.preparation.reach(v1::SceneOpening::COMPILING);
+        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
     }
 
     /// Builds the next scene beside the present one, which stays where that fails. The reason in
@@ -259,6 +308,7 @@ class SceneServer {
     std::string replace(
         LoadedScene next, const std::function<void(ChangeLog&)>& shown = [](ChangeLog&) {}) {
         served_->log.suspend();
+        control_.preparation.reach(v1::SceneOpening::COMPILING);
         std::unique_ptr<ServedScene> fresh;
         try {
             fresh = std::make_unique<ServedScene>(options_, std::move(next), settings_, server_);
@@ -288,6 +338,18 @@ class SceneServer {
     std::unique_ptr<ServedScene> served_;
 };
 
+/// While a scene is made ready nobody looks at `stop`, for as long as reading and compiling take,
+/// and there is nothing yet that only this process knows: it ends at once.
+void end_unless_serving(Control& control, Server& server) {
+    const std::lock_guard lock(control.serving_mutex);
+    if (!control.serving) {
+        spdlog::info("stopping before the scene is ready");
+        server.stop();
+        std::fflush(nullptr);
+        std::_Exit(exit_done);
+    }
+}
+
 }  // namespace
 
 int run_serve(const Options& options) {
@@ -296,7 +358,7 @@ int run_serve(const Options& options) {
         return exit_done;
     }
     Server server(server_settings(options));
-    Control control;
+    Control control(server);
     const auto leave = [&] {
         control.leave = true;
         server.inbox().interrupt();
@@ -305,12 +367,13 @@ int run_serve(const Options& options) {
         [&] {
             control.stop = true;
             leave();
+            end_unless_serving(control, server);
         },
         [&] { reload_settings(options, server); });
     if (!options.scenes.empty()) {
         control.opener.emplace(options, server, leave);
     }
-    const NetworkEnd network_end(server);  // before the opener, which uploads use
+    const NetworkEnd network_end(control, server);  // before the opener, which uploads use
     SceneServer(options, server, control).run();
     spdlog::info("stopping");
     server.stop();

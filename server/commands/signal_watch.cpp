@@ -7,6 +7,25 @@
 
 namespace raybundle {
 
+namespace {
+
+void mask_hangup(int how) {
+    sigset_t hangup{};
+    sigemptyset(&hangup);
+    sigaddset(&hangup, SIGHUP);
+    pthread_sigmask(how, &hangup, nullptr);
+}
+
+}  // namespace
+
+void hold_hangup() {
+    mask_hangup(SIG_BLOCK);
+}
+
+void release_hangup() {
+    mask_hangup(SIG_UNBLOCK);
+}
+
 SignalWatch::SignalWatch(std::function<void()> stop, std::function<void()> reload)
     : stop_(std::move(stop)), reload_(std::move(reload)) {
     sigemptyset(&signals_);

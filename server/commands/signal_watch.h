@@ -7,6 +7,12 @@
 
 namespace raybundle {
 
+/// Keeps SIGHUP waiting, for a SignalWatch or release_hangup(): until somebody can answer it, it
+/// would end the program. For the first line of main().
+void hold_hangup();
+/// SIGHUP ends the program, as usual.
+void release_hangup();
+
 /// Waits for signals on a thread of its own. Make it before any other thread, since they inherit
 /// which signals are blocked.
 class SignalWatch {

@@ -14,6 +14,11 @@ class GpuError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The driver has refused a command: a fault of this program, whatever the machine. Exit status 1.
+class GlError : public GpuError {
+    using GpuError::GpuError;
+};
+
 /// An EGL device that could run the server.
 struct GpuDevice {
     int index = 0;         ///< what --gpu takes

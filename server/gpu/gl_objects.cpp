@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gpu/egl_context.h"
+#include "gpu/gl_limits.h"
 
 namespace raybundle {
 
@@ -29,16 +30,28 @@ void delete_query(GLuint name) {
 namespace {
 
 /// Out of memory is the one GL error that is the machine's, not the program's: say what did not
-/// fit.
+/// fit. An error is the first one since the last check, so any other belongs to what was before.
 void check_memory(const std::string& label, std::size_t bytes) {
-    GLenum error = glGetError();
-    while (error != GL_NO_ERROR) {
-        if (error == GL_OUT_OF_MEMORY) {
-            throw GpuError("out of GPU memory: " + label + " needs " +
-                           std::to_string(bytes / (1024 * 1024)) +
-                           " MiB; use a larger --patch-size or fewer viewers");
-        }
-        error = glGetError();
+    const GLenum error = glGetError();
+    if (error == GL_OUT_OF_MEMORY) {
+        throw GpuError("out of GPU memory: " + label + " needs " +
+                       std::to_string(bytes / (1024 * 1024)) +
+                       " MiB; use a larger --patch-size or fewer viewers");
+    }
+    throw_gl_error(error, "making '" + label + "' or before");
+}
+
+std::size_t texel_bytes(GLenum format) {
+    switch (format) {
+        case GL_R32UI:
+        case GL_R32F:
+            return 4;
+        case GL_RG32F:
+        case GL_RG32UI:
+        case GL_RGBA16F:
+            return 8;
+        default:  // four numbers of 32 bits
+            return 16;
     }
 }
 
@@ -46,6 +59,7 @@ void check_memory(const std::string& label, std::size_t bytes) {
 
 Buffer::Buffer(const std::string& label, std::size_t bytes, GLbitfield flags)
     : bytes_(std::max<std::size_t>(bytes, 16)) {
+    check_storage(label, bytes_);
     GLuint name = 0;
     glCreateBuffers(1, &name);
     name_ = GlName<delete_buffer>(name);
@@ -82,6 +96,7 @@ void Buffer::bind_uniform(GLuint binding) const {
 }
 
 Texture2D create_texture_2d(const std::string& label, GLenum format, int width, int height) {
+    check_texture_2d(label, width, height);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     Texture2D texture(name);
@@ -94,6 +109,7 @@ Texture2D create_texture_2d(const std::string& label, GLenum format, int width, 
 }
 
 Texture2D create_buffer_texture(const std::string& label, GLenum format, const Buffer& buffer) {
+    check_buffer_texture(label, buffer.bytes(), texel_bytes(format));
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
     Texture2D texture(name);

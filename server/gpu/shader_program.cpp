@@ -11,6 +11,7 @@
 
 #include "embedded_file.h"
 #include "gpu/egl_context.h"
+#include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
@@ -153,6 +154,7 @@ void ShaderProgram::finish() const {
     }
     if (stage_of(label_) == GL_COMPUTE_SHADER) {
         glGetProgramiv(program_.get(), GL_COMPUTE_WORK_GROUP_SIZE, local_size_);
+        most_groups_ = most_work_groups();
     }
     finished_ = true;
     const std::chrono::duration<double, std::milli> waited =
@@ -186,26 +188,30 @@ void ShaderProgram::set(const char* name, std::span<const glm::vec4> values) con
                         glm::value_ptr(values.front()));
 }
 
+std::size_t ShaderProgram::groups_of(std::size_t threads, int axis) const {
+    finish();  // the local size is known from then on
+    const auto local = static_cast<std::size_t>(local_size_[axis]);
+    return (threads + local - 1) / local;
+}
+
 void ShaderProgram::dispatch(std::size_t threads) const {
-    dispatch(threads, 1);
+    if (threads > 0) {
+        const glm::uvec2 groups = folded(groups_of(threads, 0), most_groups_, label_);
+        dispatch_groups(groups.x, groups.y);
+    }
 }
 
 void ShaderProgram::dispatch(std::size_t threads_x, std::size_t threads_y) const {
-    if (threads_x == 0 || threads_y == 0) {
-        return;
+    if (threads_x > 0 && threads_y > 0) {
+        dispatch_groups(groups_of(threads_x, 0), groups_of(threads_y, 1));
     }
-    const auto groups = [](std::size_t threads, GLint size) {
-        const auto local = static_cast<std::size_t>(size);
-        return static_cast<GLuint>((threads + local - 1) / local);
-    };
-    finish();  // the local size is known from then on
-    dispatch_groups(groups(threads_x, local_size_[0]), groups(threads_y, local_size_[1]));
 }
 
-void ShaderProgram::dispatch_groups(unsigned x, unsigned y) const {
+void ShaderProgram::dispatch_groups(std::size_t x, std::size_t y) const {
     const GlScope scope(label_.c_str());
     use();
-    glDispatchCompute(x, y, 1);
+    check_work_groups(x, y, most_groups_, label_);
+    glDispatchCompute(static_cast<GLuint>(x), static_cast<GLuint>(y), 1);
     storage_barrier();
 }
 

@@ -33,13 +33,14 @@ class ShaderProgram {
     void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, std::span<const glm::vec4> values) const;
 
-    /// Uses the program and runs at least `threads` invocations of its local size (x). 0 runs
-    /// nothing.
+    /// Uses the program and runs at least `threads` invocations of its local size (x), numbered by
+    /// linear_index() of linear_index.glsl: more groups than the driver takes in a row are folded
+    /// into rows. 0 runs nothing. Throws GpuError where even those are too many.
     void dispatch(std::size_t threads) const;
-    /// The same over a plane of invocations.
+    /// The same over a plane of invocations, which is not folded.
     void dispatch(std::size_t threads_x, std::size_t threads_y) const;
-    /// So many work groups.
-    void dispatch_groups(unsigned x, unsigned y) const;
+    /// So many work groups. Throws GpuError where these are more than the driver takes.
+    void dispatch_groups(std::size_t x, std::size_t y) const;
     /// As many work groups as three numbers of a buffer say.
     void dispatch_indirect(const Buffer& command, std::size_t byte_offset = 0) const;
 
@@ -48,12 +49,14 @@ class ShaderProgram {
     /// Waits until the driver is done with the program.
     void finish() const;
     [[nodiscard]] GLuint linked() const;  ///< finished, its name
+    [[nodiscard]] std::size_t groups_of(std::size_t threads, int axis) const;
 
     Program program_;
     std::string label_;
     std::vector<std::string> files_;
     mutable bool finished_ = false;
     mutable GLint local_size_[3] = {1, 1, 1};
+    mutable glm::uvec2 most_groups_{0};
 };
 
 /// A list of defines and one more.

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <system_error>
 
 #include "journal/change_sum.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kPageBytes = 4096;
+constexpr int kBusyMs = 1000;  ///< before a change is refused; pictures stand still meanwhile
 
 /// Moves the database and its companions out of the way; returns the new name.
 std::string move_aside(const std::string& file) {
@@ -36,6 +38,7 @@ std::string move_aside(const std::string& file) {
 
 SessionJournal::SessionJournal(const JournalSettings& settings) : file_(settings.file) {
     try {
+        lock_.emplace(file_);
         try {
             open(settings);
         } catch (const SqliteError& error) {
@@ -50,13 +53,17 @@ SessionJournal::SessionJournal(const JournalSettings& settings) : file_(settings
         throw JournalError(file_ + ": " + error.what());
     } catch (const std::filesystem::filesystem_error& error) {
         throw JournalError(file_ + ": damaged, and " + error.code().message());
+    } catch (const std::system_error& error) {
+        const bool taken = error.code() == std::errc::resource_unavailable_try_again;
+        throw JournalError(
+            file_ + (taken ? ": another server uses it" : "-lock: " + error.code().message()));
     }
 }
 
 void SessionJournal::open(const JournalSettings& settings) {
     database_.emplace(file_);
-    // One server at a time; the lock goes with the process, however that ends.
-    database_->execute("PRAGMA locking_mode=EXCLUSIVE");
+    // A backup holds a lock for moments only.
+    database_->execute("PRAGMA busy_timeout=" + std::to_string(kBusyMs));
     database_->execute("PRAGMA journal_mode=WAL");
     database_->execute("PRAGMA synchronous=FULL");
     database_->execute("PRAGMA max_page_count=" + std::to_string(settings.max_bytes / kPageBytes));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "journal/file_lock.h"
 #include "journal/sqlite_database.h"
 #include "raybundle.pb.h"
 
@@ -31,7 +32,8 @@ struct JournalSettings {
 /// change that append() has returned from survives the process and the machine (SQLite, WAL,
 /// synchronous=FULL). Of the changes to one object, light or material only the sum is kept, and of
 /// what was before them as many states as are kept for undo, so the file does not grow with time.
-/// One thread only.
+/// Others may read the file meanwhile, as `sqlite3 FILE '.backup COPY'` does; one server at a time
+/// writes it. One thread only.
 class SessionJournal {
   public:
     static constexpr std::uint32_t most_past = 16384;
@@ -82,6 +84,7 @@ class SessionJournal {
     v1::SceneChanged take_earlier(const v1::SceneChanged& change, std::int64_t subject);
 
     std::string file_;
+    std::optional<FileLock> lock_;
     std::optional<SqliteDatabase> database_;
     std::optional<std::string> set_aside_;
     std::int64_t session_ = 0;

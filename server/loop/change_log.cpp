@@ -25,14 +25,29 @@ void ChangeLog::resume() {
 void ChangeLog::open() {
     try {
         journal_.emplace(settings_);
+        working_ = true;
+        problem_.clear();
         if (journal_->set_aside()) {
             spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
                           *journal_->set_aside());
         }
     } catch (const JournalError& error) {
         working_ = false;
-        spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
-                      error.what());
+        if (problem_ != error.what()) {  // each change tries again
+            problem_ = error.what();
+            spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
+                          problem_);
+        }
+    }
+}
+
+/// Takes up a journal that could not be used before, if it goes on where this scene is.
+void ChangeLog::open_again() {
+    open();
+    if (journal_ && journal_->epoch() != epoch_) {
+        spdlog::error("the journal can be used again, but has changes that are not shown: restart");
+        journal_.reset();
+        working_ = false;
     }
 }
 
@@ -105,6 +120,9 @@ void ChangeLog::restore_history(const Scene& scene) {
 bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before) {
     change.set_epoch(epoch_ + 1);
     if (required_ && !journal_) {
+        open_again();
+    }
+    if (required_ && !journal_) {
         ++failures_;
         return false;
     }
@@ -124,6 +142,9 @@ bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before)
 }
 
 bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (required_ && !journal_) {
+        open_again();
+    }
     if (required_ && !journal_) {
         ++failures_;
         return false;

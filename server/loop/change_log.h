@@ -21,8 +21,9 @@ class ChangeLog {
   public:
     ChangeLog() = default;  ///< without a journal
 
-    /// With a journal. A journal that cannot be used is reported in the log and refuses every
-    /// change from then on; viewing does not depend on it.
+    /// With a journal. A journal that cannot be used is reported in the log and refuses changes;
+    /// viewing does not depend on it. Each change looks again whether it can be used now, as after
+    /// another server has given it free: with changes in it that this scene lacks it cannot.
     explicit ChangeLog(const JournalSettings& settings);
 
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
@@ -54,16 +55,18 @@ class ChangeLog {
     void remember_scene(const std::string& started_with, const std::string& shown);
 
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
-    /// Whether the next change is expected to be stored.
+    /// Whether the next change is expected to be stored. Any thread.
     [[nodiscard]] bool working() const { return working_; }
 
   private:
     void open();
+    void open_again();
     void restore_history(const Scene& scene);
 
     JournalSettings settings_;
+    std::string problem_;  ///< why the journal cannot be used, as last logged
     bool required_ = false;
-    bool working_ = true;
+    std::atomic<bool> working_{true};
     std::optional<SessionJournal> journal_;
     std::uint32_t epoch_ = 0;
     SceneHistory history_;

@@ -53,6 +53,9 @@ std::string LoopMetrics::text() const {
     out.counter("raybundle_special_phases_total",
                 "Special iteration phases: changes that waited together pass one",
                 static_cast<double>(phases_));
+    out.counter("raybundle_loop_turns_total",
+                "Turns of the render loop: 20 a second while it has nothing to do",
+                static_cast<double>(turns_));
     out.gauge("raybundle_settled", "Part of the last change already worked in, 0 to 1", f.settled);
     out.gauge("raybundle_relative_error", "Largest estimated relative error of a viewer's picture",
               f.relative_error.value_or(std::numeric_limits<double>::quiet_NaN()));

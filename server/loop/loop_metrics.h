@@ -33,6 +33,7 @@ class LoopMetrics {
     using Clock = std::chrono::steady_clock;
 
     void count_frame(std::size_t bytes);
+    void count_turn() { ++turns_; }
     void count_refused_viewer() { ++refused_; }
     void count_phase() { ++phases_; }  ///< special iteration phases begun
 
@@ -50,7 +51,7 @@ class LoopMetrics {
         double seconds = 0.0;
     };
 
-    std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0}, phases_{0};
+    std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0}, phases_{0}, turns_{0};
     mutable std::mutex mutex_;
     Steps perspective_, layered_, special_;
     LoopFigures figures_;

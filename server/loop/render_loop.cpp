@@ -7,6 +7,7 @@
 
 #include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "loop/scene_messages.h"
 #include "stream/elapsed.h"
 
@@ -31,8 +32,6 @@ constexpr std::chrono::milliseconds idle_wait(50);
 /// of levels): 800x800 is drawn as 24x24 is, 640x480 as 192x192, 512x512 as 64x64. The first time
 /// not everything is there that is looked up later.
 constexpr glm::uvec2 rehearsal_sizes[] = {{24, 24}, {24, 24}, {192, 192}, {64, 64}};
-constexpr std::uint32_t max_width = 3840;
-constexpr std::uint32_t max_height = 2160;
 
 }  // namespace
 
@@ -63,13 +62,9 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
 
 void RenderLoop::run(const std::atomic<bool>& stop) {
     rate_since_ = Clock::now();
-    if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
-        for (const glm::uvec2& size : rehearsal_sizes) {
-            rehearse(size);
-        }
-    }
     bool idle = true;
     while (!stop) {
+        metrics_.count_turn();
         hear_viewers(idle);
         start_pending_change();
         const bool collected = collect_frames();
@@ -89,16 +84,30 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
     }
 }
 
+void RenderLoop::rehearse(const std::atomic<bool>& stop) {
+    if (settings_.rehearse && sessions_.empty() && solver_->iterations() == 0) {
+        for (const glm::uvec2& size : rehearsal_sizes) {
+            rehearse_at(size, stop);
+        }
+    }
+}
+
 /// Software drivers compile shaders when they are first used, each for some tenths of a second: a
 /// small picture goes through all that a viewer's does. Its iterations count as any others.
-void RenderLoop::rehearse(const glm::uvec2& size) {
+void RenderLoop::rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop) {
+    if (stop) {
+        return;
+    }
     ViewerImage image(solver_->scene(), solver_->store(), *programs_, size);
     image.set_camera(scene_.cameras.front());
     image.rest();
     BundleReceiver* const receivers[] = {&image};
     do {
         solver_->step(receivers);
-    } while (!solver_->between_groups());
+    } while (!solver_->between_groups() && !stop);
+    if (stop) {
+        return;
+    }
     image.set_camera(scene_.cameras.front());
     image.request_statistics();
     image.smooth();
@@ -137,6 +146,7 @@ void RenderLoop::handle(const ClientEvent& event) {
         encoder_.forget(event.viewer);
         scheduler_.forget(event.viewer);
         requests_.forget(event.viewer);
+        gate_.excuse(event.viewer);
         std::erase(receivers_, snapshots_.picture_of(event.viewer));
         snapshots_.forget(event.viewer);
         drop_image(*found->second);
@@ -153,8 +163,9 @@ void RenderLoop::handle(const ClientEvent& event) {
 }
 
 void RenderLoop::join(const ClientEvent& event) {
-    const v1::Hello& hello = event.message.hello();
-    const glm::uvec2 size = ViewerSession::size_of(hello);
+    v1::Hello hello = event.message.hello();
+    const glm::uvec2 size = served_size(ViewerSession::size_of(hello), nullptr);
+    to_message(size, hello.mutable_viewport());
     if (const std::string reason = no_room_for(size, nullptr); !reason.empty()) {
         metrics_.count_refused_viewer();
         server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
@@ -174,9 +185,8 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->set_role(event.role);
     welcome->set_epoch(epoch_);
     describe_scene(scene_, welcome->mutable_scene());
-    welcome->mutable_limits()->set_max_width(max_width);
-    welcome->mutable_limits()->set_max_height(max_height);
-    welcome->mutable_limits()->set_max_message_bytes(65536);
+    fill_limits(welcome->mutable_limits());
+    to_message(size, welcome->mutable_viewport());
     welcome->set_renderer(settings_.renderer);
     welcome->set_software_rendering(settings_.software_rendering);
     welcome->set_can_open_scenes(static_cast<bool>(settings_.scene_requests));
@@ -200,10 +210,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 lead(session);
                 break;
             case v1::ClientMessage::kSetViewport:
-                if (!set_viewport(session, event)) {
-                    return;
-                }
-                break;
+                set_viewport(session, event);
+                return;
             case v1::ClientMessage::kSetDisplay:
                 session.set_display(message.set_display());
                 break;
@@ -248,7 +256,8 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
     } catch (const GpuError& error) {
         spdlog::error("viewer {}: {}", event.viewer, error.what());
         drop_image(session);
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, no_memory);
+        const Refusal refusal = refusal_of(error);
+        server_.reply_error(event, refusal.code, refusal.text);
         return;
     }
     server_.reply_ok(event);
@@ -366,12 +375,15 @@ bool RenderLoop::solve() {
     if (!solver_->last_strategy()) {
         phase_budget_.note_bundle(Server::now_ms(), !solver_->correcting());
         note_phase_end();
+        gate_.note_change(cost);
+        end_change();
     }
     if (walking(Clock::now())) {
         solving_.charge(cost);
     }
     metrics_.note_step(solver_->last_strategy(), cost);
     if (solver_->last_strategy()) {
+        gate_.note_iteration(cost);
         cost_.note_iteration(cost, receiver_pixels_);
         snapshots_.note_iteration(cost);
     }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "loop/change_gate.h"
 #include "loop/change_log.h"
 #include "loop/change_queue.h"
 #include "loop/check_desk.h"
@@ -61,6 +62,10 @@ class RenderLoop {
     RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& settings, Server& server,
                ChangeLog& log);
 
+    /// Does once all that viewers and moves need, where the settings say so and nothing has been
+    /// iterated yet: it takes long. Ends early when `stop` is set. Throws GpuError as run() does.
+    void rehearse(const std::atomic<bool>& stop);
+
     /// Runs until `stop` is set and the inbox is interrupted. Throws GpuError where the GPU has
     /// lost its memory, or has not enough of it for the solution.
     void run(const std::atomic<bool>& stop);
@@ -73,9 +78,8 @@ class RenderLoop {
 
   private:
     using Clock = std::chrono::steady_clock;
-    static constexpr const char* no_memory = "the server has no memory for a picture of this size";
 
-    void rehearse(const glm::uvec2& size);
+    void rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop);
     void hear_viewers(bool idle);
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
@@ -84,8 +88,9 @@ class RenderLoop {
     void start_pending_change();
     bool record(PendingChange& pending);
     void start_undo(const PendingChange& pending);
-    void start_surfaces(std::vector<PendingChange> pending);
-    void start_moves(std::vector<PendingChange> pending);
+    bool start_surfaces(std::vector<PendingChange> pending);
+    bool start_moves(std::vector<PendingChange> pending);
+    void end_change();
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
     void gather_all();
@@ -98,7 +103,10 @@ class RenderLoop {
     [[nodiscard]] std::unique_ptr<EarlierScene> earlier_scene(std::uint32_t epoch) const;
     void request_scenes(const ViewerSession& session, const ClientEvent& event);
     void request_effects(const ClientEvent& event);
-    bool set_viewport(ViewerSession& session, const ClientEvent& event);
+    static void fill_limits(v1::Limits* limits);
+    void set_viewport(ViewerSession& session, const ClientEvent& event);
+    [[nodiscard]] CostModel::Verdict admission(glm::uvec2 size, const ViewerSession* instead) const;
+    [[nodiscard]] glm::uvec2 served_size(glm::uvec2 wanted, const ViewerSession* instead) const;
     bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
@@ -117,7 +125,7 @@ class RenderLoop {
     [[nodiscard]] std::string no_room_for(glm::uvec2 size, const ViewerSession* instead) const;
     void prepare_image(ViewerSession& session);
     void drop_image(ViewerSession& session);
-    void refuse_picture(ViewerSession& session, const std::string& reason);
+    void refuse_picture(ViewerSession& session, const GpuError& error);
     bool collect_frames();
     struct Wanted {
         ViewerId viewer = 0;
@@ -158,6 +166,7 @@ class RenderLoop {
     ViewerId first_look_of_ = 0;               // whom it shows last, 0: nobody it still fits
     std::vector<BundleReceiver*> receivers_;
     ChangeQueue changes_;
+    ChangeGate gate_;
     bool undo_failed_ = false;  // a change of the running undo could not be saved
     std::uint64_t replans_ = 0;
     std::uint32_t epoch_ = 0;

@@ -10,6 +10,7 @@
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
 #include "scene/specular_surface.h"
+#include "stream/elapsed.h"
 
 namespace raybundle {
 
@@ -45,11 +46,13 @@ void RenderLoop::queue_change(const ClientEvent& event) {
 }
 
 /// Makes the change that waits longest, together with those right behind it that one special phase
-/// can work in: lights and materials, or some moved objects.
+/// can work in: lights and materials, or some moved objects. Frames and iterations come first that
+/// the change before it has held up.
 void RenderLoop::start_pending_change() {
-    if (changes_.empty() || solver_->correcting()) {
+    if (changes_.empty() || solver_->correcting() || !gate_.open(nobody_waits())) {
         return;
     }
+    const auto start = Clock::now();
     PendingChange first = changes_.take();
     if (first.is_undo()) {
         start_undo(first);
@@ -61,11 +64,28 @@ void RenderLoop::start_pending_change() {
     while (!changes_.empty() && fits(changes_.front(), pending)) {
         pending.push_back(changes_.take());
     }
-    if (moving) {
-        start_moves(std::move(pending));
-    } else {
-        start_surfaces(std::move(pending));
+    const bool made = moving ? start_moves(std::move(pending)) : start_surfaces(std::move(pending));
+    if (made) {
+        gate_.begin_change(milliseconds_since(start));
+        end_change();
     }
+}
+
+/// Whoever looks waits for a frame of the change, once it has been worked in.
+void RenderLoop::end_change() {
+    if (solver_->correcting()) {
+        return;
+    }
+    const auto now = Clock::now();
+    last_drag_ = phase_of_drag_ ? now : last_drag_;
+    std::vector<ViewerId> watchers;
+    for (const auto& [id, session] : sessions_) {
+        watchers.push_back(id);
+        if (phase_of_drag_) {
+            session->stay_in_motion(now);
+        }
+    }
+    gate_.end_change(watchers);
 }
 
 /// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
@@ -159,7 +179,8 @@ void RenderLoop::announce(const PendingChange& pending) {
     }
 }
 
-void RenderLoop::start_moves(std::vector<PendingChange> pending) {
+/// False: nothing could be saved, so nothing has changed.
+bool RenderLoop::start_moves(std::vector<PendingChange> pending) {
     std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
     std::vector<ObjectMove> moves;
     for (const PendingChange& p : pending) {
@@ -167,7 +188,7 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
         moves.push_back({object, scene_.objects[object].world_from_object()});
     }
     if (moves.empty()) {
-        return;
+        return false;
     }
     gather_all();
     begin_phase(*solver_);
@@ -184,17 +205,20 @@ void RenderLoop::start_moves(std::vector<PendingChange> pending) {
     for (const PendingChange& p : pending) {
         announce(p);
     }
+    return true;
 }
 
-void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
+/// False: nothing could be saved, so nothing has changed.
+bool RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     const auto material_of = [this](const PendingChange& p) {
         const std::uint32_t id = subject_of(p.change).second;
-        return p.change.has_set_light() ? static_cast<std::uint32_t>(scene_.lights[id - 1].material)
-                                        : id - 1;
+        return p.change.has_set_light() ? material_of_light(scene_, id) : id - 1;
     };
     std::map<std::uint32_t, SpecularKind> before;
     for (const PendingChange& p : pending) {
-        before.emplace(material_of(p), specular_kind(scene_.materials[material_of(p)]));
+        if (material_of(p) != no_material) {
+            before.emplace(material_of(p), specular_kind(scene_.materials[material_of(p)]));
+        }
     }
     std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
     std::vector<std::uint32_t> materials;
@@ -202,6 +226,9 @@ void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     bool covered = true;
     for (const PendingChange& p : pending) {
         const std::uint32_t material = material_of(p);
+        if (material == no_material) {
+            continue;
+        }
         materials.push_back(material);
         // A polished lamp that is put out is a mirror.
         if (!p.change.has_set_light() ||
@@ -211,7 +238,7 @@ void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
         }
     }
     if (pending.empty()) {
-        return;
+        return false;
     }
     if (covered) {
         gather_all();
@@ -224,6 +251,7 @@ void RenderLoop::start_surfaces(std::vector<PendingChange> pending) {
     for (const PendingChange& p : pending) {
         announce(p);
     }
+    return true;
 }
 
 /// A material calls for shaders that the scene did not need so far (design: re-planned): another

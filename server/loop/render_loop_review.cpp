@@ -8,6 +8,7 @@
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
 #include "view/camera_matrices.h"
+#include "view/point_probe.h"
 
 namespace raybundle {
 
@@ -186,9 +187,13 @@ void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     *message.mutable_local_position() = wanted.position();
     const auto pixel = pixel_of(session.camera(), session.size(), position);
     prepare_image(session);
-    const auto hit = pixel ? session.probe(*pixel) : std::nullopt;
-    // The pixel tells more than the patch, where it shows the pin's place and nothing before it.
-    if (hit && hit->patch == pin.patch) {
+    // A pixel tells more than the patch, where it shows the pin's place and nothing before it.
+    auto hit = pixel ? session.probe(*pixel) : std::nullopt;
+    if (!hit || hit->patch != pin.patch) {
+        hit = probe_point(solver_->scene(), solver_->store(), *programs_, scene_, mesh_, pin.patch,
+                          position);
+    }
+    if (hit) {
         const Object& object = scene_.objects[hit->object];
         const glm::mat4 object_from_world = glm::inverse(object.world_from_object());
         message.set_object(object.id);
@@ -372,7 +377,9 @@ bool RenderLoop::refine_pin(Pin& pin) {
 
 /// Looks at the light of one pin, and tells everybody where it has changed.
 void RenderLoop::check_pin() {
-    if (solver_->correcting() || solver_->statistics().settled < pin_check_settled) {
+    // Where the solver rests, no more light comes.
+    const bool arriving = !nobody_waits() && solver_->statistics().settled < pin_check_settled;
+    if (solver_->correcting() || arriving) {
         return;
     }
     Pin* pin = review_.next_pin();

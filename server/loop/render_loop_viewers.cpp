@@ -6,6 +6,7 @@
 #include <map>
 
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
 #include "loop/render_loop.h"
 #include "net/wire_codec.h"
 #include "stream/elapsed.h"
@@ -28,26 +29,6 @@ constexpr double least_receive_ms = 40.0;
 constexpr double resting_receive_ms = 100.0;
 
 }  // namespace
-
-/// Why a picture of this size cannot be served, with what would fit; empty where it can. `instead`
-/// is the viewer whose picture it would replace, or null.
-std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instead) const {
-    double present = 0.0;
-    for (const auto& [id, session] : sessions_) {
-        present += session->paused() || session.get() == instead ? 0.0 : session->pixels();
-    }
-    const double limit_ms = 1000.0 / settings_.min_frames_per_second;
-    const CostModel::Verdict verdict = cost_.admit(size.x, size.y, present, limit_ms);
-    if (verdict.fits) {
-        return {};
-    }
-    const auto& fit = verdict.would_fit;
-    return "the server has no time for a picture of " + std::to_string(size.x) + "x" +
-           std::to_string(size.y) +
-           (fit ? ", " + std::to_string(fit->first) + "x" + std::to_string(fit->second) +
-                      " would fit"
-                : ", nothing would fit now");
-}
 
 /// What has come in by now, but of nobody more than its share where the time is wanted for frames
 /// and iterations (`idle`: it is not).
@@ -143,20 +124,6 @@ bool RenderLoop::solver_may_run() {
 }
 
 /// False where it has been refused and answered.
-bool RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) {
-    const v1::SetViewport& wanted = event.message.set_viewport();
-    const glm::uvec2 size(wanted.width(), wanted.height());
-    const bool larger =
-        static_cast<double>(size.x) * static_cast<double>(size.y) > session.pixels();
-    if (const std::string reason = larger ? no_room_for(size, &session) : ""; !reason.empty()) {
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
-        return false;
-    }
-    session.set_viewport(size);
-    return true;
-}
-
-/// False where it has been refused and answered.
 bool RenderLoop::set_target(ViewerSession& session, const ClientEvent& event) {
     const v1::SetTarget& target = event.message.set_target();
     if (!targets_.keep(session.name(), target)) {
@@ -218,14 +185,14 @@ void RenderLoop::drop_image(ViewerSession& session) {
     }
 }
 
-/// There is no memory for a picture: the viewer is told and sent away.
-void RenderLoop::refuse_picture(ViewerSession& session, const std::string& reason) {
-    spdlog::error("no picture for viewer {}: {}", session.id(), reason);
+/// A picture cannot be made: the viewer is told and sent away.
+void RenderLoop::refuse_picture(ViewerSession& session, const GpuError& error) {
+    spdlog::error("no picture for viewer {}: {}", session.id(), error.what());
     drop_image(session);
     first_look_.reset();
-    server_.send(session.id(),
-                 to_message({v1::Error::RESOURCE_EXHAUSTED, no_memory, std::nullopt}));
-    server_.close(session.id(), CloseCode::try_again_later, no_memory);
+    const Refusal refusal = refusal_of(error);
+    server_.send(session.id(), to_message(refusal));
+    server_.close(session.id(), CloseCode::try_again_later, refusal.text);
 }
 
 /// Who can take a frame now.
@@ -249,11 +216,19 @@ RenderLoop::DueFrames RenderLoop::due_frames(Clock::time_point now) {
             session->note_acknowledged();
         }
         // While a change is being worked in, the picture is between two states: finish first.
-        if (solver_->correcting() || !session->due(now) || encoder_.busy(id)) {
+        if (solver_->correcting()) {
+            continue;
+        }
+        const bool watches = !session->paused() && session->acknowledged();
+        if (!watches || encoder_.busy(id) || !session->awaits_frame()) {
+            gate_.excuse(id);
+        }
+        if (!session->due(now) || encoder_.busy(id)) {
             continue;
         }
         const FrameAdvice advice = server_.advise(id, session->demand(now));
         if (!advice.send) {
+            gate_.excuse(id);
             continue;
         }
         if (session->has_image() || session->acknowledged()) {
@@ -316,10 +291,11 @@ void RenderLoop::send_frame(const Wanted& wanted) {
         prepare_image(session);
         session.render(wanted.advice, figures(), start);
     } catch (const GpuError& error) {
-        refuse_picture(session, error.what());
+        refuse_picture(session, error);
     }
     const double cost = milliseconds_since(start);
     scheduler_.charge(wanted.viewer, cost);
+    gate_.note_frame(wanted.viewer, cost);
     session.note_frame_cost(cost);
     cost_.note_frame(cost, session.drawn_pixels());
 }
@@ -341,7 +317,7 @@ void RenderLoop::send_first_frames(std::span<const Wanted> newcomers, double sli
                 session.render_first(*first_look_, wanted.advice, figures(), start);
             encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false, {}});
         } catch (const GpuError& error) {
-            refuse_picture(session, error.what());
+            refuse_picture(session, error);
         }
         if (milliseconds_since(begin) >= slice_ms) {
             return;

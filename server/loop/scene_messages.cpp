@@ -5,6 +5,8 @@
 
 #include "journal/change_sum.h"
 #include "scene/effects_plan.h"
+#include "scene/light_figures.h"
+#include "scene/object_limits.h"
 
 namespace raybundle {
 
@@ -63,6 +65,11 @@ void to_message(const glm::vec3& v, v1::Vec3* message) {
     message->set_z(v.z);
 }
 
+void to_message(const glm::uvec2& size, v1::Viewport* message) {
+    message->set_width(size.x);
+    message->set_height(size.y);
+}
+
 void to_message(const Bounds& bounds, v1::Bounds* message) {
     to_message(bounds.empty() ? glm::vec3(0.0F) : bounds.min, message->mutable_min());
     to_message(bounds.empty() ? glm::vec3(0.0F) : bounds.max, message->mutable_max());
@@ -106,29 +113,63 @@ Bounds world_bounds(const Object& object) {
 
 namespace {
 
+void describe_figures(const LightFigures& figures, v1::Light* out) {
+    if (figures.flux > 0.0) {
+        out->set_flux(static_cast<float>(figures.flux));
+    }
+    if (figures.peak > 0.0) {
+        out->set_peak(static_cast<float>(figures.peak));
+    }
+    if (figures.watts > 0.0) {
+        out->set_watts(static_cast<float>(figures.watts));
+    }
+}
+
 /// Punctual lights are numbered after the area lights.
 void describe_light(const PunctualLight& light, v1::Scene* message) {
     const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
     v1::Light* out = message->add_lights();
     const bool directional = light.kind == PunctualKind::directional;
-    const float intensity = luminance(light.intensity);
+    const PunctualSetting setting = setting_of(light);
+    const float unit = intensity_unit(light);
+    const float loaded = luminance(setting.loaded);
     out->set_id(id);
     out->set_name(light.name);
     out->set_kind(directional                        ? v1::Light::DIRECTIONAL
                   : light.kind == PunctualKind::spot ? v1::Light::SPOT
                                                      : v1::Light::POINT);
-    out->set_intensity(intensity);
-    out->set_unit(directional ? v1::Light::LX : v1::Light::CD);
-    to_message(light.intensity / intensity, out->mutable_colour());
-    out->set_on(true);
-    out->set_loaded_intensity(intensity);
-    to_message(light.intensity / intensity, out->mutable_loaded_colour());
+    out->set_intensity(unit * luminance(setting.intensity));
+    out->set_unit(directional ? v1::Light::LX : light.profile ? v1::Light::LM : v1::Light::CD);
+    to_message(setting.colour, out->mutable_colour());
+    out->set_on(setting.on);
+    out->set_loaded_intensity(unit * loaded);
+    to_message(loaded > 0.0F ? setting.loaded / loaded : light.dark_colour,
+               out->mutable_loaded_colour());
+    describe_figures(loaded_figures(light), out);
 }
 
 void describe_effects(const Scene& scene, v1::Scene* message) {
     for (const Effect& effect : plan_effects(scene, 0).effects) {
         to_message(effect, message->add_effects());
     }
+}
+
+v1::SetLight state_of_light(const Scene& scene, std::uint32_t id) {
+    v1::SetLight state;
+    state.set_light(id);
+    if (const auto punctual = punctual_index(scene, id)) {
+        const PunctualLight& light = scene.punctual_lights[*punctual];
+        const PunctualSetting setting = setting_of(light);
+        state.set_intensity(intensity_unit(light) * luminance(setting.intensity));
+        state.set_on(setting.on);
+        to_message(setting.colour, state.mutable_colour());
+        return state;
+    }
+    const Light& light = scene.lights[id - 1];
+    state.set_intensity(luminance(light.radiance));
+    state.set_on(light.on);
+    to_message(light.colour, state.mutable_colour());
+    return state;
 }
 
 v1::Error error(v1::Error::Code code, const std::string& message) {
@@ -145,7 +186,11 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
     if (change.has_move_object()) {
         const bool known = id >= 1 && id <= scene.objects.size();
         if (known && scene.objects[id - 1].movable) {
-            return {};
+            const std::string problem =
+                problem_of(scene, id - 1, from_message(change.move_object().transform()));
+            return problem.empty()
+                       ? v1::Error()
+                       : error(v1::Error::INVALID_ARGUMENT, "moveObject.transform." + problem);
         }
         return error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
                      "moveObject.object: no movable object " + std::to_string(id));
@@ -153,7 +198,8 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
     const bool light = change.has_set_light();
     const std::string problem = light ? problem_of(scene, from_message(change.set_light()))
                                       : problem_of(scene, from_message(change.set_material()));
-    const std::size_t count = light ? scene.lights.size() : scene.materials.size();
+    const std::size_t count =
+        light ? scene.lights.size() + scene.punctual_lights.size() : scene.materials.size();
     const bool known = id >= 1 && id <= count;
     return problem.empty()
                ? v1::Error()
@@ -169,12 +215,7 @@ v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change) {
         to_message(scene.objects[id - 1].transform,
                    state.mutable_move_object()->mutable_transform());
     } else if (change.has_set_light()) {
-        const Light& light = scene.lights[id - 1];
-        v1::SetLight* message = state.mutable_set_light();
-        message->set_light(id);
-        message->set_intensity(luminance(light.radiance));
-        message->set_on(light.on);
-        to_message(light.colour, message->mutable_colour());
+        *state.mutable_set_light() = state_of_light(scene, id);
     } else {
         const Material& material = scene.materials[id - 1];
         v1::SetMaterial* message = state.mutable_set_material();
@@ -225,7 +266,9 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_on(light.on);
         const float loaded = luminance(light.loaded);
         out->set_loaded_intensity(loaded);
-        to_message(light.loaded / std::max(loaded, 1e-30F), out->mutable_loaded_colour());
+        to_message(loaded > 0.0F ? light.loaded / loaded : light.colour,
+                   out->mutable_loaded_colour());
+        describe_figures(loaded_figures(light), out);
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         describe_light(light, message);

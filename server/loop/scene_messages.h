@@ -14,6 +14,7 @@ Transform from_message(const v1::Transform& transform);
 LightEdit from_message(const v1::SetLight& light);
 MaterialEdit from_message(const v1::SetMaterial& material);
 void to_message(const glm::vec3& v, v1::Vec3* message);
+void to_message(const glm::uvec2& size, v1::Viewport* message);
 void to_message(const Bounds& bounds, v1::Bounds* message);
 void to_message(const Transform& transform, v1::Transform* message);
 void to_message(const Effect& effect, v1::Effect* message);

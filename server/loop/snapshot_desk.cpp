@@ -4,23 +4,22 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "gpu/egl_context.h"
+#include "loop/picture_refusal.h"
+#include "loop/snapshot_quota.h"
 #include "stream/elapsed.h"
 #include "stream/image_encoder.h"
-#include "view/error_interval.h"
 #include "view/image_file.h"
 
 namespace raybundle {
 
 namespace {
 
-constexpr std::uint64_t least_samples = 32;  // before an error is believed
 constexpr std::chrono::hours most_time(1);
 constexpr std::chrono::milliseconds statistics_interval(100);
-constexpr std::chrono::seconds report_interval(1);
 constexpr double earlier_slice_ms = 40.0;          // of iterations of an earlier scene at once
 constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
 
@@ -43,15 +42,21 @@ SnapshotDesk::SnapshotDesk(Server& server, MakeEarlier make_earlier)
 SnapshotDesk::~SnapshotDesk() = default;
 
 void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const PictureLook& look) {
-    if (requests_.size() >= max_waiting) {
-        server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED,
-                            "too many snapshots wait already");
+    std::vector<WaitingSnapshot> waiting;
+    for (const Request& other : requests_) {
+        waiting.push_back({other.event.viewer, other.event.role});
+    }
+    const WaitingSnapshot next{request.viewer, request.role};
+    if (const auto refusal = refuse_snapshot(waiting, next)) {
+        server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED, *refusal);
         return;
     }
-    requests_.push_back({request, camera, look});
+    Request added{request, camera, look};
     if (!request.message.snapshot().has_epoch()) {
-        requests_.back().look = {DisplayMode::photo, look.exposure, {}};
+        added.look = {DisplayMode::photo, look.exposure, {}};
     }
+    const auto place = static_cast<std::ptrdiff_t>(place_of_snapshot(waiting, next));
+    requests_.insert(requests_.begin() + place, std::move(added));
 }
 
 const ViewerImage* SnapshotDesk::picture_of(ViewerId viewer) const {
@@ -83,46 +88,6 @@ void SnapshotDesk::cancel(const ClientEvent& request) {
     server_.reply_ok(request);
 }
 
-/// What is known of the picture that is being made.
-v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
-    v1::SnapshotProgress progress;
-    if (!image_ || image_->samples() < least_samples || !image_->statistics().known) {
-        return progress;
-    }
-    const ImageStatistics& statistics = image_->statistics();
-    progress.set_relative_error(static_cast<float>(statistics.error_high));
-    const double factor =
-        samples_factor(statistics.noise, statistics.discretisation, requests_.front().error(),
-                       statistics.samples, image_->sample_order());
-    if (std::isfinite(factor)) {
-        progress.set_seconds_left(
-            static_cast<float>((factor - 1.0) * seconds(Clock::now() - begun_)));
-    }
-    return progress;
-}
-
-void SnapshotDesk::report() {
-    const auto now = Clock::now();
-    if (requests_.empty() || now - last_report_ < report_interval) {
-        return;
-    }
-    last_report_ = now;
-    for (std::size_t i = 0; i < requests_.size(); ++i) {
-        const ClientEvent& event = requests_[i].event;
-        if (!event.message.has_id() || now - requests_[i].since < report_interval) {
-            continue;
-        }
-        v1::ServerMessage message;
-        v1::SnapshotProgress& progress = *message.mutable_snapshot_progress();
-        if (i == 0) {
-            progress = progress_of_first();
-        }
-        progress.set_request(event.message.id());
-        progress.set_ahead(static_cast<std::uint32_t>(i));
-        server_.send(event.viewer, message);
-    }
-}
-
 void SnapshotDesk::forget(ViewerId viewer) {
     if (picture_of(viewer) != nullptr) {
         drop_picture();
@@ -138,6 +103,7 @@ void SnapshotDesk::restart() {
 
 void SnapshotDesk::drop_picture() {
     image_.reset();
+    tiles_.reset();
     taking_part_ = false;
     apart_ = false;
 }
@@ -155,9 +121,13 @@ bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
                          const ViewPrograms& programs) {
     const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
     try {
-        image_ = std::make_unique<ViewerImage>(scene, store, programs,
-                                               glm::uvec2(wanted.width(), wanted.height()));
-        image_->set_camera(requests_.front().camera);
+        if (!tiles_) {
+            tiles_.emplace(glm::uvec2(wanted.width(), wanted.height()),
+                           wanted.format() == v1::Snapshot::EXR ? PictureTiles::Content::radiance
+                                                                : PictureTiles::Content::display);
+        }
+        image_ = std::make_unique<ViewerImage>(scene, store, programs, tiles_->drawn_size());
+        image_->set_camera(tiles_->drawn_camera(requests_.front().camera));
         begun_ = Clock::now();
         return true;
     } catch (const GpuError& error) {
@@ -170,8 +140,8 @@ bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
 void SnapshotDesk::drop(const GpuError& error) {
     const ClientEvent& event = requests_.front().event;
     spdlog::error("no snapshot for viewer {}: {}", event.viewer, error.what());
-    server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED,
-                        "the server has no memory for a picture of this size");
+    const Refusal refusal = refusal_of(error);
+    server_.reply_error(event, refusal.code, refusal.text);
     drop_picture();
     requests_.pop_front();
 }
@@ -182,7 +152,9 @@ bool SnapshotDesk::done() {
         return false;
     }
     const ImageStatistics& statistics = image_->statistics();
-    return Clock::now() - request.since > most_time ||
+    const auto share =
+        static_cast<double>(tiles_->done() + 1) / static_cast<double>(tiles_->count());
+    return Clock::now() - request.since > share * most_time ||
            (image_->samples() >= least_samples && statistics.samples >= least_samples &&
             statistics.meets(request.error()));
 }
@@ -313,20 +285,23 @@ bool SnapshotDesk::finish_earlier() {
     return true;
 }
 
+/// Takes the tile that is done, and delivers the picture where it was the last one.
 void SnapshotDesk::deliver(std::uint32_t epoch) {
+    tiles_->take(*image_, requests_.front().look);
+    image_.reset();
+    taking_part_ = false;
+    if (!tiles_->complete()) {
+        return;
+    }
     auto picture = std::make_unique<Finished>();
     picture->event = requests_.front().event;
-    picture->size = image_->size();
+    picture->size = tiles_->size();
     picture->epoch = epoch;
-    picture->relative_error = static_cast<float>(image_->statistics().error_high);
-    if (picture->event.message.snapshot().format() == v1::Snapshot::EXR) {
-        picture->radiance = image_->read_radiance();
-    } else {
-        const PictureLook& look = requests_.front().look;
-        image_->compose(look.mode, look.exposure, image_->size(), look.scale);
-        picture->exposure = look.exposure;
-        const std::span<const std::uint8_t> pixels = image_->take();
-        picture->pixels.assign(pixels.begin(), pixels.end());
+    picture->relative_error = static_cast<float>(tiles_->error_high());
+    picture->radiance = tiles_->take_radiance();
+    picture->pixels = tiles_->take_display();
+    if (picture->radiance.empty()) {
+        picture->exposure = requests_.front().look.exposure;
     }
     drop_picture();
     requests_.pop_front();

@@ -16,20 +16,22 @@
 #include "loop/earlier_scene.h"
 #include "net/server.h"
 #include "stream/time_share.h"
+#include "view/picture_tiles.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
 
 /// Pictures that viewers have asked for, rendered off-screen one after the other. A picture takes
-/// part in whole groups of iterations; while anybody moves, only as often as keeps what it costs
-/// below a share of the time. One of an earlier epoch has iterations of its own: while somebody
-/// moves in the same share of the time, while all rest in turns with the present scene, and all of
-/// the time where nobody needs it. Thread of the GL context.
+/// part in whole groups of iterations, a large one tile by tile (PictureTiles); while anybody
+/// moves, only as often as keeps what it costs below a share of the time. One of an earlier epoch
+/// has iterations of its own: while somebody moves in the same share of the time, while all rest in
+/// turns with the present scene, and all of the time where nobody needs it. Thread of the GL
+/// context.
 class SnapshotDesk {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr double time_share = 0.18;     ///< of the solver's time while somebody moves
-    static constexpr std::size_t max_waiting = 8;  ///< requests, of all viewers
+    static constexpr double time_share = 0.18;  ///< of the solver's time while somebody moves
+    static constexpr std::uint64_t least_samples = 32;  ///< before an error is believed
 
     /// Makes the scene as it was after a change; null where that is not known any more.
     using MakeEarlier = std::function<std::unique_ptr<EarlierScene>(std::uint32_t epoch)>;
@@ -120,9 +122,10 @@ class SnapshotDesk {
     std::deque<Request> requests_;           ///< the first one is being rendered
     std::unique_ptr<EarlierScene> earlier_;  ///< kept for a while: who compares looks around
     Clock::time_point earlier_used_;
-    bool apart_ = false;  ///< image_ is, or will be, of earlier_
-    std::unique_ptr<ViewerImage> image_;
-    Clock::time_point begun_;  ///< image_
+    bool apart_ = false;                  ///< image_ is, or will be, of earlier_
+    std::optional<PictureTiles> tiles_;   ///< of the picture that is being made
+    std::unique_ptr<ViewerImage> image_;  ///< its next tile
+    Clock::time_point begun_;             ///< image_
     bool taking_part_ = false;
     bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
     Clock::time_point last_report_;

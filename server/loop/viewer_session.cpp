@@ -54,7 +54,7 @@ double ViewerSession::since_change_s(Clock::time_point now) const {
 
 void ViewerSession::note_change() {
     changed_ = true;
-    measured_.forget();
+    measured_.carry_over();
     samples_at_check_ = 0;
     last_change_ = Clock::now();
 }
@@ -148,7 +148,7 @@ void ViewerSession::set_viewport(glm::uvec2 size) {
 
 void ViewerSession::give_image(std::unique_ptr<ViewerImage> image, bool shown) {
     image_ = std::move(image);
-    measured_.forget();
+    measured_.carry_over();
     samples_at_check_ = 0;
     view_waits_ = view_waits_ || !shown;
     rendering_ = false;

@@ -40,6 +40,8 @@ class ViewerSession {
     void set_moving_scale(double scale, Clock::time_point now);
     /// Somebody drags an object: the picture has this size at once. Requires has_image().
     void note_drag(double scale, Clock::time_point now);
+    /// A step of the drag has been worked in, however long that took: the picture keeps its size.
+    void stay_in_motion(Clock::time_point now) { last_motion_ = now; }
     /// What a frame of the moving camera takes with a full picture, ms; 0: not known yet.
     [[nodiscard]] double full_frame_ms() const { return full_frame_ms_; }
     /// The frame just rendered took so long.
@@ -73,6 +75,8 @@ class ViewerSession {
     /// The camera or an object moved within the last moments, or no frame has shown the camera yet:
     /// whoever waits long for it must not fall behind those who have just been served.
     [[nodiscard]] bool moving(Clock::time_point now) const;
+    /// Something has changed that no frame shows yet, or a frame is being drawn.
+    [[nodiscard]] bool awaits_frame() const { return changed_ || rendering_; }
     /// A new frame is worth sending now.
     [[nodiscard]] bool due(Clock::time_point now) const;
     [[nodiscard]] bool target_met();

@@ -83,6 +83,25 @@ std::optional<AccessToken> AccessTokens::find(const TokenDigest& digest) const {
     return found;
 }
 
+bool same_name(std::string_view a, std::string_view b) {
+    const auto trimmed = [](std::string_view text) {
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+        return text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+    };
+    const auto lower = [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; };
+    a = trimmed(a);
+    b = trimmed(b);
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) {
+        return lower(static_cast<unsigned char>(x)) == lower(static_cast<unsigned char>(y));
+    });
+}
+
+bool AccessTokens::owns_name(std::string_view name) const {
+    return std::any_of(tokens_.begin(), tokens_.end(), [name](const AccessToken& token) {
+        return !token.name.empty() && same_name(token.name, name);
+    });
+}
+
 std::optional<v1::Role> AccessTokens::role_of(const TokenDigest& digest) const {
     if (tokens_.empty()) {
         return v1::EDITOR;

@@ -47,12 +47,18 @@ class AccessTokens {
     /// constant time.
     [[nodiscard]] std::optional<AccessToken> find(const TokenDigest& digest) const;
 
+    /// Whether a token has this name: nobody else may call himself so.
+    [[nodiscard]] bool owns_name(std::string_view name) const;
+
     /// What a token allows: EDITOR where there are no tokens, nothing for a wrong one.
     [[nodiscard]] std::optional<v1::Role> role_of(const TokenDigest& digest) const;
 
   private:
     std::vector<AccessToken> tokens_;
 };
+
+/// Whether people read two names as the same: without regard to case and blanks around.
+bool same_name(std::string_view a, std::string_view b);
 
 /// Lowest role that may send a message of this kind.
 v1::Role required_role(v1::ClientMessage::BodyCase body);

@@ -15,7 +15,7 @@ namespace {
 PeerAddress of_ipv4(const in_addr& address) {
     std::array<char, INET_ADDRSTRLEN> text{};
     inet_ntop(AF_INET, &address, text.data(), text.size());
-    return {text.data(), (ntohl(address.s_addr) >> 24U) == 127U};
+    return {text.data(), (ntohl(address.s_addr) >> 24U) == 127U, text.data()};
 }
 
 PeerAddress of_ipv6(in6_addr address) {
@@ -25,10 +25,12 @@ PeerAddress of_ipv6(in6_addr address) {
         return of_ipv4(inner);
     }
     const bool loopback = IN6_IS_ADDR_LOOPBACK(&address);
+    std::array<char, INET6_ADDRSTRLEN> whole{};
+    inet_ntop(AF_INET6, &address, whole.data(), whole.size());
     std::fill(std::begin(address.s6_addr) + 8, std::end(address.s6_addr), std::uint8_t{0});
     std::array<char, INET6_ADDRSTRLEN> text{};
     inet_ntop(AF_INET6, &address, text.data(), text.size());
-    return {std::string(text.data()) + "/64", loopback};
+    return {std::string(text.data()) + "/64", loopback, whole.data()};
 }
 
 }  // namespace

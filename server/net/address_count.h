@@ -13,6 +13,7 @@ struct PeerAddress {
     /// which is what one subscriber gets. Empty: unknown.
     std::string key;
     bool loopback = false;  ///< this machine, for example a reverse proxy
+    std::string text{};     ///< the whole address
 };
 
 /// Peer of a connected TCP socket.

@@ -20,7 +20,7 @@ struct ClientEvent {
     /// Ids of requests that `message` has replaced while it waited (see Inbox); they get its
     /// answer.
     std::vector<std::uint32_t> superseded;
-    v1::Role role = v1::EDITOR;  ///< of `joined`: what its token allows
+    v1::Role role = v1::EDITOR;  ///< what the viewer's token allows
 };
 
 }  // namespace raybundle

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/gate.h"
 
+#include <spdlog/spdlog.h>
+
 namespace raybundle {
 
 std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
     const auto current = access();
-    const Pass pass{v1::EDITOR, token_digest(hello.token())};
+    const Pass pass{v1::EDITOR, token_digest(hello.token()), {}};
     const auto role = current->tokens.role_of(pass.token);
     if (!role) {
         const std::string reason = hello.token().empty() ? "is missing" : "is not valid";
         return Denial{{v1::Error::UNAUTHENTICATED, "hello.token: " + reason, std::nullopt},
                       std::nullopt};
+    }
+    const auto token = current->tokens.find(pass.token);
+    const std::string token_name = token ? token->name : "";
+    if (current->tokens.owns_name(hello.name()) && !same_name(hello.name(), token_name)) {
+        return Denial{
+            {v1::Error::PERMISSION_DENIED,
+             "hello.name: '" + hello.name() + "' is the name of another token", std::nullopt},
+            std::nullopt};
     }
     const std::lock_guard lock(mutex_);
     if (present_ >= max_viewers_) {
@@ -21,7 +31,15 @@ std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
                       CloseCode::try_again_later};
     }
     ++present_;
-    return Pass{*role, pass.token};
+    return Pass{*role, pass.token, token_name};
+}
+
+double Gate::note_wrong_token(const std::string& peer, std::string_view where, double now_ms) {
+    const WrongTokens::Answer answer = wrong_tokens_.note(peer, now_ms);
+    if (answer.worth_a_line) {
+        spdlog::warn("wrong token from {} in {}, {} so far", peer, where, answer.of_this_peer);
+    }
+    return answer.delay_ms;
 }
 
 void Gate::leave() {

@@ -13,6 +13,7 @@
 #include "net/upgrade_check.h"
 #include "net/viewer_link.h"
 #include "net/wire_codec.h"
+#include "net/wrong_tokens.h"
 
 namespace raybundle {
 
@@ -26,6 +27,7 @@ struct Access {
 struct Pass {
     v1::Role role = v1::EDITOR;
     TokenDigest token{};
+    std::string token_name{};  ///< empty where the server has no tokens
 };
 
 /// Why a viewer stays outside; `close` says whether its connection ends.
@@ -43,6 +45,11 @@ class Gate {
     /// Checks a hello. With a Pass the viewer counts as present until leave().
     std::variant<Pass, Denial> enter(const v1::Hello& hello);
     void leave();
+
+    /// Remembers a wrong token of a peer, in a log line where it is worth one, and says how long
+    /// the answer is to wait.
+    double note_wrong_token(const std::string& peer, std::string_view where, double now_ms);
+    [[nodiscard]] std::uint64_t wrong_tokens() const { return wrong_tokens_.total(); }
 
     /// Whether the pass would be given again today.
     [[nodiscard]] bool still_valid(const Pass& pass) const;
@@ -65,6 +72,7 @@ class Gate {
     mutable std::mutex mutex_;
     std::shared_ptr<const Access> access_;
     std::size_t present_ = 0;
+    WrongTokens wrong_tokens_;
 };
 
 }  // namespace raybundle

@@ -48,6 +48,27 @@ HttpResponse plain(int status, std::string text) {
     return response;
 }
 
+/// The file in the form that the request takes, or 304 where the client has it already.
+HttpResponse encoded_response(HttpResponse response, const EmbeddedFile& file,
+                              const EncodedFile& encoded, const HttpContent& content) {
+    const bool packed = encoded.gzip && accepts_gzip(content.accept_encoding);
+    const std::string packed_etag = gzip_etag(encoded.etag);
+    response.headers.emplace_back("etag:", packed ? packed_etag : encoded.etag);
+    response.headers.emplace_back("vary:", "Accept-Encoding");
+    if (packed) {
+        response.file = encoded.gzip;
+    } else {
+        response.body = file.contents;
+    }
+    if (names_etag(content.if_none_match, packed ? packed_etag : encoded.etag)) {
+        response.status = 304;
+        response.send_body = false;
+    } else if (packed) {
+        response.headers.emplace_back("content-encoding:", "gzip");
+    }
+    return response;
+}
+
 HttpResponse file_response(std::string_view path, const HttpContent& content) {
     const std::string_view name = path == "/" ? "index.html" : path.substr(1);
     const auto file = std::find_if(content.files.begin(), content.files.end(),
@@ -57,8 +78,13 @@ HttpResponse file_response(std::string_view path, const HttpContent& content) {
     }
     HttpResponse response;
     response.content_type = content_type(name);
-    response.body = file->contents;
-    return response;
+    const EncodedFile* const encoded =
+        content.encoded != nullptr ? content.encoded->find(name) : nullptr;
+    if (encoded == nullptr) {
+        response.body = file->contents;
+        return response;
+    }
+    return encoded_response(std::move(response), *file, *encoded, content);
 }
 
 HttpResponse snapshot_response(std::string_view path, const SnapshotStore& store) {
@@ -71,12 +97,30 @@ HttpResponse snapshot_response(std::string_view path, const SnapshotStore& store
     return response;
 }
 
+/// Live: the network answers. Ready: there are pictures. Editable: changes can be saved, too.
+HttpResponse health(std::string_view path, const HttpContent& content) {
+    if (path == "/healthz/live") {
+        return plain(200, "live\n");
+    }
+    if (path != "/healthz" && path != "/healthz/ready" && path != "/healthz/editable") {
+        return plain(404, "Not found; there are live, ready and editable\n");
+    }
+    if (!content.ready) {
+        return plain(503, "starting\n");
+    }
+    if (path == "/healthz/editable") {
+        return content.editable ? plain(200, "editable\n")
+                                : plain(503, "read-only: changes cannot be saved, see the log\n");
+    }
+    return plain(200, "ok\n");
+}
+
 HttpResponse get(std::string_view path, const HttpContent& content) {
     if (!path.starts_with('/')) {
         return plain(400, "Bad request\n");
     }
-    if (path == "/healthz") {
-        return content.ready ? plain(200, "ok\n") : plain(503, "starting\n");
+    if (path == "/healthz" || path.starts_with("/healthz/")) {
+        return health(path, content);
     }
     if (path == "/metrics" && !content.metrics_allowed) {
         return plain(401, "Needs the header Authorization: Bearer TOKEN\n");
@@ -90,19 +134,25 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
         return snapshot_response(path, *content.snapshots);
     }
     if (path == "/ws") {
-        return plain(426, "This is a WebSocket address\n");
+        return upgrade_required("This is a WebSocket address\n");
     }
     return file_response(path, content);
 }
 
 }  // namespace
 
+HttpResponse upgrade_required(std::string text) {
+    HttpResponse response = plain(426, std::move(text));
+    response.headers = {{"upgrade:", "websocket"}, {"sec-websocket-version:", "13"}};
+    return response;
+}
+
 HttpResponse http_response(HttpMethod method, std::string_view path, const HttpContent& content) {
     if (method != HttpMethod::get && method != HttpMethod::head) {
         return plain(405, "Only GET and HEAD\n");
     }
     HttpResponse response = get(path, content);
-    response.send_body = method == HttpMethod::get;
+    response.send_body = response.send_body && method == HttpMethod::get;
     return response;
 }
 

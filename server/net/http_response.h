@@ -6,8 +6,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "embedded_file.h"
+#include "net/encoded_files.h"
 #include "net/snapshot_store.h"
 
 namespace raybundle {
@@ -20,7 +22,10 @@ struct HttpResponse {
     std::string_view content_type = "text/plain; charset=utf-8";
     std::string body;
     std::shared_ptr<const std::string> file;  ///< body where it is not null, shared with its store
-    bool send_body = true;  ///< false for HEAD: the length is stated, the body is not sent
+    bool send_body = true;  ///< false for HEAD and 304: the length is stated, the body is not sent
+    /// Besides http_headers(), and in their place where the name is the same; names end with a
+    /// colon.
+    std::vector<std::pair<std::string, std::string>> headers;
 
     [[nodiscard]] const std::string& content() const { return file ? *file : body; }
 };
@@ -32,13 +37,21 @@ struct HttpContent {
     std::string metrics;                       ///< of /metrics
     bool metrics_allowed = true;               ///< the request has shown a token, or needs none
     const SnapshotStore* snapshots = nullptr;  ///< of /snapshots/...; null: there are none
+    const EncodedFiles* encoded = nullptr;     ///< of `files`; null: they are sent as they are
+    std::string accept_encoding{};             ///< header of the request
+    std::string if_none_match{};               ///< header of the request
+    bool editable = true;                      ///< of /healthz/editable
 };
 
 /// Decides about a request. `path` is the decoded path without query. Only names in the table are
 /// ever served, so no path can lead out of it.
 HttpResponse http_response(HttpMethod method, std::string_view path, const HttpContent& content);
 
-/// Name and value of the headers of every answer: no caching, strict content security policy.
+/// 426 with the WebSocket version spoken here (RFC 6455, 4.4).
+HttpResponse upgrade_required(std::string text);
+
+/// Name and value of the headers of every answer: nothing is used from a cache unasked, strict
+/// content security policy.
 /// Names end with a colon, as libwebsockets wants them.
 std::span<const std::pair<const char*, std::string_view>> http_headers();
 

@@ -27,9 +27,15 @@ class HttpTransfer {
     [[nodiscard]] int status() const { return response_.status; }
 
   private:
+    bool add_headers(lws* connection, unsigned char** next, unsigned char* end);
+
     HttpResponse response_;
     std::size_t size_ = 0;  ///< bytes of the body that are to be written
     std::size_t written_ = 0;
 };
+
+/// Writes a short answer whole, in HTTP/1.1, where libwebsockets does not know the request's
+/// version yet: to a WebSocket handshake that is refused. Close the connection then.
+void write_refusal(lws* connection, const HttpResponse& response);
 
 }  // namespace raybundle

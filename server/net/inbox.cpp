@@ -8,12 +8,13 @@
 namespace raybundle {
 namespace {
 
-using Body = v1::ClientMessage::BodyCase;
+using WaitingBody = v1::ClientMessage::BodyCase;
 
 /// Messages of which only the newest matters.
 bool is_state(const v1::ClientMessage& message) {
     const auto body = message.body_case();
-    return body == Body::kSetCamera || body == Body::kSetViewport || body == Body::kMoveObject;
+    return body == WaitingBody::kSetCamera || body == WaitingBody::kSetViewport ||
+           body == WaitingBody::kMoveObject;
 }
 
 bool is_final(const v1::MoveObject& move) {
@@ -22,7 +23,7 @@ bool is_final(const v1::MoveObject& move) {
 
 /// Whether both set the same thing: the camera, the viewport, the place of one object.
 bool same_subject(const v1::ClientMessage& a, const v1::ClientMessage& b) {
-    return a.body_case() == b.body_case() && (a.body_case() != Body::kMoveObject ||
+    return a.body_case() == b.body_case() && (a.body_case() != WaitingBody::kMoveObject ||
                                               a.move_object().object() == b.move_object().object());
 }
 
@@ -34,6 +35,9 @@ void Inbox::joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role) {
         events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}, role});
     }
     changed_.notify_one();
+    if (on_joined_) {
+        on_joined_(viewer);
+    }
 }
 
 /// The waiting event that `message` makes obsolete, or end().
@@ -49,18 +53,18 @@ Inbox::Events::iterator Inbox::find_mergeable(ViewerId viewer, const v1::ClientM
             return events_.end();
         }
         if (same_subject(event->message, message)) {
-            const bool settled =
-                message.body_case() == Body::kMoveObject && is_final(event->message.move_object());
+            const bool settled = message.body_case() == WaitingBody::kMoveObject &&
+                                 is_final(event->message.move_object());
             return settled ? events_.end() : std::next(event).base();
         }
     }
     return events_.end();
 }
 
-bool Inbox::push(ViewerId viewer, v1::ClientMessage message) {
+bool Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
     {
         const std::lock_guard lock(mutex_);
-        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, v1::EDITOR};
+        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role};
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {

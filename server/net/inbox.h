@@ -5,9 +5,11 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "net/client_event.h"
@@ -28,8 +30,12 @@ class Inbox {
 
     void joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role = v1::EDITOR);
 
+    /// `call` hears of each viewer that joins, on the thread that reports it, right after its event
+    /// has been queued. Set it before the network starts.
+    void set_on_joined(std::function<void(ViewerId)> call) { on_joined_ = std::move(call); }
+
     /// False where the viewer has too many requests waiting; the message is not taken then.
-    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message);
+    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message, v1::Role role = v1::EDITOR);
 
     /// Forgets what waits of this viewer; if the render thread has not heard of it yet, it never
     /// will.
@@ -56,6 +62,7 @@ class Inbox {
     Events::iterator find_mergeable(ViewerId viewer, const v1::ClientMessage& message);
 
     std::size_t max_waiting_;
+    std::function<void(ViewerId)> on_joined_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     Events events_;

@@ -44,11 +44,14 @@ class Checker {
 
     [[nodiscard]] std::optional<Refusal> result() const { return refusal_; }
 
-    void size(std::uint32_t width, std::uint32_t height, const std::string& field) {
-        require(width >= 1 && width <= limits_.max_width, field + ".width",
-                "must be 1.." + std::to_string(limits_.max_width));
-        require(height >= 1 && height <= limits_.max_height, field + ".height",
-                "must be 1.." + std::to_string(limits_.max_height));
+    /// Of a viewport, or of a snapshot.
+    template <typename Size>
+    void size(const Size& size, bool viewport, const std::string& field) {
+        const std::uint32_t most = viewport ? limits_.max_viewport : limits_.max_picture;
+        require(size.width() >= 1 && size.width() <= most, field + ".width",
+                "must be 1.." + std::to_string(most));
+        require(size.height() >= 1 && size.height() <= most, field + ".height",
+                "must be 1.." + std::to_string(most));
     }
 
     void colour(const v1::Vec3& colour, float max, std::string_view field, std::string_view range) {
@@ -114,7 +117,7 @@ void check_body(const v1::Hello& hello, Checker& check) {
                   "must be at most 64 characters");
     check.require(hello.token().size() <= kMaxToken, "hello.token", "must be at most 1024 bytes");
     if (hello.has_viewport()) {
-        check.size(hello.viewport().width(), hello.viewport().height(), "hello.viewport");
+        check.size(hello.viewport(), true, "hello.viewport");
     }
 }
 
@@ -143,7 +146,7 @@ void check_body(const v1::SetCamera& camera, Checker& check) {
 }
 
 void check_body(const v1::SetViewport& viewport, Checker& check) {
-    check.size(viewport.width(), viewport.height(), "setViewport");
+    check.size(viewport, true, "setViewport");
 }
 
 void check_body(const v1::SetTarget& target, Checker& check) {
@@ -160,6 +163,9 @@ void check_body(const v1::SetTarget& target, Checker& check) {
 }
 
 void check_body(const v1::SetDisplay& display, Checker& check) {
+    check.require(display.ByteSizeLong() > 0, "setDisplay",
+                  "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines or "
+                  "scaleUnit");
     if (display.has_mode()) {
         check.require(v1::SetDisplay::Mode_IsValid(display.mode()) &&
                           display.mode() != v1::SetDisplay::MODE_UNSPECIFIED,
@@ -197,6 +203,8 @@ void check_body(const v1::MoveObject& move, Checker& check) {
 
 void check_body(const v1::SetLight& light, Checker& check) {
     check.require(light.light() >= 1, "setLight.light", "is missing");
+    check.require(light.has_intensity() || light.has_on() || light.has_colour(), "setLight",
+                  "changes nothing: needs intensity, on or colour");
     check.require(light.intensity() >= 0.0F, "setLight.intensity", "must not be negative");
     if (light.has_colour()) {
         check.colour(light.colour(), static_cast<float>(kMaxNumber), "setLight.colour",
@@ -208,6 +216,8 @@ void check_body(const v1::SetLight& light, Checker& check) {
 
 void check_body(const v1::SetMaterial& material, Checker& check) {
     check.require(material.material() >= 1, "setMaterial.material", "is missing");
+    check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
+                  "setMaterial", "changes nothing: needs baseColour, roughness or metallic");
     check.colour(material.base_colour(), 1.0F, "setMaterial.baseColour", "must be 0..1");
     check.share(material.roughness(), "setMaterial.roughness");
     check.share(material.metallic(), "setMaterial.metallic");
@@ -271,7 +281,7 @@ void check_body(const v1::Ack& ack, Checker& check) {
 }
 
 void check_body(const v1::Snapshot& snapshot, Checker& check) {
-    check.size(snapshot.width(), snapshot.height(), "snapshot");
+    check.size(snapshot, false, "snapshot");
     check.require(snapshot.relative_error() > 0.0F && snapshot.relative_error() <= 1.0F,
                   "snapshot.relativeError", "must be above 0 and at most 1");
     check.require(snapshot.format() == v1::Snapshot::EXR || snapshot.format() == v1::Snapshot::PNG,

@@ -17,6 +17,10 @@ namespace {
 constexpr std::size_t kReceiveBytes = 16384;
 constexpr std::size_t kSendBytes = 65536;
 constexpr unsigned kServiceBufferBytes = 32768;
+/// What libwebsockets reads of headers before it hangs up without a word; the least that leaves
+/// room to answer 431 to who is beyond kMaxHeaderBytes, most that its unsigned short takes.
+constexpr unsigned short kReadHeaderBytes = 61440;
+static_assert(kReadHeaderBytes > 2 * kMaxHeaderBytes);
 
 /// A viewer that has been silent for so long is pinged, then given up.
 const lws_retry_bo_t kKeepAlive = [] {
@@ -44,6 +48,7 @@ lws_context_creation_info context_info(const ServerSettings& settings, const Lis
     info.user = user;
     info.vhost_name = "raybundle";
     info.alpn = "http/1.1";  // WebSocket over HTTP/2 has no use here
+    info.max_http_header_data = kReadHeaderBytes;
     info.pt_serv_buf_size = kServiceBufferBytes;
     info.retry_and_idle_policy = &kKeepAlive;
     info.timeout_secs = 10;

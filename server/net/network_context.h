@@ -3,9 +3,11 @@
 
 #include <libwebsockets.h>
 
+#include <cstddef>
 #include <cstdint>
 
 #include "net/server_settings.h"
+#include "net/upgrade_check.h"
 
 struct ssl_ctx_st;
 
@@ -17,8 +19,9 @@ struct NetworkContext {
     std::uint16_t port = 0;
 };
 
-/// Name of the WebSocket subprotocol. A client may also name none.
-inline constexpr const char* kSubprotocol = "raybundle.v1";
+/// Bytes of a request's headers, names apart, that are answered: a cookie of a single sign-on has 8
+/// kB.
+inline constexpr std::size_t kMaxHeaderBytes = 16384;
 
 /// Nothing below TLS 1.2 from now on.
 void require_modern_tls(ssl_ctx_st* context);

@@ -19,7 +19,7 @@ void add_queue_delays(const ViewerTable& viewers, MetricsText& out) {
         delays.push_back(link->queueing_delay_ms() / 1000.0);
     }
     std::sort(delays.begin(), delays.end());
-    out.family("raybundle_queue_delay_seconds", "gauge",
+    out.family("raybundle_queue_delay_seconds", "summary",
                "Delay of frames above the base round trip, over viewers");
     for (const auto& [label, share] :
          {std::pair("quantile=\"0.5\"", 0.5), std::pair("quantile=\"0.95\"", 0.95),
@@ -36,6 +36,16 @@ void add_queue_delays(const ViewerTable& viewers, MetricsText& out) {
 void NetworkState::set_metrics_source(std::function<std::string()> source) {
     const std::lock_guard lock(metrics_mutex_);
     metrics_source_ = std::move(source);
+}
+
+void NetworkState::set_editable_source(std::function<bool()> source) {
+    const std::lock_guard lock(metrics_mutex_);
+    editable_source_ = std::move(source);
+}
+
+bool NetworkState::editable() const {
+    const std::lock_guard lock(metrics_mutex_);
+    return !editable_source_ || editable_source_();
 }
 
 void NetworkState::set_upload_factory(UploadFactory factory) {
@@ -68,6 +78,8 @@ std::string NetworkState::metrics() const {
     out.counter("raybundle_connections_refused_total",
                 "Connections refused by origin, path or number",
                 count(counters.connections_refused));
+    out.counter("raybundle_wrong_tokens_total", "Wrong tokens, of viewers and of HTTP requests",
+                static_cast<double>(gate.wrong_tokens()));
     add_queue_delays(viewers, out);
     std::string text = out.text();
     const std::lock_guard lock(metrics_mutex_);

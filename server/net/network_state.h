@@ -41,6 +41,9 @@ struct NetworkState {
     std::atomic<bool> ready{false};
 
     void set_metrics_source(std::function<std::string()> source);
+    void set_editable_source(std::function<bool()> source);
+    /// Whether changes can be saved; true where nobody says.
+    [[nodiscard]] bool editable() const;
     void set_upload_factory(UploadFactory factory);
     /// Null where there is no factory or it cannot begin.
     [[nodiscard]] std::unique_ptr<Upload> begin_upload(const std::string& name) const;
@@ -51,6 +54,7 @@ struct NetworkState {
   private:
     mutable std::mutex metrics_mutex_;
     std::function<std::string()> metrics_source_;
+    std::function<bool()> editable_source_;
     mutable std::mutex upload_mutex_;
     UploadFactory upload_factory_;
 };

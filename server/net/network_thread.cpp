@@ -7,34 +7,17 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string_view>
 
-#include "embedded_file.h"
+#include "net/clock.h"
+#include "net/http_request.h"
 #include "net/network_context.h"
+#include "net/peer_name.h"
 #include "net/upgrade_check.h"
 
 namespace raybundle {
 namespace {
-
-HttpMethod method_of(int method) {
-    switch (method) {
-        case LWSHUMETH_GET:
-            return HttpMethod::get;
-        case LWSHUMETH_HEAD:
-            return HttpMethod::head;
-        case LWSHUMETH_PUT:
-            return HttpMethod::put;
-        default:
-            return HttpMethod::other;
-    }
-}
-
-std::string header(lws* connection, lws_token_indexes token) {
-    std::string text(static_cast<std::size_t>(lws_hdr_total_length(connection, token)) + 1, '\0');
-    const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), token);
-    text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
-    return text;
-}
 
 bool is_http_event(int reason) {
     return reason == LWS_CALLBACK_HTTP || reason == LWS_CALLBACK_HTTP_BODY ||
@@ -148,6 +131,7 @@ void NetworkThread::on_woken() {
     answer_uploads();
     const bool recheck = recheck_passes_.exchange(false);
     for (const auto& [connection, viewer] : viewers_) {
+        viewer->next_slice();
         if (recheck) {
             viewer->check_pass();
         } else {
@@ -171,6 +155,22 @@ void NetworkThread::add_connection(lws* connection) {
     std::string key = peer_address(lws_get_socket_fd(connection)).key;
     addresses_.add(key);
     connections_.emplace(connection, std::move(key));
+}
+
+std::string NetworkThread::peer_of(lws* connection) const {
+    return peer_name(peer_address(lws_get_socket_fd(connection)).text,
+                     request_header(connection, WSI_TOKEN_X_FORWARDED_FOR),
+                     state_.settings.trusted_proxies);
+}
+
+/// Role of the request's token; a wrong one is noted.
+std::optional<v1::Role> NetworkThread::role_of(lws* connection, std::string_view where) {
+    const std::string token = request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION);
+    const auto role = state_.gate.role_of(token);
+    if (!role && !token.empty()) {
+        state_.gate.note_wrong_token(peer_of(connection), where, server_time_ms());
+    }
+    return role;
 }
 
 void NetworkThread::remove_connection(lws* connection) {
@@ -213,7 +213,8 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
     }
     switch (reason) {
         case LWS_CALLBACK_ESTABLISHED:
-            viewers_[connection] = std::make_unique<ViewerConnection>(connection, state_);
+            viewers_[connection] =
+                std::make_unique<ViewerConnection>(connection, state_, peer_of(connection));
             return 0;
         case LWS_CALLBACK_CLOSED:
             viewers_.erase(connection);
@@ -242,7 +243,7 @@ int NetworkThread::on_http_event(lws* connection, int reason, void* in, std::siz
             uploads_.complete(connection);
             return 0;
         case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-            return confirm_upgrade(connection) ? 0 : 1;
+            return confirm_upgrade(connection) ? 0 : -1;
         default:
             uploads_.forget(connection);
             transfers_.erase(connection);
@@ -270,32 +271,40 @@ int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* i
 
 /// Refuses with an HTTP answer where the handshake is not for us.
 bool NetworkThread::confirm_upgrade(lws* connection) {
-    const UpgradeRequest request{header(connection, WSI_TOKEN_GET_URI),
-                                 header(connection, WSI_TOKEN_ORIGIN),
-                                 header(connection, WSI_TOKEN_HOST)};
-    const int status = refusal_status(request, state_.gate.access()->origins);
-    if (status == 0) {
+    const UpgradeRequest request{request_header(connection, WSI_TOKEN_GET_URI),
+                                 request_header(connection, WSI_TOKEN_ORIGIN),
+                                 request_header(connection, WSI_TOKEN_HOST),
+                                 request_header(connection, WSI_TOKEN_VERSION),
+                                 request_header(connection, WSI_TOKEN_KEY),
+                                 request_header(connection, WSI_TOKEN_PROTOCOL)};
+    auto refusal = has_large_headers(connection)
+                       ? std::optional(large_headers_response())
+                       : refuse_upgrade(request, state_.gate.access()->origins);
+    if (!refusal) {
         return true;
     }
     ++state_.counters.connections_refused;
-    spdlog::warn("refused a WebSocket connection to {} from origin {}", request.path,
-                 request.origin);
-    lws_return_http_status(connection, static_cast<unsigned>(status), nullptr);
+    spdlog::warn("refused a WebSocket connection of {} to {} from origin {}: {}",
+                 peer_of(connection), request.path, request.origin, refusal->status);
+    write_refusal(connection, *refusal);
     return false;
 }
 
 int NetworkThread::on_http_request(lws* connection) {
-    char* uri = nullptr;
-    int length = 0;
-    const HttpMethod method = method_of(lws_http_get_uri_and_method(connection, &uri, &length));
-    const std::string_view path(uri, length > 0 ? static_cast<std::size_t>(length) : 0);
+    const auto [method, path] = request_line(connection);
+    if (has_large_headers(connection)) {
+        return answer(connection, large_headers_response());
+    }
     if (method == HttpMethod::put) {
-        return on_upload(connection, std::string(path));
+        return on_upload(connection, path);
     }
     HttpContent content{client_files(), state_.ready, {}, true, &state_.snapshots};
+    content.encoded = &encoded_files_;
+    content.editable = state_.editable();
+    content.accept_encoding = request_header(connection, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
+    content.if_none_match = request_header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);
     if (path == "/metrics") {
-        content.metrics_allowed =
-            state_.gate.opens_metrics(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
+        content.metrics_allowed = role_of(connection, path).has_value();
     }
     if (path == "/metrics" && content.metrics_allowed) {
         content.metrics = state_.metrics();
@@ -314,9 +323,9 @@ int NetworkThread::answer(lws* connection, HttpResponse response) {
 
 int NetworkThread::on_upload(lws* connection, const std::string& path) {
     const UploadRequest request{
-        path, header(connection, WSI_TOKEN_ORIGIN), header(connection, WSI_TOKEN_HOST),
-        state_.gate.role_of(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION)),
-        parse_length(header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
+        path, request_header(connection, WSI_TOKEN_ORIGIN),
+        request_header(connection, WSI_TOKEN_HOST), role_of(connection, path),
+        parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
     auto refusal = uploads_.begin(connection, request);
     return refusal ? answer(connection, std::move(*refusal)) : 0;
 }

@@ -6,10 +6,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
+#include "embedded_file.h"
 #include "net/address_count.h"
+#include "net/encoded_files.h"
 #include "net/http_transfer.h"
 #include "net/http_uploads.h"
 #include "net/network_state.h"
@@ -56,6 +60,8 @@ class NetworkThread {
     [[nodiscard]] bool accepts(int socket);
     void add_connection(lws* connection);
     void remove_connection(lws* connection);
+    [[nodiscard]] std::string peer_of(lws* connection) const;
+    std::optional<v1::Role> role_of(lws* connection, std::string_view where);
     bool confirm_upgrade(lws* connection);
     int on_http_request(lws* connection);
     int on_http_event(lws* connection, int reason, void* in, std::size_t size);
@@ -67,6 +73,7 @@ class NetworkThread {
     int end_transfer(lws* connection);
 
     NetworkState& state_;
+    const EncodedFiles encoded_files_{client_files()};
     std::thread thread_;
     std::mutex context_mutex_;  ///< guards context_ against wake() while it is destroyed
     lws_context* context_ = nullptr;

@@ -160,6 +160,10 @@ void Server::set_ready(bool ready) {
     impl_->state.ready = ready;
 }
 
+void Server::set_editable_source(std::function<bool()> source) {
+    impl_->state.set_editable_source(std::move(source));
+}
+
 void Server::set_metrics_source(std::function<std::string()> source) {
     impl_->state.set_metrics_source(std::move(source));
 }

@@ -89,6 +89,9 @@ class Server {
 
     void set_ready(bool ready);  ///< what /healthz says: 200 or 503
 
+    /// Called on the network thread for GET /healthz/editable: whether changes can be saved.
+    void set_editable_source(std::function<bool()> source);
+
     /// Takes the scene files that editors upload; called on the network thread. Without one, or
     /// with max_upload_bytes 0, there are no uploads.
     void set_upload_factory(UploadFactory factory);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/session.h"
 
-#include <charconv>
+#include <spdlog/spdlog.h>
+
 #include <optional>
 #include <utility>
 
@@ -11,22 +12,6 @@ namespace raybundle {
 namespace {
 
 constexpr int kMaxWrongTokens = 3;  ///< of one connection
-
-/// Major number of "major.minor"; nothing where the text is not that.
-std::optional<int> major_version(std::string_view text) {
-    int major = 0;
-    int minor = 0;
-    const char* const end = text.data() + text.size();
-    const auto [dot, major_error] = std::from_chars(text.data(), end, major);
-    if (major_error != std::errc() || dot == end || *dot != '.') {
-        return std::nullopt;
-    }
-    const auto [rest, minor_error] = std::from_chars(dot + 1, end, minor);
-    if (minor_error != std::errc() || rest != end || major < 0 || minor < 0) {
-        return std::nullopt;
-    }
-    return major;
-}
 
 /// Name of the message in the words of the client, e.g. "moveObject".
 std::string body_name(const v1::ClientMessage& message) {
@@ -39,7 +24,7 @@ std::string body_name(const v1::ClientMessage& message) {
 
 void Session::on_fragment(std::string_view bytes, bool first, bool last, bool binary,
                           double now_ms) {
-    if (link_.closing()) {
+    if (link_.closing() || held_) {
         return;
     }
     if (first) {
@@ -64,8 +49,8 @@ void Session::on_fragment(std::string_view bytes, bool first, bool last, bool bi
         }
         return;
     }
-    ParsedMessage parsed =
-        binary_ ? parse_binary_message(buffer_, limits_) : parse_text_message(buffer_, limits_);
+    ParsedMessage parsed = binary_ ? parse_binary_message(buffer_, limits_, reading_)
+                                   : parse_text_message(buffer_, limits_, reading_);
     buffer_.clear();
     if (const auto* refusal = std::get_if<Refusal>(&parsed)) {
         refuse(*refusal);
@@ -77,7 +62,7 @@ void Session::on_fragment(std::string_view bytes, bool first, bool last, bool bi
 void Session::on_message(v1::ClientMessage message, double now_ms) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     if (message.has_hello()) {
-        on_hello(std::move(message));
+        on_hello(std::move(message), now_ms);
     } else if (!pass_) {
         refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
     } else if (const v1::Role needed = required_role(message.body_case()); pass_->role < needed) {
@@ -87,6 +72,12 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
                 id});
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
+        if (id) {
+            v1::ServerMessage answer;
+            answer.set_reply_to(*id);
+            answer.mutable_ok();
+            link_.send(answer);
+        }
     } else if (message.has_ping()) {
         v1::ServerMessage answer;
         if (id) {
@@ -94,7 +85,7 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         }
         answer.mutable_pong()->set_server_time_ms(server_time_ms());
         link_.send(answer);
-    } else if (!inbox_.push(link_.viewer(), std::move(message))) {
+    } else if (!inbox_.push(link_.viewer(), std::move(message), pass_->role)) {
         refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
     }
 }
@@ -103,12 +94,12 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
 bool Session::speaks_our_version(const v1::ClientMessage& message) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     const std::string& version = message.hello().protocol();
-    const auto major = major_version(version);
-    if (!major) {
+    const auto spoken = parse_protocol_version(version);
+    if (!spoken) {
         refuse({v1::Error::INVALID_ARGUMENT, "hello.protocol: must be major.minor, as in 1.0", id});
         return false;
     }
-    if (major != major_version(kProtocolVersion)) {
+    if (spoken->major != own_protocol_version().major) {
         refuse_and_close({v1::Error::UNIMPLEMENTED,
                           "hello.protocol: client speaks " + version + ", server speaks " +
                               std::string(kProtocolVersion),
@@ -119,7 +110,7 @@ bool Session::speaks_our_version(const v1::ClientMessage& message) {
     return true;
 }
 
-void Session::on_hello(v1::ClientMessage message) {
+void Session::on_hello(v1::ClientMessage message, double now_ms) {
     const auto id = message.has_id() ? std::optional(message.id()) : std::nullopt;
     if (pass_) {
         refuse({v1::Error::INVALID_ARGUMENT, "hello: has been said already", id});
@@ -131,17 +122,48 @@ void Session::on_hello(v1::ClientMessage message) {
     auto answer = gate_.enter(message.hello());
     if (auto* denial = std::get_if<Denial>(&answer)) {
         denial->refusal.id = id;
-        const bool enough = ++wrong_tokens_ >= kMaxWrongTokens;
-        if (denial->close || enough) {
-            refuse_and_close(denial->refusal, denial->close.value_or(CloseCode::policy_violation));
-        } else {
-            refuse(denial->refusal);
-        }
+        const bool wrong = denial->refusal.code == v1::Error::UNAUTHENTICATED;
+        on_denied(*denial, wrong && !message.hello().token().empty(), now_ms);
         return;
     }
     pass_ = std::get<Pass>(answer);
+    reading_ = reading_of(message.hello());
+    spdlog::info("viewer {} from {} is '{}', {}{}", link_.viewer(), peer_, message.hello().name(),
+                 v1::Role_Name(pass_->role),
+                 pass_->token_name.empty() ? "" : " by the token '" + pass_->token_name + "'");
     message.mutable_hello()->clear_token();  // nobody behind the gate needs it
     inbox_.joined(link_.viewer(), std::move(message), pass_->role);
+}
+
+/// The answer to a wrong token waits the longer the more there were.
+void Session::on_denied(const Denial& denial, bool wrong_token, double now_ms) {
+    held_ = Held{denial, now_ms};
+    if (++wrong_tokens_ >= kMaxWrongTokens && !denial.close) {
+        held_->denial.close = CloseCode::policy_violation;
+    }
+    const double delay = wrong_token ? gate_.note_wrong_token(peer_, "hello", now_ms) : 0.0;
+    if (delay > 0.0) {
+        held_->until_ms = now_ms + delay;
+    } else {
+        release_held();
+    }
+}
+
+std::optional<double> Session::held_until() const {
+    return held_ ? std::optional(held_->until_ms) : std::nullopt;
+}
+
+void Session::release_held() {
+    if (!held_) {
+        return;
+    }
+    const Denial denial = std::move(held_->denial);
+    held_.reset();
+    if (denial.close) {
+        refuse_and_close(denial.refusal, *denial.close);
+    } else {
+        refuse(denial.refusal);
+    }
 }
 
 void Session::check_pass() {

@@ -8,14 +8,12 @@
 
 #include "net/gate.h"
 #include "net/inbox.h"
+#include "net/protocol_version.h"
 #include "net/token_bucket.h"
 #include "net/viewer_link.h"
 #include "net/wire_codec.h"
 
 namespace raybundle {
-
-/// "major.minor" of the protocol spoken here.
-inline constexpr std::string_view kProtocolVersion = "1.0";
 
 /// The receiving side of one viewer: puts fragments together, insists on a hello in a version
 /// spoken here that passes the gate, refuses what the viewer's role does not allow, answers pings,
@@ -24,16 +22,23 @@ inline constexpr std::string_view kProtocolVersion = "1.0";
 class Session {
   public:
     Session(ViewerLink& link, Inbox& inbox, Gate& gate, const WireLimits& limits,
-            double messages_per_second)
+            double messages_per_second, std::string peer = "unknown")
         : link_(link),
           inbox_(inbox),
           gate_(gate),
           limits_(limits),
           messages_(messages_per_second, 2.0 * messages_per_second),
-          complaints_(1.0, 1.0) {}
+          complaints_(1.0, 1.0),
+          peer_(std::move(peer)) {}
 
     /// Part of a WebSocket message, as it arrives.
     void on_fragment(std::string_view bytes, bool first, bool last, bool binary, double now_ms);
+
+    /// When the answer to a wrong token is due, clock of `now_ms`; nothing where none is held back.
+    /// What comes before it is not read.
+    [[nodiscard]] std::optional<double> held_until() const;
+    /// Sends it.
+    void release_held();
 
     /// Time for hello is over: closes if there was none.
     void on_hello_timeout();
@@ -48,8 +53,9 @@ class Session {
 
   private:
     void on_message(v1::ClientMessage message, double now_ms);
-    void on_hello(v1::ClientMessage message);
+    void on_hello(v1::ClientMessage message, double now_ms);
     [[nodiscard]] bool speaks_our_version(const v1::ClientMessage& message);
+    void on_denied(const Denial& denial, bool wrong_token, double now_ms);
     void refuse(const Refusal& refusal);
     void refuse_and_close(const Refusal& refusal, CloseCode code);
 
@@ -61,8 +67,15 @@ class Session {
     TokenBucket complaints_;  ///< about too many messages, one a second
     std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
     bool binary_ = false;
-    std::optional<Pass> pass_;  ///< once hello has been accepted
+    Reading reading_ = Reading::lenient;  ///< until hello says how: anything else is refused anyway
+    std::optional<Pass> pass_;            ///< once hello has been accepted
     int wrong_tokens_ = 0;
+    std::string peer_;  ///< for the log
+    struct Held {
+        Denial denial;
+        double until_ms = 0.0;
+    };
+    std::optional<Held> held_;
 };
 
 }  // namespace raybundle

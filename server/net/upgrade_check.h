@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "net/http_response.h"
+
 namespace raybundle {
+
+/// Name of the WebSocket subprotocol. A client may also name none.
+inline constexpr const char* kSubprotocol = "raybundle.v1";
 
 /// What a WebSocket handshake says about itself.
 struct UpgradeRequest {
     std::string path;
     std::string origin;  ///< empty: not a browser
     std::string host;
+    std::string version = "13";                    ///< Sec-WebSocket-Version
+    std::string key = "dGhlIHNhbXBsZSBub25jZQ==";  ///< Sec-WebSocket-Key
+    std::string protocols{};                       ///< Sec-WebSocket-Protocol; empty: none named
 };
 
 /// Which pages may talk to the server besides its own.
@@ -31,5 +40,11 @@ bool origin_allowed(std::string_view origin, std::string_view host, const Origin
 /// page of another origin that the rules do not allow. Without this check any page that a viewer
 /// happens to visit could drive a server on his own machine or network.
 int refusal_status(const UpgradeRequest& request, const OriginRules& rules);
+
+/// The answer that refuses a handshake, or nothing: what refusal_status() refuses, and what
+/// RFC 6455, 4.2 does: 426 for another version than 13, 400 for a key that is not 16 bytes in
+/// base64, or subprotocols none of which is spoken here. libwebsockets accepts the first two, and
+/// hangs up without a word at the third.
+std::optional<HttpResponse> refuse_upgrade(const UpgradeRequest& request, const OriginRules& rules);
 
 }  // namespace raybundle

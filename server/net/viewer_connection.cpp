@@ -32,20 +32,22 @@ int write_flags(Outgoing::Kind kind, bool first, bool last) {
 
 }  // namespace
 
-ViewerConnection::ViewerConnection(lws* connection, NetworkState& state)
+ViewerConnection::ViewerConnection(lws* connection, NetworkState& state, std::string peer)
     : connection_(connection),
       state_(state),
       link_(state.viewers.add(state.settings.max_queued_bytes, state.settings.congestion)),
       session_(*link_, state.inbox, state.gate, state.settings.limits,
-               state.settings.max_messages_per_second) {
-    lws_set_timer_usecs(connection, microseconds(state.settings.hello_timeout_s));
-    spdlog::info("viewer {} connected", link_->viewer());
+               state.settings.max_messages_per_second, peer),
+      peer_(std::move(peer)),
+      hello_deadline_ms_(server_time_ms() + 1000.0 * state.settings.hello_timeout_s) {
+    set_timer();
+    spdlog::info("viewer {} connected from {}", link_->viewer(), peer_);
 }
 
 ViewerConnection::~ViewerConnection() {
     session_.on_closed();
     state_.viewers.remove(link_->viewer());
-    spdlog::info("viewer {} disconnected", link_->viewer());
+    spdlog::info("viewer {} disconnected from {}", link_->viewer(), peer_);
 }
 
 void ViewerConnection::on_receive(std::string_view bytes) {
@@ -54,11 +56,27 @@ void ViewerConnection::on_receive(std::string_view bytes) {
         lws_is_final_fragment(connection_) != 0 && lws_remaining_packet_payload(connection_) == 0;
     session_.on_fragment(bytes, lws_is_first_fragment(connection_) != 0, last,
                          lws_frame_is_binary(connection_) != 0, server_time_ms());
+    if (session_.held_until()) {
+        set_timer();
+    }
+    if (!slice_.take(bytes.size(), last)) {
+        // libwebsockets keeps what it has read; the network thread wakes itself once the others
+        // have been served.
+        lws_rx_flow_control(connection_, 0);
+        lws_cancel_service(lws_get_context(connection_));
+    }
     poll_output();
 }
 
 void ViewerConnection::on_pong(std::string_view payload) {
     link_->on_pong(payload, server_time_ms());
+}
+
+void ViewerConnection::next_slice() {
+    if (slice_.spent()) {
+        lws_rx_flow_control(connection_, 1);
+    }
+    slice_.renew();
 }
 
 void ViewerConnection::check_pass() {
@@ -81,11 +99,23 @@ void ViewerConnection::poll_output() {
     }
 }
 
+/// For what comes first: an answer that is held back, or the end of the time for hello.
+void ViewerConnection::set_timer() {
+    const double due_ms = session_.held_until().value_or(hello_deadline_ms_);
+    lws_set_timer_usecs(connection_,
+                        microseconds(std::max(due_ms - server_time_ms(), 1.0) / 1000.0));
+}
+
 bool ViewerConnection::on_timer() {
     if (link_->closing()) {
         return false;
     }
-    session_.on_hello_timeout();
+    if (session_.held_until()) {
+        session_.release_held();
+        set_timer();
+    } else {
+        session_.on_hello_timeout();
+    }
     poll_output();
     return true;
 }

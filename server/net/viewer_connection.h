@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "net/network_state.h"
+#include "net/receive_slice.h"
 #include "net/session.h"
 
 struct lws;
@@ -18,7 +19,8 @@ namespace raybundle {
 /// link (out). Network thread only.
 class ViewerConnection {
   public:
-    ViewerConnection(lws* connection, NetworkState& state);
+    /// peer: who is at the other end, for the log.
+    ViewerConnection(lws* connection, NetworkState& state, std::string peer);
     ~ViewerConnection();
     ViewerConnection(const ViewerConnection&) = delete;
     ViewerConnection& operator=(const ViewerConnection&) = delete;
@@ -35,6 +37,9 @@ class ViewerConnection {
     /// Asks to be told when the connection can take output, if there is any.
     void poll_output();
 
+    /// The others have had their turn: reads on where it has stopped.
+    void next_slice();
+
     /// Closes if the viewer's token is no longer accepted.
     void check_pass();
 
@@ -43,6 +48,7 @@ class ViewerConnection {
 
   private:
     bool write_piece();
+    void set_timer();
 
     lws* connection_;
     NetworkState& state_;
@@ -51,6 +57,9 @@ class ViewerConnection {
     std::optional<Outgoing> current_;  ///< being written
     std::size_t written_ = 0;          ///< payload bytes of current_
     bool close_timer_set_ = false;
+    ReceiveSlice slice_;
+    const std::string peer_;
+    const double hello_deadline_ms_;
 };
 
 }  // namespace raybundle

@@ -6,55 +6,21 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "net/json_fields.h"
 #include "net/json_scan.h"
 #include "net/message_validation.h"
+#include "net/protocol_version.h"
 
 namespace raybundle {
 namespace {
 
 namespace json_util = google::protobuf::util;
 
-constexpr std::size_t kMaxQuoted = 160;  ///< bytes of foreign text repeated in an error
-
 /// Protobuf complains about foreign bytes on stderr, where any client could fill the log.
 void log_quietly(google::protobuf::LogLevel /*level*/, const char* /*file*/, int /*line*/,
                  const std::string& text) {
     spdlog::debug("protobuf: {}", text);
-}
-
-/// First line of `text`, cut between two UTF-8 characters.
-std::string excerpt(std::string_view text) {
-    text = text.substr(0, text.find('\n'));
-    if (text.size() > kMaxQuoted) {
-        std::size_t end = kMaxQuoted;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-            --end;
-        }
-        text = text.substr(0, end);
-    }
-    return std::string(text);
-}
-
-/// Protobuf's "(set_camera.eye.x): reason" in the names that the client uses: "setCamera.eye.x:
-/// reason"; nothing before the reason where no field is named.
-std::string client_words(const std::string& text) {
-    constexpr std::string_view kNoField = ": ";
-    if (text.starts_with(kNoField)) {
-        return text.substr(kNoField.size());
-    }
-    const std::size_t end = text.find("): ");
-    if (!text.starts_with('(') || end == std::string::npos) {
-        return text;
-    }
-    std::string words;
-    for (std::size_t i = 1; i < end; ++i) {
-        const bool joint = text[i] == '_' && i + 1 < end;
-        words += joint ? static_cast<char>(std::toupper(static_cast<unsigned char>(text[++i])))
-                       : text[i];
-    }
-    return words + text.substr(end + 1);
 }
 
 std::optional<Refusal> check_size(std::size_t bytes, const WireLimits& limits) {
@@ -71,14 +37,28 @@ std::optional<std::uint32_t> id_of(const v1::ClientMessage& message) {
     return message.has_id() ? std::optional(message.id()) : std::nullopt;
 }
 
+/// What a message has that this server does not know.
+struct Unknown {
+    std::string body;  ///< empty, or what stands beside the known fields of the outermost object
+    std::string part;  ///< empty, or "field: reason" of the first one further inside
+};
+
 /// Known body or not, the message is well-formed: decides what to say about it.
-ParsedMessage accept(v1::ClientMessage message, const std::string& unknown_body,
+ParsedMessage accept(v1::ClientMessage message, const Unknown& unknown, Reading reading,
                      const WireLimits& limits) {
     if (message.body_case() == v1::ClientMessage::BODY_NOT_SET) {
-        if (unknown_body.empty()) {
+        if (unknown.body.empty()) {
             return Refusal{v1::Error::INVALID_ARGUMENT, "the message says nothing", id_of(message)};
         }
-        return Refusal{v1::Error::UNIMPLEMENTED, "unknown message " + unknown_body, id_of(message)};
+        return Refusal{v1::Error::UNIMPLEMENTED, "unknown message " + unknown.body, id_of(message)};
+    }
+    if (message.has_hello()) {
+        reading = reading_of(message.hello());
+    }
+    if (reading == Reading::strict && !(unknown.body.empty() && unknown.part.empty())) {
+        return Refusal{v1::Error::INVALID_ARGUMENT,
+                       unknown.part.empty() ? unknown.body + ": unknown field" : unknown.part,
+                       id_of(message)};
     }
     if (auto refusal = validate(message, limits)) {
         refusal->id = id_of(message);
@@ -97,7 +77,7 @@ std::string unknown_key(const std::vector<std::string>& keys) {
     if (unknown == keys.end()) {
         return {};
     }
-    return std::string("\"").append(excerpt(*unknown)).append("\"");
+    return std::string("\"").append(short_excerpt(*unknown)).append("\"");
 }
 
 template <typename Message>
@@ -115,7 +95,13 @@ std::string print(const Message& message) {
 
 }  // namespace
 
-ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits) {
+Reading reading_of(const v1::Hello& hello) {
+    const auto version = parse_protocol_version(hello.protocol());
+    const bool newer = version && *version > own_protocol_version();
+    return hello.lenient() || newer ? Reading::lenient : Reading::strict;
+}
+
+ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits, Reading reading) {
     if (auto too_large = check_size(text.size(), limits)) {
         return *too_large;
     }
@@ -123,20 +109,30 @@ ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits
     if (!scan.error.empty()) {
         return Refusal{v1::Error::INVALID_ARGUMENT, scan.error, scan.id};
     }
+    const JsonFields fields = check_json_fields(text, *v1::ClientMessage::descriptor());
+    if (!fields.problem.empty()) {
+        return Refusal{v1::Error::INVALID_ARGUMENT, fields.problem, scan.id};
+    }
     v1::ClientMessage message;
     json_util::JsonParseOptions options;
     options.ignore_unknown_fields = true;
     const auto status =
         json_util::JsonStringToMessage({text.data(), text.size()}, &message, options);
     if (!status.ok()) {
+        spdlog::debug("protobuf: {}", status.ToString());
         return Refusal{v1::Error::INVALID_ARGUMENT,
-                       client_words(excerpt({status.message().data(), status.message().size()})),
+                       fields.unknown.empty() ? "the message cannot be read" : fields.unknown,
                        scan.id};
     }
-    return accept(std::move(message), unknown_key(scan.keys), limits);
+    Unknown unknown{unknown_key(scan.keys), fields.unknown};
+    if (unknown.part.empty()) {
+        unknown.part = unknown_in_binary(message);  // enum numbers
+    }
+    return accept(std::move(message), unknown, reading, limits);
 }
 
-ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& limits) {
+ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& limits,
+                                   Reading reading) {
     if (auto too_large = check_size(bytes.size(), limits)) {
         return *too_large;
     }
@@ -145,15 +141,16 @@ ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& lim
     static_cast<void>(before);
     v1::ClientMessage message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-        return Refusal{v1::Error::INVALID_ARGUMENT, "not a valid protobuf ClientMessage",
+        return Refusal{v1::Error::INVALID_ARGUMENT, "not a valid serialised ClientMessage",
                        id_of(message)};
     }
-    const auto& unknown = message.GetReflection()->GetUnknownFields(message);
-    std::string unknown_body;
-    if (!unknown.empty()) {
-        unknown_body = "in field " + std::to_string(unknown.field(0).number());
+    const auto& fields = message.GetReflection()->GetUnknownFields(message);
+    Unknown unknown;
+    if (!fields.empty()) {
+        unknown.body = "in field " + std::to_string(fields.field(0).number());
     }
-    return accept(std::move(message), unknown_body, limits);
+    unknown.part = unknown_in_binary(message);
+    return accept(std::move(message), unknown, reading, limits);
 }
 
 std::string to_json(const v1::ServerMessage& message) {

@@ -18,8 +18,8 @@ namespace raybundle {
 struct WireLimits {
     std::uint32_t max_message_bytes = 65536;
     int max_json_depth = 16;
-    std::uint32_t max_width = 3840;   ///< pixels
-    std::uint32_t max_height = 2160;  ///< pixels
+    std::uint32_t max_viewport = 65535;  ///< edge that is understood, though served smaller, pixels
+    std::uint32_t max_picture = 8192;    ///< edge of a snapshot, pixels
 };
 
 /// Why a message was not accepted, in the words the client gets.
@@ -31,11 +31,21 @@ struct Refusal {
 
 using ParsedMessage = std::variant<v1::ClientMessage, Refusal>;
 
-/// Parses and validates a text message: strict JSON (RFC 8259) of a ClientMessage.
-ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits = {});
+/// What becomes of fields and enum values that the schema lacks: a misspelt one is refused, one of
+/// a newer client is ignored.
+enum class Reading { strict, lenient };
+
+/// How a client wants its messages read: leniently where it says so, or speaks a newer version.
+Reading reading_of(const v1::Hello& hello);
+
+/// Parses and validates a text message: strict JSON (RFC 8259) of a ClientMessage. A hello is read
+/// as it asks for itself.
+ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits = {},
+                                 Reading reading = Reading::strict);
 
 /// Parses and validates a binary message: serialised ClientMessage.
-ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& limits = {});
+ParsedMessage parse_binary_message(std::string_view bytes, const WireLimits& limits = {},
+                                   Reading reading = Reading::strict);
 
 /// JSON of a message to a client, with every field that is not optional.
 std::string to_json(const v1::ServerMessage& message);

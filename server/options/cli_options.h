@@ -71,6 +71,7 @@ struct Options {
     std::string listen = "127.0.0.1:8080";
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
+    std::vector<std::string> trusted_proxies;
     std::vector<AccessToken> tokens;  // from the file only
     std::string journal;              // file
     std::string log_format = "text";

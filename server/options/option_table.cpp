@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options/option_table.h"
+#include "net/peer_name.h"
 
 #include <fmt/core.h>
 
@@ -63,6 +64,10 @@ std::string origin_problem(const std::string& text) {
     return fits ? "" : "'" + text + "' is not an origin, e.g. https://example.org";
 }
 
+std::string proxy_problem(const std::string& text) {
+    return is_address(text) ? "" : "'" + text + "' is not a numeric address, e.g. 127.0.0.1";
+}
+
 std::string sky_problem(const std::string& text) {
     if (text.empty() || cie_sky_type(text) != 0) {
         return {};
@@ -84,6 +89,8 @@ constexpr std::array serve_table{
     ServeOption{"tlsKey", "PEM private key, without passphrase", &Options::tls_key},
     ServeOption{"allowedOrigins", "Origins of pages that may connect, besides the server's own",
                 &Options::allowed_origins, 0, 0, origin_problem},
+    ServeOption{"trustedProxies", "Addresses of proxies whose X-Forwarded-For the log believes",
+                &Options::trusted_proxies, 0, 0, proxy_problem},
     ServeOption{"maxViewers", "Viewers at a time", &Options::max_viewers, 1, 1000},
     ServeOption{"minFramesPerSecond", "A viewer is refused where the others would get fewer",
                 &Options::min_frames_per_second, 0.01, 60},

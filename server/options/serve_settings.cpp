@@ -47,6 +47,7 @@ ServerSettings server_settings(const Options& options) {
     settings.max_connections = static_cast<std::size_t>(options.max_connections);
     settings.max_connections_per_address =
         static_cast<std::size_t>(options.max_connections_per_address);
+    settings.trusted_proxies = options.trusted_proxies;
     settings.max_messages_per_second = options.max_messages_per_second;
     if (!options.scenes.empty()) {
         settings.max_upload_bytes =

@@ -118,6 +118,7 @@ Scene SceneBuilder::loaded_scene() const {
     }
     loaded.lights = find_lights(loaded);
     mark_solid_shells(loaded);
+    measure_lights(loaded);
     return loaded;
 }
 

@@ -11,7 +11,8 @@
 namespace raybundle {
 
 /// Whether a pixel of a picture, numbered row by row from the top, sees an emitting surface
-/// anywhere in its area, as far as a grid of 8 x 8 rays finds it, or the sky at its centre.
+/// anywhere in its area, as far as a grid of 8 x 8 rays finds it, or the sky at its centre. What
+/// mirrors and glass show counts as if it were seen directly, by the stronger way at glass.
 bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::size_t pixel);
 
 /// Whether a pixel counts for the error of a picture (design.md, section 8): neither it nor one of

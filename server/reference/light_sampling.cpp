@@ -105,7 +105,8 @@ void LightSampling::choose_punctual_lights(double emitted) {
         fluxes.push_back(flux_of(scene_, punctual_.back()));
         total += fluxes.back();
     }
-    if (punctual_.empty()) {
+    if (!(total > 0.0)) {  // none, or all are switched off
+        punctual_.clear();
         return;
     }
     for (double& flux : fluxes) {

@@ -56,6 +56,21 @@ SpecularSurface specular_at(const RayScene& scene, const SurfacePoint& point) {
     return ideal ? specular_surface(material, scene.base_colour(point)) : SpecularSurface{};
 }
 
+/// What a point's material is for a viewer's rays, which take nearly ideal mirrors for ideal ones.
+SpecularSurface seen_specular_at(const RayScene& scene, const SurfacePoint& point) {
+    const Material& material = scene.material(point);
+    const bool mirror = !point.absorbs() && specular_kind(material) == SpecularKind::mirror;
+    return mirror ? specular_surface(material, scene.base_colour(point))
+                  : specular_at(scene, point);
+}
+
+/// Chooses the stronger of two ways.
+class Stronger final : public Sampler {
+  public:
+    double next() override { return 0.5; }
+    glm::dvec2 next_pair() override { return glm::dvec2(0.5); }
+};
+
 /// Into the mirrored direction about the smooth normal, or where that leads behind the surface
 /// about the geometric one. Returns the normal that it took.
 glm::dvec3 reflect_about(Deflection& ray, const glm::dvec3& direction, const glm::dvec3& normal) {
@@ -97,15 +112,10 @@ glm::dvec3 choose_way(Deflection& ray, const SpecularSurface& glass, bool front,
     return normal;
 }
 
-}  // namespace
-
-bool is_deflecting(const RayScene& scene, const SurfacePoint& point) {
-    return specular_at(scene, point).kind != SpecularKind::none;
-}
-
-std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& point,
-                                  const glm::dvec3& direction, Carried carried, Sampler& sampler) {
-    const SpecularSurface surface = specular_at(scene, point);
+/// deflect() at a point that is such a surface.
+std::optional<Deflection> deflect_at(const RayScene& scene, const SpecularSurface& surface,
+                                     const SurfacePoint& point, const glm::dvec3& direction,
+                                     Carried carried, Sampler& sampler) {
     if (surface.kind == SpecularKind::none) {
         return std::nullopt;
     }
@@ -134,6 +144,17 @@ std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& poi
     return ray;
 }
 
+}  // namespace
+
+bool is_deflecting(const RayScene& scene, const SurfacePoint& point) {
+    return specular_at(scene, point).kind != SpecularKind::none;
+}
+
+std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& point,
+                                  const glm::dvec3& direction, Carried carried, Sampler& sampler) {
+    return deflect_at(scene, specular_at(scene, point), point, direction, carried, sampler);
+}
+
 glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const SurfacePoint& to) {
     const Material& material = scene.material(to);
     if (!is_glass(material) || to.patch == to.triangle) {
@@ -148,12 +169,16 @@ glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const Surf
     return glm::exp(-glm::dvec3(inside.absorption) * metres);
 }
 
-SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoint>& hit,
-                           const glm::dvec3& direction, Carried carried, Sampler& sampler) {
+namespace {
+
+/// surface_at: what a point is for these rays.
+SpecularWalk walk(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+                  const glm::dvec3& direction, Carried carried, Sampler& sampler,
+                  SpecularSurface (*surface_at)(const RayScene&, const SurfacePoint&)) {
     SpecularWalk walk{hit, direction};
     for (int i = 0; walk.hit; ++i) {
-        const std::optional<Deflection> ray =
-            deflect(scene, *walk.hit, walk.direction, carried, sampler);
+        const std::optional<Deflection> ray = deflect_at(
+            scene, surface_at(scene, *walk.hit), *walk.hit, walk.direction, carried, sampler);
         if (!ray) {
             break;
         }
@@ -171,6 +196,19 @@ SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoi
         }
     }
     return walk;
+}
+
+}  // namespace
+
+SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+                           const glm::dvec3& direction, Carried carried, Sampler& sampler) {
+    return walk(scene, hit, direction, carried, sampler, specular_at);
+}
+
+SpecularWalk walk_strongest(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+                            const glm::dvec3& direction) {
+    Stronger stronger;
+    return walk(scene, hit, direction, Carried::radiance, stronger, seen_specular_at);
 }
 
 }  // namespace raybundle

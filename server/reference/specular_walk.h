@@ -53,4 +53,9 @@ struct SpecularWalk {
 SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoint>& hit,
                            const glm::dvec3& direction, Carried carried, Sampler& sampler);
 
+/// The same by the stronger way at each surface of glass, without chance: what a viewer takes a
+/// pixel to show. Mirrors are all those of scene/specular_surface.h, ideal or not.
+SpecularWalk walk_strongest(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+                            const glm::dvec3& direction);
+
 }  // namespace raybundle

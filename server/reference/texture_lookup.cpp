@@ -21,7 +21,7 @@ std::size_t wrapped(double texel, int size, bool repeat) {
 
 using Encoded = std::array<std::uint8_t, 4>;
 
-glm::dvec4 colour_of(const Encoded& t) {
+glm::dvec4 decoded_colour(const Encoded& t) {
     return {linear_from_srgb(t[0]), linear_from_srgb(t[1]), linear_from_srgb(t[2]),
             static_cast<double>(t[3]) / 255.0};
 }
@@ -60,7 +60,7 @@ glm::dvec4 filtered(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
 
 glm::dvec4 look_up(const Texture& texture, const glm::mat3& uv_from_mesh_uv,
                    const glm::dvec2& mesh_uv) {
-    return filtered(texture, uv_from_mesh_uv, mesh_uv, colour_of);
+    return filtered(texture, uv_from_mesh_uv, mesh_uv, decoded_colour);
 }
 
 glm::dvec4 look_up_data(const Texture& texture, const glm::mat3& uv_from_mesh_uv,

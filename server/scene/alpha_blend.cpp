@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/alpha_blend.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "scene/base_colour.h"
 #include "scene/specular_surface.h"
@@ -12,19 +13,32 @@ namespace {
 
 constexpr float opaque = 0.999F;  // coverage
 constexpr float half_covered = 0.5F;
-constexpr std::uint8_t whole = 255;
 
-bool has_alpha(std::span<const Texture> textures, const TextureSlot& slot) {
-    if (slot.texture < 0) {
-        return false;
+/// The alpha of a texture, times a factor, as one value or as a hole with an edge.
+struct AlphaStatistics {
+    double mean = 1.0;
+    double variance = 0.0;   ///< mean squared error of the mean
+    double cut_error = 0.0;  ///< of 1 from a half on, and 0 below
+};
+
+AlphaStatistics alpha_statistics(const Texture& texture, float factor) {
+    std::array<std::size_t, 256> counts{};
+    for (std::size_t i = 3; i < texture.rgba.size(); i += 4) {
+        ++counts[texture.rgba[i]];
     }
-    const std::vector<std::uint8_t>& rgba = textures[static_cast<std::size_t>(slot.texture)].rgba;
-    for (std::size_t i = 3; i < rgba.size(); i += 4) {
-        if (rgba[i] != whole) {
-            return true;
-        }
+    const std::size_t texels = texture.rgba.size() / 4;
+    AlphaStatistics result{0.0, 0.0, 0.0};
+    double squares = 0.0;
+    for (std::size_t value = 0; value < counts.size(); ++value) {
+        const double alpha = static_cast<double>(factor) * static_cast<double>(value) / 255.0;
+        const double share = static_cast<double>(counts[value]) / static_cast<double>(texels);
+        const double cut = alpha >= half_covered ? alpha - 1.0 : alpha;
+        result.mean += share * alpha;
+        squares += share * alpha * alpha;
+        result.cut_error += share * cut * cut;
     }
-    return false;
+    result.variance = std::max(squares - result.mean * result.mean, 0.0);
+    return result;
 }
 
 }  // namespace
@@ -34,12 +48,17 @@ std::optional<std::string> read_alpha_blend(std::span<const Texture> textures, M
         material.transmission > 0.0F) {
         return std::nullopt;
     }
-    if (has_alpha(textures, material.base_colour_texture)) {
+    const int texture = material.base_colour_texture.texture;
+    const AlphaStatistics alpha =
+        texture < 0 ? AlphaStatistics{static_cast<double>(material.alpha)}
+                    : alpha_statistics(textures[static_cast<std::size_t>(texture)], material.alpha);
+    if (alpha.variance > alpha.cut_error) {
         material.alpha_mode = AlphaMode::mask;
         material.alpha_cutoff = half_covered;
         return "materials with alpha BLEND and a texture of alpha are cut out where it is below a "
                "half";
     }
+    material.alpha = static_cast<float>(alpha.mean);
     if (material.alpha >= opaque) {
         return std::nullopt;
     }

@@ -12,8 +12,9 @@ namespace raybundle {
 /// What becomes of alpha BLEND, where alpha is coverage (glTF 2.0, 3.9.4): `alpha` of the light
 /// that meets the surface meets its material, and the rest goes on. Light is carried by what the
 /// transport knows:
-///  * where the base colour texture has an alpha of its own (leaves, lace), the surface is cut out
-///    at half coverage, as by alpha MASK;
+///  * where the alpha of the base colour texture is nearer to holes with edges than to its mean
+///    (leaves, lace), the surface is cut out at half coverage, as by alpha MASK; else (films of one
+///    alpha) the mean is the coverage:
 ///  * what covers less than half is a thin pane that lets 1 - alpha straight through and reflects
 ///    nothing: the share of the material is left out;
 ///  * what covers more (veils, blinds) reflects alpha times its base colour and sends 1 - alpha

@@ -12,6 +12,8 @@
 #include <optional>
 #include <string_view>
 
+#include "scene/object_limits.h"
+
 namespace raybundle {
 
 namespace {
@@ -79,6 +81,10 @@ struct Node {
     }
 };
 
+struct LightName {
+    std::string name;
+};
+
 /// Index of what a key is about: by number (id) or name.
 template <typename Named>
 std::uint32_t find(const Node& node, const std::vector<Named>& all) {
@@ -100,6 +106,18 @@ std::uint32_t find(const Node& node, const std::vector<Named>& all) {
         names += (names.empty() ? "" : ", ") + one.name;
     }
     node.refuse(node.json.dump() + " is not in the scene; there are: " + names);
+}
+
+/// All lights in the order of their numbers.
+std::vector<LightName> light_names(const Scene& scene) {
+    std::vector<LightName> names;
+    for (const Light& light : scene.lights) {
+        names.push_back({light.name});
+    }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        names.push_back({light.name});
+    }
+    return names;
 }
 
 /// The keys round a time and how far it is from the first to the second.
@@ -231,6 +249,9 @@ class ScriptReader {
                 key.at("scale").refuse("must not be zero");
             }
         }
+        if (const std::string problem = problem_of(scene_, object, transform); !problem.empty()) {
+            key.refuse(problem);
+        }
         if (time == 0.0) {
             keys.erase(0.0);
         }
@@ -240,7 +261,7 @@ class ScriptReader {
     void read_light(const Node& key, double time) {
         key.require_fields({"time", "light", "intensity", "colour", "on"});
         LightEdit edit;
-        edit.light = find(key.at("light"), scene_.lights) + 1;
+        edit.light = find(key.at("light"), light_names(scene_)) + 1;
         if (key.has("intensity")) {
             edit.intensity = static_cast<float>(key.at("intensity").number(0.0, max_number));
         }

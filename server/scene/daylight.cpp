@@ -5,6 +5,7 @@
 
 #include <glm/gtc/constants.hpp>
 #include <memory>
+#include <utility>
 
 #include "scene/environment_map.h"
 #include "scene/gltf_loader.h"
@@ -52,14 +53,17 @@ std::shared_ptr<const Environment> make_dome(const Daylight& daylight, const std
     return std::make_shared<const SkyDome>(settings);
 }
 
-std::shared_ptr<const Environment> make_map(const Daylight& daylight) {
+std::shared_ptr<const Environment> make_map(const Daylight& daylight, Scene& scene) {
     EnvironmentMapSettings settings;
     settings.name = *daylight.environment;
     settings.rotation = radians_of(daylight.environment_rotation, 0.0);
     settings.scale =
         daylight.environment_scale ? static_cast<double>(*daylight.environment_scale) : 1.0;
-    return std::make_shared<const EnvironmentMap>(
-        read_equirectangular(settings.name, daylight.environment_bytes), settings);
+    EquirectangularImage image = read_equirectangular(settings.name, daylight.environment_bytes);
+    for (const std::string& note : image.notes) {
+        scene.notices.push_back(fmt::format("image '{}': {}", settings.name, note));
+    }
+    return std::make_shared<const EnvironmentMap>(std::move(image), settings);
 }
 
 }  // namespace
@@ -84,7 +88,7 @@ Daylight overlaid(const Daylight& daylight, const Daylight& more) {
 
 void apply_daylight(const Daylight& daylight, Scene& scene) {
     if (daylight.environment) {
-        set_environment(make_map(daylight), scene);
+        set_environment(make_map(daylight, scene), scene);
     } else if (daylight.sky) {
         set_environment(make_dome(daylight, scene.path), scene);
     }

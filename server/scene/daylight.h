@@ -31,7 +31,8 @@ struct Daylight {
 /// What `more` says goes before what `daylight` says; another sky or image replaces both.
 Daylight overlaid(const Daylight& daylight, const Daylight& more);
 
-/// Gives the scene that sky or environment. Throws SceneError.
+/// Gives the scene that sky or environment, and adds notices of how its image was read. Throws
+/// SceneError.
 void apply_daylight(const Daylight& daylight, Scene& scene);
 
 }  // namespace raybundle

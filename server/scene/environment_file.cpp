@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+// Images of the surroundings: their layout, and what they have instead of numbers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "scene/environment_map.h"
 #include "scene/gltf_loader.h"
+#include "scene/picture_file.h"
 
 namespace raybundle {
 namespace {
 
-constexpr std::int64_t max_pixels = 64LL << 20U;
 constexpr int max_width = 2048;  // of what is kept; larger images are averaged down
 constexpr float largest_value = 1e12F;
 
@@ -20,21 +21,14 @@ constexpr float largest_value = 1e12F;
     throw SceneError(file, "", reason);
 }
 
-/// OpenImageIO's name of the format.
-const char* format_of(std::span<const std::uint8_t> bytes) {
-    const auto starts_with = [&](const char* magic) {
-        const std::size_t length = std::strlen(magic);
-        return bytes.size() >= length && std::memcmp(bytes.data(), magic, length) == 0;
-    };
-    if (starts_with("#?")) {
-        return "hdr";
-    }
-    return starts_with("\x76\x2f\x31\x01") ? "openexr" : nullptr;
+bool has_magic(std::span<const std::uint8_t> bytes, const char* magic) {
+    const std::size_t length = std::strlen(magic);
+    return bytes.size() >= length && std::memcmp(bytes.data(), magic, length) == 0;
 }
 
 /// Averages blocks of k x k pixels; what is left at the right and below is dropped.
 EquirectangularImage reduced(const EquirectangularImage& image, int k) {
-    EquirectangularImage small{image.width / k, image.height / k, {}};
+    EquirectangularImage small{image.width / k, image.height / k, {}, image.notes};
     small.pixels.reserve(static_cast<std::size_t>(small.width) *
                          static_cast<std::size_t>(small.height));
     for (int y = 0; y < small.height; ++y) {
@@ -50,58 +44,127 @@ EquirectangularImage reduced(const EquirectangularImage& image, int k) {
     return small;
 }
 
-EquirectangularImage checked(const std::string& file, const std::vector<float>& values,
-                             const OIIO::ImageSpec& spec) {
-    EquirectangularImage image{spec.width, spec.height, {}};
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    image.pixels.reserve(values.size() / channels);
-    for (std::size_t i = 0; i + channels <= values.size(); i += channels) {
-        glm::vec3 pixel(values[i], values[i + (channels > 2 ? 1 : 0)],
-                        values[i + (channels > 2 ? 2 : 0)]);
-        for (int c = 0; c < 3; ++c) {
-            if (!std::isfinite(pixel[c]) || pixel[c] > largest_value) {
-                fail(file, fmt::format("pixel {}, {} is not a finite radiance",
-                                       i / channels % static_cast<std::size_t>(spec.width),
-                                       i / channels / static_cast<std::size_t>(spec.width)));
-            }
-        }
-        image.pixels.push_back(glm::max(pixel, 0.0F));
+/// Refuses other layouts than equirectangular ones. Limits are half way (as factors) to the next
+/// layouts: 3:2, six faces in two rows, and 4:1, half a panorama.
+void check_layout(const std::string& file, EquirectangularImage& image) {
+    const double ratio = static_cast<double>(image.width) / image.height;
+    if (ratio < std::sqrt(2.0 * 1.5) || ratio > std::sqrt(2.0 * 4.0)) {
+        const bool cube = image.width == 6 * image.height || image.height == 6 * image.width ||
+                          3 * image.width == 4 * image.height ||
+                          4 * image.width == 3 * image.height;
+        const char* kind = image.width == image.height ? " (as angular maps and light probes have)"
+                                                       : (cube ? " (as cube maps have)" : "");
+        fail(file, fmt::format("has {} x {} pixels{}: an equirectangular image is twice as wide as "
+                               "high",
+                               image.width, image.height, kind));
     }
-    return image;
+    constexpr int rounding = 2;
+    if (std::abs(image.width - 2 * image.height) > rounding) {
+        image.notes.push_back(fmt::format("has {} x {} pixels: stretched to twice as wide as high",
+                                          image.width, image.height));
+    }
+}
+
+enum class Number { finite, infinite, unknown };
+
+/// Values that no scene has count as infinite.
+Number kind_of(const glm::vec3& pixel) {
+    Number kind = Number::finite;
+    for (int c = 0; c < 3; ++c) {
+        if (!(pixel[c] >= -largest_value)) {
+            return Number::unknown;
+        }
+        kind = pixel[c] > largest_value ? Number::infinite : kind;
+    }
+    return kind;
+}
+
+/// Mean of the neighbours that are finite; the image closes at its sides.
+glm::vec3 mean_of_neighbours(const EquirectangularImage& image, std::size_t pixel) {
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(image.width));
+    const int y = static_cast<int>(pixel / static_cast<std::size_t>(image.width));
+    glm::vec3 sum(0.0F);
+    float count = 0.0F;
+    for (int k = 0; k < 9; ++k) {
+        const int row = y + k / 3 - 1;
+        if (row < 0 || row >= image.height) {
+            continue;
+        }
+        const int column = (x + k % 3 - 1 + image.width) % image.width;
+        const glm::vec3& other = image.pixels[image.index(column, row)];
+        if (kind_of(other) == Number::finite) {
+            sum += other;
+            count += 1.0F;
+        }
+    }
+    return count > 0.0F ? sum / count : glm::vec3(0.0F);
+}
+
+/// What is no number becomes the mean of its neighbours.
+void mend_unknown(EquirectangularImage& image) {
+    std::vector<std::pair<std::size_t, glm::vec3>> mended;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (kind_of(image.pixels[i]) == Number::unknown) {
+            mended.emplace_back(i, mean_of_neighbours(image, i));
+        }
+    }
+    for (const auto& [pixel, mean] : mended) {
+        image.pixels[pixel] = mean;
+    }
+    if (!mended.empty()) {
+        image.notes.push_back(
+            fmt::format("pixels without a number are read as their neighbours: {}", mended.size()));
+    }
+}
+
+/// What is infinite, as a sun is in half floats, becomes the largest value that they can have, or
+/// that the image has.
+void mend_infinite(EquirectangularImage& image, float largest) {
+    std::vector<glm::vec3*> mended;
+    for (glm::vec3& pixel : image.pixels) {
+        if (kind_of(pixel) == Number::infinite) {
+            mended.push_back(&pixel);
+        } else {
+            largest = std::max({largest, pixel.r, pixel.g, pixel.b});
+        }
+    }
+    for (glm::vec3* pixel : mended) {
+        for (int c = 0; c < 3; ++c) {
+            (*pixel)[c] = (*pixel)[c] > largest_value ? largest : (*pixel)[c];
+        }
+    }
+    if (!mended.empty()) {
+        image.notes.push_back(
+            fmt::format("infinite pixels are read as {}: {}", largest, mended.size()));
+    }
+}
+
+PictureFile read_picture(const std::string& file, std::span<const std::uint8_t> bytes) {
+    if (has_magic(bytes, "#?")) {
+        return read_radiance_picture(file, bytes);
+    }
+    if (has_magic(bytes, "\x76\x2f\x31\x01")) {
+        return read_openexr_picture(file, bytes);
+    }
+    fail(file, "is neither a Radiance HDR nor an OpenEXR image");
 }
 
 }  // namespace
 
 EquirectangularImage read_equirectangular(const std::string& file,
                                           std::span<const std::uint8_t> bytes) {
-    const char* format = format_of(bytes);
-    if (format == nullptr) {
-        fail(file, "is neither a Radiance HDR nor an OpenEXR image");
+    PictureFile picture = read_picture(file, bytes);
+    if (picture.width < 2 || picture.height < 1) {
+        fail(file, fmt::format("has {} x {} pixels", picture.width, picture.height));
     }
-    OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-    OIIO::ImageSpec hints;
-    OIIO::Filesystem::IOProxy* proxy = &reader;
-    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
-    const auto input = OIIO::ImageInput::open(std::string("image.") + format, &hints);
-    if (!input) {
-        fail(file, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+    EquirectangularImage image{picture.width, picture.height, std::move(picture.pixels),
+                               std::move(picture.notes)};
+    check_layout(file, image);
+    mend_unknown(image);
+    mend_infinite(image, picture.largest);
+    for (glm::vec3& pixel : image.pixels) {
+        pixel = glm::max(glm::vec3(picture.rec709 * glm::dvec3(pixel)), 0.0F);
     }
-    const OIIO::ImageSpec& spec = input->spec();
-    const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
-    if (spec.width < 2 || spec.height < 1 || pixels > max_pixels || spec.nchannels < 1 ||
-        spec.nchannels > 64) {
-        fail(file, fmt::format("{} x {} pixels of {} channels; the limit is {} pixels", spec.width,
-                               spec.height, spec.nchannels, max_pixels));
-    }
-    const int channels = spec.nchannels < 3 ? 1 : 3;
-    OIIO::ImageSpec read = spec;
-    read.nchannels = channels;
-    std::vector<float> values(static_cast<std::size_t>(pixels) *
-                              static_cast<std::size_t>(channels));
-    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) {
-        fail(file, fmt::format("cannot be decoded: {}", input->geterror()));
-    }
-    EquirectangularImage image = checked(file, values, read);
     const int k = (image.width + max_width - 1) / max_width;
     return k > 1 ? reduced(image, std::min(k, image.height)) : image;
 }

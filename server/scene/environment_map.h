@@ -16,7 +16,8 @@ namespace raybundle {
 struct EquirectangularImage {
     int width = 0;
     int height = 0;
-    std::vector<glm::vec3> pixels;  ///< width * height
+    std::vector<glm::vec3> pixels;     ///< width * height
+    std::vector<std::string> notes{};  ///< what a user should know about how it was read
 
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -61,7 +62,8 @@ class EnvironmentMap final : public Environment {
     std::vector<SkySource> sources_;
 };
 
-/// Decodes a Radiance HDR or OpenEXR file. Throws SceneError naming `file`.
+/// Decodes a Radiance HDR or OpenEXR file. Refuses images of another layout. Throws SceneError
+/// naming `file`.
 EquirectangularImage read_equirectangular(const std::string& file,
                                           std::span<const std::uint8_t> bytes);
 

@@ -232,6 +232,7 @@ void check_sparse(const GltfDocument& document, const std::string& path,
     }
     check_layout(document, path + ".sparse.indices", indices);
     check_layout(document, path + ".sparse.values", sparse_values(accessor));
+    document.charge_components(indices.count, path + ".sparse");
     const std::vector<std::uint32_t> elements = load_indices(document, indices);
     std::uint64_t next = 0;
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -278,6 +279,7 @@ std::vector<float> read_floats(const GltfDocument& document, int accessor, std::
         document.fail(json_path, fmt::format("accessors[{}] has {} components, {} are expected",
                                              accessor, component_count(source), components));
     }
+    document.charge_components(source.count * components, json_path);
     std::vector<float> values = load_all<float>(document, source, load_floats);
     const auto bad =
         std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
@@ -297,6 +299,7 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, int access
         document.fail(json_path,
                       fmt::format("accessors[{}] must hold unsigned integers", accessor));
     }
+    document.charge_components(source.count, json_path);
     std::vector<std::uint32_t> indices = load_all<std::uint32_t>(document, source, load_indices);
     const std::uint32_t restart = restart_value(packed_layout(source));
     const auto found = std::find(indices.begin(), indices.end(), restart);

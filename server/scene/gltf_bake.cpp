@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "scene/geometry_defects.h"
+#include "scene/neighbourhood.h"
 
 namespace raybundle {
 namespace {
@@ -29,9 +30,16 @@ glm::vec3 unit_or_zero(const glm::dvec3& v) {
 
 class Baker {
   public:
-    Baker(GltfDocument& document, const GltfNodeTree& tree, std::uint32_t default_material,
-          Scene& scene)
-        : document_(document), tree_(tree), default_material_(default_material), scene_(scene) {}
+    Baker(GltfDocument& document, const GltfNodeTree& tree,
+          const std::vector<NodeGeometry>& geometries, std::uint32_t default_material, Scene& scene)
+        : document_(document), tree_(tree), default_material_(default_material), scene_(scene) {
+        Bounds all;
+        for (const NodeGeometry& geometry : geometries) {
+            all.add(geometry.world_bounds.min);
+            all.add(geometry.world_bounds.max);
+        }
+        tie_ = coincidence_share * double{glm::length(all.extent())};
+    }
 
     void add_object(const ObjectPlan& plan, const std::vector<NodeGeometry>& geometries) {
         const std::size_t first_triangle = scene_.triangles.size();
@@ -72,8 +80,28 @@ class Baker {
         if (parent >= 0) {
             object_.world_from_parent = glm::mat4(node(parent).world_from_node);
         }
+        keep_place(plan.node);
         world_from_object_ = glm::dmat4(object_.world_from_object());
         object_from_node_ = {{plan.node, node(plan.node).remainder}};
+    }
+
+    /// Where large offsets of a node and its ancestors cancel, single precision would lose their
+    /// sum: the object gets its place as a whole.
+    void keep_place(int index) {
+        const GltfNode& own = node(index);
+        if (glm::dvec3(own.remainder[3]) != glm::dvec3(0.0)) {
+            return;  // vertices carry all of it
+        }
+        glm::dmat4 place(object_.transform.matrix());
+        place[3] = own.parent_from_node[3];
+        if (own.parent >= 0) {
+            place = node(own.parent).world_from_node * place;
+        }
+        const glm::dvec3 lost(place[3] - glm::dvec4(object_.world_from_object()[3]));
+        if (glm::length(lost) > tie_) {
+            object_.transform = {};
+            object_.world_from_parent = glm::mat4(place);
+        }
     }
 
     void add_geometry(const NodeGeometry& geometry) {
@@ -214,6 +242,7 @@ class Baker {
     std::unordered_map<int, glm::dmat4> object_from_node_;
     std::string path_;
     std::size_t bad_normals_ = 0;
+    double tie_ = 0.0;  // m: closer surfaces coincide
 };
 
 }  // namespace
@@ -221,7 +250,7 @@ class Baker {
 void bake_objects(GltfDocument& document, const GltfNodeTree& tree,
                   const std::vector<NodeGeometry>& geometries, const std::vector<ObjectPlan>& plans,
                   std::uint32_t default_material, Scene& scene) {
-    Baker baker(document, tree, default_material, scene);
+    Baker baker(document, tree, geometries, default_material, scene);
     for (const ObjectPlan& plan : plans) {
         baker.add_object(plan, geometries);
     }

@@ -26,9 +26,11 @@ void for_each_uri(const Json& value, const std::string& json_path, const VisitUr
         const std::string path = value.is_array()
                                      ? json_path + "[" + key + "]"
                                      : json_path + (json_path.empty() ? "" : ".") + key;
+        const bool names_file =
+            key == "uri" || path.ends_with(".extras.raybundle.daylight.environment");
         if (member.is_structured()) {
             for_each_uri(member, path, visit);
-        } else if (key == "uri" && member.is_string()) {
+        } else if (names_file && member.is_string()) {
             const auto& uri = member.get_ref<const std::string&>();
             if (!uri.starts_with("data:")) {
                 visit(path, uri);

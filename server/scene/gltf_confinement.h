@@ -7,8 +7,8 @@
 namespace raybundle {
 
 /// Makes sure that a scene file refers to nothing outside its own folder, through symbolic links
-/// either: neither its buffers nor its images nor IES files. For scenes of people who may not read
-/// every file of this machine. Throws SceneError.
+/// either: neither its buffers nor its images, IES files or surroundings. For scenes of people who
+/// may not read every file of this machine. Throws SceneError.
 void check_confined(const std::string& scene_file);
 
 /// The scene file and the files that it refers to, whether they exist or not. Throws SceneError

@@ -17,6 +17,9 @@ namespace {
 constexpr std::uint64_t max_scene_file_bytes = 2ULL << 30U;
 // Deeper than any exporter nests; bounds the recursion of everything that walks the JSON.
 constexpr int max_json_depth = 128;
+// Derived: a token (a value, a key, an end) takes up to 50 bytes in memory, so these are at most 1
+// GB.
+constexpr std::size_t max_json_tokens = 20'000'000;
 constexpr std::uint32_t glb_magic = 0x46546C67;
 constexpr std::uint32_t chunk_json = 0x4E4F534A;
 constexpr std::uint32_t chunk_binary = 0x004E4942;
@@ -35,15 +38,66 @@ std::string without_exception_id(const std::string& what) {
     return end == std::string::npos ? what : what.substr(end + 2);
 }
 
-Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
-    const auto bound_depth = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > max_json_depth) {
-            throw SceneError(path, "", fmt::format("JSON nested deeper than {}", max_json_depth));
+/// Bounds depth and tokens before a tree is built. The parser's own callback cannot serve for this:
+/// with one it looks through the whole array at the end of each of its objects.
+class JsonBounds : public nlohmann::json_sax<Json> {
+  public:
+    explicit JsonBounds(const std::string& path) : path_(path) {}
+
+    bool null() override { return token(); }
+    bool boolean(bool /*value*/) override { return token(); }
+    bool number_integer(number_integer_t /*value*/) override { return token(); }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return token(); }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override {
+        return token();
+    }
+    bool string(string_t& /*value*/) override { return token(); }
+    bool binary(binary_t& /*value*/) override { return token(); }
+    bool key(string_t& /*key*/) override { return token(); }
+    bool start_object(std::size_t /*elements*/) override { return open(); }
+    bool start_array(std::size_t /*elements*/) override { return open(); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    /// Who builds the tree says what is wrong.
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+  private:
+    bool token() {
+        if (++tokens_ > max_json_tokens) {
+            throw SceneError(path_, "",
+                             fmt::format("JSON with more than {} tokens", max_json_tokens));
+        }
+        if (depth_ > max_json_depth) {
+            throw SceneError(path_, "", fmt::format("JSON nested deeper than {}", max_json_depth));
         }
         return true;
-    };
+    }
+
+    bool open() {
+        token();
+        ++depth_;
+        return true;
+    }
+
+    bool close() {
+        --depth_;
+        return token();
+    }
+
+    const std::string& path_;
+    std::size_t tokens_ = 0;
+    int depth_ = 0;
+};
+
+Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
+    JsonBounds bounds(path);
+    static_cast<void>(Json::sax_parse(text.begin(), text.end(), &bounds));
     try {
-        Json json = Json::parse(text.begin(), text.end(), bound_depth);
+        Json json = Json::parse(text.begin(), text.end());
         if (!json.is_object()) {
             throw SceneError(path, "", "not glTF: the JSON is not an object");
         }

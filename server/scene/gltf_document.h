@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -44,15 +45,29 @@ class GltfDocument {
     void note(const std::string& text);
     [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
 
+    // What the loader has done for this file: a few bytes can ask for any amount of it. Each throws
+    // SceneError where the sum since the file was opened passes its limit.
+
+    /// Counts numbers that are read from accessors.
+    void charge_components(std::size_t count, const std::string& json_path) const;
+    /// Counts bytes of decoded images.
+    void charge_image(std::size_t bytes, const std::string& json_path) const;
+    /// Throws as charge_image() would for so many bytes in all.
+    void check_image_sum(std::size_t bytes, const std::string& json_path) const;
+
     [[noreturn]] void fail(const std::string& json_path, const std::string& reason) const;
 
   private:
+    void note_spelling(const Json& json);
+
     std::string path_;
     Daylight daylight_;
     tinygltf::Model model_;
     Json extensions_;
     GltfBuffers buffers_;
     std::vector<std::string> notices_;
+    mutable std::size_t components_ = 0;   ///< read so far
+    mutable std::size_t image_bytes_ = 0;  ///< decoded so far
 };
 
 }  // namespace raybundle

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t max_scene_vertices = 25'000'000;
 // As many as TessellationSettings::max_patches: more could never be used.
 constexpr std::size_t max_scene_triangles = 4'000'000;
+// Derived: so many boxes of 12 triangles have as many as there may be.
+constexpr std::size_t max_scene_instances = max_scene_triangles / 12;
 
 std::vector<float> read_morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
     const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
@@ -50,9 +52,9 @@ std::vector<glm::dmat4> read_instances(const GltfDocument& document, int node,
         (!s.empty() && s.size() != count * 3)) {
         document.fail(path, "TRANSLATION, ROTATION and SCALE differ in length");
     }
-    if (count > max_scene_triangles) {
+    if (count > max_scene_instances) {
         document.fail(path,
-                      fmt::format("{} instances; the limit is {}", count, max_scene_triangles));
+                      fmt::format("{} instances; the limit is {}", count, max_scene_instances));
     }
     std::vector<glm::dmat4> instances;
     for (std::size_t i = 0; i < count; ++i) {
@@ -87,14 +89,7 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix) {
 }
 
 Bounds find_world_bounds(const NodeGeometry& geometry, const GltfNode& node) {
-    Bounds local;
-    for (const PrimitiveData& primitive : geometry.primitives) {
-        for (const glm::uvec3& triangle : primitive.triangles) {
-            for (int k = 0; k < 3; ++k) {
-                local.add(primitive.positions[triangle[k]]);
-            }
-        }
-    }
+    const Bounds local = geometry.local_bounds();
     Bounds world;
     if (local.empty()) {
         return world;
@@ -121,6 +116,7 @@ class GeometryReader {
         geometry.node = node;
         geometry.mesh = source.mesh;
         geometry.node_from_mesh = read_instances(document_, node, metres_per_unit_);
+        count_instances(geometry.node_from_mesh.size(), node);
         read_primitives(source, geometry);
         if (source.skin >= 0) {
             geometry.in_world =
@@ -138,6 +134,7 @@ class GeometryReader {
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             const std::string path =
                 mesh_path + "." + item_path("primitives", geometry.primitives.size());
+            expect(primitive, geometry.node_from_mesh.size(), path);
             PrimitiveData& data = geometry.primitives.emplace_back(
                 read_primitive(document_, primitive, morph_weights, path));
             count(data, geometry.node_from_mesh.size(), path);
@@ -147,10 +144,35 @@ class GeometryReader {
         }
     }
 
+    /// Of nodes with EXT_mesh_gpu_instancing and those without, which are one each.
+    void count_instances(std::size_t instances, int node) {
+        instances_ += instances;
+        if (instances_ > max_scene_instances) {
+            document_.fail(item_path("nodes", node), fmt::format("the scene has more than {} "
+                                                                 "instances of meshes",
+                                                                 max_scene_instances));
+        }
+    }
+
+    /// Refuses what count() would, before it takes memory.
+    void expect(const tinygltf::Primitive& primitive, std::size_t instances,
+                const std::string& path) const {
+        const auto positions = primitive.attributes.find("POSITION");
+        if (positions != primitive.attributes.end()) {
+            const std::size_t vertices =
+                item(document_.model().accessors, positions->second).count * instances;
+            check_sums(vertices_ + vertices, triangles_, path);
+        }
+    }
+
     void count(const PrimitiveData& data, std::size_t instances, const std::string& path) {
         vertices_ += data.positions.size() * instances;
         triangles_ += data.triangles.size() * instances;
-        if (vertices_ > max_scene_vertices || triangles_ > max_scene_triangles) {
+        check_sums(vertices_, triangles_, path);
+    }
+
+    void check_sums(std::size_t vertices, std::size_t triangles, const std::string& path) const {
+        if (vertices > max_scene_vertices || triangles > max_scene_triangles) {
             document_.fail(path, fmt::format("the scene has more than {} vertices or {} triangles",
                                              max_scene_vertices, max_scene_triangles));
         }
@@ -161,6 +183,7 @@ class GeometryReader {
     float metres_per_unit_;
     std::size_t vertices_ = 0;
     std::size_t triangles_ = 0;
+    std::size_t instances_ = 0;
 };
 
 }  // namespace
@@ -171,6 +194,18 @@ std::size_t NodeGeometry::triangle_count() const {
         count += primitive.triangles.size();
     }
     return count * node_from_mesh.size();
+}
+
+Bounds NodeGeometry::local_bounds() const {
+    Bounds local;
+    for (const PrimitiveData& primitive : primitives) {
+        for (const glm::uvec3& triangle : primitive.triangles) {
+            for (int k = 0; k < 3; ++k) {
+                local.add(primitive.positions[triangle[k]]);
+            }
+        }
+    }
+    return local;
 }
 
 std::vector<NodeGeometry> read_geometry(GltfDocument& document, const GltfNodeTree& tree,

@@ -20,6 +20,9 @@ struct NodeGeometry {
     Bounds world_bounds;    ///< contains the geometry; not always tight
 
     [[nodiscard]] std::size_t triangle_count() const;  ///< of all instances
+    [[nodiscard]] Bounds local_bounds() const;         ///< of triangles, the mesh's space
+
+    static constexpr std::uint32_t no_vertex = 0xffffffffU;
 };
 
 /// Reads the meshes of all visible nodes of the shown scene, rest pose. Throws SceneError, also if

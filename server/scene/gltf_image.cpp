@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+#include <set>
 #include <string_view>
 
 #include "scene/gltf_loader.h"
@@ -83,7 +85,86 @@ void check_spec(const GltfDocument& document, const std::string& path,
     }
 }
 
+/// Reads the header of an image; its size is checked before a pixel is decoded.
+std::unique_ptr<OIIO::ImageInput> open_image(const GltfDocument& document, const std::string& path,
+                                             std::span<const std::uint8_t> bytes,
+                                             OIIO::Filesystem::IOProxy* reader) {
+    const char* format = format_of(bytes);
+    if (format == nullptr) {
+        fail_unknown_format(document, path, bytes);
+    }
+    OIIO::ImageSpec hints;
+    hints["oiio:UnassociatedAlpha"] = 1;
+    // The name only chooses the decoder: the bytes come from the reader, which has to be among the
+    // hints (beside hints without it, OpenImageIO 2.4 forgets a reader given as an argument).
+    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&reader));
+    auto input = OIIO::ImageInput::open(std::string("image.") + format, &hints);
+    if (!input) {
+        document.fail(path, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+    }
+    check_spec(document, path, input->spec());
+    return input;
+}
+
+/// Bytes that it takes once decoded.
+std::size_t decoded_bytes(const OIIO::ImageSpec& spec) {
+    return 4 * static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+}
+
+/// Adds the image of a texture, where it has one.
+void add_image(const GltfDocument& document, int texture, std::set<int>& images) {
+    if (texture >= 0) {
+        const tinygltf::Texture& entry = item(document.model().textures, texture);
+        const auto* webp = find_extension(entry.extensions, "EXT_texture_webp");
+        images.insert(webp == nullptr ? entry.source : integer_or(*webp, "source", entry.source));
+    }
+}
+
+void add_image(const GltfDocument& document, const tinygltf::Material& material,
+               const char* extension, const char* name, std::set<int>& images) {
+    const auto* const value = find_extension(material.extensions, extension);
+    if (value != nullptr && value->Has(name)) {
+        add_image(document, integer_or(value->Get(name), "index", -1), images);
+    }
+}
+
+/// Of the textures that materials are read from.
+std::set<int> images_of_materials(const GltfDocument& document) {
+    std::set<int> images;
+    for (const tinygltf::Material& material : document.model().materials) {
+        const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+        for (const int texture : {pbr.baseColorTexture.index, pbr.metallicRoughnessTexture.index,
+                                  material.normalTexture.index, material.emissiveTexture.index}) {
+            add_image(document, texture, images);
+        }
+        add_image(document, material, "KHR_materials_pbrSpecularGlossiness", "diffuseTexture",
+                  images);
+        add_image(document, material, "KHR_materials_clearcoat", "clearcoatTexture", images);
+        add_image(document, material, "KHR_materials_clearcoat", "clearcoatRoughnessTexture",
+                  images);
+    }
+    return images;
+}
+
 }  // namespace
+
+void check_image_sizes(const GltfDocument& document) {
+    const std::vector<tinygltf::Image>& images = document.model().images;
+    std::size_t total = 0;
+    for (const int image : images_of_materials(document)) {
+        if (image < 0 || static_cast<std::size_t>(image) >= images.size() ||
+            (item(images, image).bufferView < 0 && !item(images, image).uri.starts_with("data:"))) {
+            continue;
+        }
+        const std::string path = item_path("images", image);
+        const std::vector<std::uint8_t> bytes = image_bytes(document, image, path);
+        if (format_of(bytes) != nullptr) {
+            OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+            total += decoded_bytes(open_image(document, path, bytes, &reader)->spec());
+            document.check_image_sum(total, path);
+        }
+    }
+}
 
 std::vector<tinygltf::Image> read_images(const std::string& file, const Json& json) {
     std::vector<tinygltf::Image> images;
@@ -105,23 +186,10 @@ std::vector<tinygltf::Image> read_images(const std::string& file, const Json& js
 DecodedImage decode_image(const GltfDocument& document, int image) {
     const std::string path = item_path("images", image);
     const std::vector<std::uint8_t> bytes = image_bytes(document, image, path);
-    const char* format = format_of(bytes);
-    if (format == nullptr) {
-        fail_unknown_format(document, path, bytes);
-    }
     OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-    OIIO::ImageSpec hints;
-    hints["oiio:UnassociatedAlpha"] = 1;
-    // The name only chooses the decoder: the bytes come from the reader, which has to be among the
-    // hints (beside hints without it, OpenImageIO 2.4 forgets a reader given as an argument).
-    OIIO::Filesystem::IOProxy* proxy = &reader;
-    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
-    const auto input = OIIO::ImageInput::open(std::string("image.") + format, &hints);
-    if (!input) {
-        document.fail(path, fmt::format("cannot be decoded: {}", OIIO::geterror()));
-    }
+    const auto input = open_image(document, path, bytes, &reader);
     const OIIO::ImageSpec& spec = input->spec();
-    check_spec(document, path, spec);
+    document.charge_image(decoded_bytes(spec), path);
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(spec.width) *
                                      static_cast<std::size_t>(spec.height) * channels);
@@ -147,6 +215,31 @@ int image_of(const GltfDocument& document, int texture) {
                       "fallback image");
     }
     return source;
+}
+
+float mean_of_channel(GltfDocument& document, const tinygltf::Value& extension, const char* name,
+                      std::size_t channel, const std::string& what) {
+    if (!extension.Has(name)) {
+        return 1.0F;
+    }
+    try {
+        const int image = image_of(document, integer_or(extension.Get(name), "index", -1));
+        if (image < 0) {
+            return 1.0F;
+        }
+        const DecodedImage decoded = decode_image(document, image);
+        double sum = 0.0;
+        for (std::size_t i = channel; i < decoded.rgba.size(); i += 4) {
+            sum += decoded.rgba[i];
+        }
+        document.note(fmt::format("textures of {} are read as their means", what));
+        const std::size_t texels = decoded.rgba.size() / 4;
+        return static_cast<float>(sum / (255.0 * static_cast<double>(texels)));
+    } catch (const SceneError& error) {
+        document.note(fmt::format("a texture of {} is ignored: {}: {}", what, error.json_path(),
+                                  error.reason()));
+        return 1.0F;
+    }
 }
 
 }  // namespace raybundle

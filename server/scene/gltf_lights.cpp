@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -75,12 +77,13 @@ class LightReader {
         PunctualLight light;
         light.kind = kind_of(source["type"].get<std::string>());
         light.name = name_of(node, source);
-        for (int c = 0; c < 3; ++c) {
-            const Json* colour = find_member(source, "color");
-            const float factor =
-                colour == nullptr ? 1.0F : (*colour)[static_cast<std::size_t>(c)].get<float>();
-            light.intensity[c] = value_or(source, "intensity", 1.0F) * factor;
+        glm::vec3 colour(1.0F);
+        if (const Json* values = find_member(source, "color")) {
+            for (int c = 0; c < 3; ++c) {
+                colour[c] = (*values)[static_cast<std::size_t>(c)].get<float>();
+            }
         }
+        set_intensity(value_or(source, "intensity", 1.0F), colour, light);
         if (light.kind == PunctualKind::spot) {
             read_cone(source, definition, light);
         }
@@ -91,14 +94,20 @@ class LightReader {
         keep(path, std::move(light));
     }
 
+    /// One that is dark in the file can be switched on, in its colour.
+    static void set_intensity(float factor, const glm::vec3& colour, PunctualLight& light) {
+        light.intensity = factor * colour;
+        light.dark_colour = luminance(colour) > 0.0F ? colour / luminance(colour) : glm::vec3(1.0F);
+    }
+
     void add_profile(std::size_t node, const tinygltf::Value& use) {
         const std::string path = item_path("nodes", node) + ".extensions.EXT_lights_ies.light";
         const auto index = static_cast<std::size_t>(integer_or(use, "light", 0));
         check_index(path, index, profiles_.size());
         PunctualLight light;
         light.name = name_of(node, profiles_[index]);
-        light.intensity = number_or(use, "multiplier", 1.0F) *
-                          glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F);
+        set_intensity(number_or(use, "multiplier", 1.0F),
+                      glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F), light);
         light.profile = profile(index);
         place(node, light);
         keep(path, std::move(light));
@@ -127,6 +136,10 @@ class LightReader {
         } catch (const SceneError& error) {
             document_.fail(path, error.json_path() + ": " + error.reason());
         }
+        for (const std::string& note : read_profiles_[index]->data().notes) {
+            document_.note(
+                fmt::format("IES file '{}': {}", value_or<std::string>(source, "uri", path), note));
+        }
         return read_profiles_[index];
     }
 
@@ -146,13 +159,21 @@ class LightReader {
     }
 
     void keep(const std::string& path, PunctualLight light) {
-        if (light.intensity == glm::vec3(0.0F)) {
+        scene_.punctual_lights.push_back(std::move(light));
+        if (scene_.punctual_lights.size() <= max_lights) {
             return;
         }
-        if (scene_.punctual_lights.size() >= max_lights) {
+        const auto dark = std::find_if(
+            scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
+            [](const PunctualLight& other) { return other.intensity == glm::vec3(0.0F); });
+        if (dark == scene_.punctual_lights.end()) {
             document_.fail(path, fmt::format("more than {} punctual lights", max_lights));
         }
-        scene_.punctual_lights.push_back(std::move(light));
+        scene_.punctual_lights.erase(dark);
+        document_.note(
+            fmt::format("there are more than {} punctual lights: some that are switched "
+                        "off are left out",
+                        max_lights));
     }
 
     void read_cone(const Json& source, std::size_t definition, PunctualLight& light) {
@@ -161,15 +182,16 @@ class LightReader {
         const Json& spot = found == nullptr ? none : *found;
         const double inner = value_or(spot, "innerConeAngle", 0.0);
         const double outer = value_or(spot, "outerConeAngle", glm::quarter_pi<double>());
-        if (!(inner < outer)) {
+        if (!(inner <= outer)) {
             document_.fail(
                 fmt::format("extensions.KHR_lights_punctual.lights[{}].spot", definition),
-                fmt::format("innerConeAngle {} is not below outerConeAngle {}", inner, outer));
+                fmt::format("innerConeAngle {} is above outerConeAngle {}", inner, outer));
         }
-        light.inner_cosine = static_cast<float>(std::cos(inner));
-        // At least a thousandth apart, as the extension's own formula has it.
-        light.outer_cosine =
-            std::min(static_cast<float>(std::cos(outer)), light.inner_cosine - 1e-3F);
+        // A hard edge has both cones at once: it falls within 16 roundings of a cosine.
+        constexpr float min_gap = 16.0F * std::numeric_limits<float>::epsilon();
+        light.outer_cosine = std::min(static_cast<float>(std::cos(outer)), 1.0F - min_gap);
+        light.inner_cosine =
+            std::max(static_cast<float>(std::cos(inner)), light.outer_cosine + min_gap);
     }
 
     void place(std::size_t node, PunctualLight& light) const {

@@ -15,11 +15,11 @@
 #include "scene/gltf_camera.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_document.h"
-#include "scene/gltf_geometry.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_node_tree.h"
 #include "scene/gltf_objects.h"
+#include "scene/gltf_place.h"
 #include "scene/gltf_primitive.h"
 #include "scene/lights.h"
 #include "scene/solid_shells.h"
@@ -50,9 +50,10 @@ void name_materials(Scene& scene) {
 
 /// Gives the punctual lights of a name the distribution of a file, "LIGHT=FILE"; their colour
 /// stays.
-void apply_ies(const std::string& choice, Scene& scene) {
+void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) {
     const std::size_t equals = choice.find('=');
     const std::string name = choice.substr(0, equals);
+    const std::string file = choice.substr(equals + 1);
     std::shared_ptr<const IesProfile> profile;
     std::string names;
     for (PunctualLight& light : scene.punctual_lights) {
@@ -61,13 +62,17 @@ void apply_ies(const std::string& choice, Scene& scene) {
             continue;
         }
         if (!profile) {
-            profile = std::make_shared<const IesProfile>(read_ies(choice.substr(equals + 1)));
+            profile = std::make_shared<const IesProfile>(read_ies(file));
         }
         light.kind = PunctualKind::point;
-        light.intensity /= luminance(light.intensity);
+        light.intensity = colour_of(light);
         light.profile = profile;
     }
-    if (!profile) {
+    if (profile) {
+        for (const std::string& note : profile->data().notes) {
+            document.note(fmt::format("IES file '{}': {}", file, note));
+        }
+    } else {
         throw SceneError(scene.path, "",
                          fmt::format("--ies: there is no point light or spot '{}'; punctual "
                                      "lights: {}",
@@ -114,16 +119,16 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     Scene scene;
     scene.path = document.path();
     scene.name = std::filesystem::path(scene.path).stem().string();
-    const GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
+    GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
     const std::uint32_t default_material = read_materials(document, scene);
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
-        read_geometry(document, tree, settings.metres_per_unit);
+        read_placed_geometry(document, tree, settings.metres_per_unit, scene);
     const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
     bake_objects(document, tree, geometries, plans, default_material, scene);
     read_punctual_lights(document, tree, plans, scene);
     for (const std::string& choice : settings.ies) {
-        apply_ies(choice, scene);
+        apply_ies(choice, document, scene);
     }
     scene.removed.duplicate_faces = remove_duplicate_faces(scene);
     if (scene.removed.duplicate_faces > 0) {
@@ -139,9 +144,11 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
         document.note("the file has no usable camera: a default one is used");
     }
     scene.removed.solid_insides = mark_solid_shells(scene);
+    measure_lights(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
-    scene.notices = document.notices();
+    scene.notices.insert(scene.notices.begin(), document.notices().begin(),
+                         document.notices().end());
     return scene;
 }
 

@@ -9,17 +9,14 @@
 #include <tuple>
 
 #include "scene/alpha_blend.h"
-#include "scene/base_colour.h"
 #include "scene/gltf_clear_coat.h"
 #include "scene/gltf_image.h"
 #include "scene/gltf_loader.h"
 #include "scene/gltf_max_phong.h"
-#include "scene/specular_surface.h"
+#include "scene/gltf_transmission.h"
 
 namespace raybundle {
 namespace {
-
-constexpr std::size_t max_texture_bytes = 2ULL << 30U;
 
 const tinygltf::Value* specular_glossiness(const tinygltf::Material& material) {
     return find_extension(material.extensions, "KHR_materials_pbrSpecularGlossiness");
@@ -115,17 +112,19 @@ class MaterialReader {
             material.specular_colour = vector_or(*specular, "specularColorFactor", glm::vec3(1.0F));
         }
         read_index_of_refraction(source, material);
-        read_transmission(source, material);
+        read_transmission(document_, source, material);
         material.max_phong = read_max_phong(source.extras);
         material.double_sided = source.doubleSided;
         material.unlit = is_unlit(source);
         if (material.unlit) {
             material.emission = glm::vec3(0.0F);
+            material.dark_emission = glm::vec3(0.0F);
             material.emission_texture = {};
         } else {
             read_details(source, item_path("materials", index), material);
         }
-        read_diffuse_transmission(source, material);
+        read_diffuse_transmission(document_, source, material);
+        spread_part_transmission(document_, scene_, material);
         read_clear_coat(document_, source, material);
         if (source.alphaMode == "BLEND") {
             if (const auto notice = read_alpha_blend(scene_.textures, material)) {
@@ -169,28 +168,6 @@ class MaterialReader {
         }
     }
 
-    /// KHR_materials_transmission and KHR_materials_volume.
-    void read_transmission(const tinygltf::Material& source, Material& material) {
-        if (const auto* transmission =
-                find_extension(source.extensions, "KHR_materials_transmission")) {
-            material.transmission =
-                std::clamp(number_or(*transmission, "transmissionFactor", 0.0F), 0.0F, 1.0F);
-        }
-        if (const auto* volume = find_extension(source.extensions, "KHR_materials_volume")) {
-            material.thickness = std::max(number_or(*volume, "thicknessFactor", 0.0F), 0.0F);
-            material.attenuation_colour = vector_or(*volume, "attenuationColor", glm::vec3(1.0F));
-            material.attenuation_distance = number_or(*volume, "attenuationDistance", 0.0F);
-        }
-        if (material.transmission <= 0.0F) {
-            return;
-        }
-        if (!is_glass(material)) {
-            document_.note("materials that transmit less than half of the light are opaque");
-        } else if (material.transmission < 1.0F || material.roughness > mirror_roughness) {
-            document_.note("glass is read as smooth and as transmitting all that it lets in");
-        }
-    }
-
     void read_emission(const tinygltf::Material& source, const std::string& path,
                        Material& material) {
         float strength = 1.0F;
@@ -198,9 +175,11 @@ class MaterialReader {
                 find_extension(source.extensions, "KHR_materials_emissive_strength")) {
             strength = number_or(*extension, "emissiveStrength", 1.0F);
         }
-        material.emission = vector_or(source.emissiveFactor, glm::vec3(0.0F)) * strength;
+        const glm::vec3 factor = vector_or(source.emissiveFactor, glm::vec3(0.0F));
+        material.emission = factor * strength;
+        material.dark_emission = strength > 0.0F ? glm::vec3(0.0F) : factor;
         const tinygltf::TextureInfo& info = source.emissiveTexture;
-        if (info.index < 0 || material.emission == glm::vec3(0.0F)) {
+        if (info.index < 0 || factor == glm::vec3(0.0F)) {
             return;
         }
         material.emission_texture = slot(info);
@@ -220,35 +199,6 @@ class MaterialReader {
             material.normal_scale = static_cast<float>(source.normalTexture.scale);
             check_uv_set(source, source.normalTexture, path, "normal map");
         }
-    }
-
-    /// KHR_materials_diffuse_transmission: the Lambert part becomes
-    /// (1 - factor) base colour reflected + factor colour transmitted.
-    void read_diffuse_transmission(const tinygltf::Material& source, Material& material) {
-        const auto* extension =
-            find_extension(source.extensions, "KHR_materials_diffuse_transmission");
-        if (extension == nullptr || material.unlit || material.max_phong) {
-            return;
-        }
-        const float factor = number_or(*extension, "diffuseTransmissionFactor", 0.0F);
-        const glm::vec3 colour =
-            vector_or(*extension, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
-        if (extension->Has("diffuseTransmissionTexture") ||
-            extension->Has("diffuseTransmissionColorTexture")) {
-            document_.note(
-                "textures of KHR_materials_diffuse_transmission are ignored, its factors are used");
-        }
-        if (factor <= 0.0F || colour == glm::vec3(0.0F)) {
-            return;
-        }
-        document_.note("surfaces that transmit light diffusely are thin, without gloss");
-        material.transmittance = max_albedo * factor * glm::clamp(colour, 0.0F, 1.0F);
-        material.base_colour =
-            glm::min((1.0F - factor) * material.base_colour, max_albedo - material.transmittance);
-        material.metallic = 0.0F;
-        material.specular = 0.0F;
-        material.metallic_roughness_texture = {};
-        material.double_sided = true;
     }
 
     /// The slot of a texture that a scene is worth showing without: if it cannot be read, a notice
@@ -329,11 +279,6 @@ class MaterialReader {
 
     void add_texture(int image, bool repeat_u, bool repeat_v) {
         DecodedImage decoded = decode_image(document_, image);
-        if (decoded.rgba.size() > max_texture_bytes - texture_bytes_) {
-            document_.fail(item_path("images", image),
-                           fmt::format("decoded images exceed {} bytes", max_texture_bytes));
-        }
-        texture_bytes_ += decoded.rgba.size();
         scene_.textures.push_back({item(document_.model().images, image).name, decoded.width,
                                    decoded.height, repeat_u, repeat_v, std::move(decoded.rgba)});
     }
@@ -341,12 +286,12 @@ class MaterialReader {
     GltfDocument& document_;
     Scene& scene_;
     std::map<std::tuple<int, bool, bool>, int> known_;
-    std::size_t texture_bytes_ = 0;
 };
 
 }  // namespace
 
 std::uint32_t read_materials(GltfDocument& document, Scene& scene) {
+    check_image_sizes(document);
     MaterialReader reader(document, scene);
     for (std::size_t i = 0; i < document.model().materials.size(); ++i) {
         reader.read(i);

@@ -10,9 +10,10 @@
 namespace raybundle {
 namespace {
 
-class Checker {
+class MaxPhongChecker {
   public:
-    Checker(const std::string& file, std::string path) : file_(file), path_(std::move(path)) {}
+    MaxPhongChecker(const std::string& file, std::string path)
+        : file_(file), path_(std::move(path)) {}
 
     void check(const Json& max_phong) const {
         if (!max_phong.is_object()) {
@@ -63,7 +64,7 @@ void check_max_phong(const std::string& file, const Json& json) {
         }
         if (at != nullptr) {
             const std::string path = item_path("materials", i) + ".extras.raybundle.maxPhong";
-            Checker(file, path).check(*at);
+            MaxPhongChecker(file, path).check(*at);
         }
     }
 }

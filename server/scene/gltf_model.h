@@ -48,12 +48,12 @@ inline float number_or(const tinygltf::Value& object, const char* key, float fal
     return object.Has(key) ? static_cast<float>(object.Get(key).GetNumberAsDouble()) : fallback;
 }
 
-/// A vector of floats such as glm::vec3 from as many numbers, or from none.
+/// A vector such as glm::vec3 from as many numbers, or from none.
 template <typename Vector>
 Vector vector_or(const std::vector<double>& numbers, Vector fallback) {
     Vector result = fallback;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        result[static_cast<int>(i)] = static_cast<float>(numbers[i]);
+        result[static_cast<int>(i)] = static_cast<typename Vector::value_type>(numbers[i]);
     }
     return result;
 }

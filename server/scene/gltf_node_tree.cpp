@@ -41,7 +41,8 @@ void decompose(GltfNode& node) {
     node.transform.translation = translation;
     node.transform.rotation = glm::normalize(rotation);
     node.transform.scale = scale;
-    const glm::dmat4 trs(node.transform.matrix());
+    glm::dmat4 trs(node.transform.matrix());
+    trs[3] = node.parent_from_node[3];  // far away single precision has rounded it
     const glm::dmat4 remainder = glm::inverse(trs) * node.parent_from_node;
     // Rounding of an ordinary TRS is not worth touching every vertex for.
     const bool ordinary = nearly_equal(remainder, glm::dmat4(1.0), 1e-5);
@@ -69,7 +70,9 @@ void read_transform(GltfDocument& document, const tinygltf::Node& source, const 
         read_matrix(document, source.matrix, path, metres_per_unit, node);
         return;
     }
-    node.transform.translation = vector_or(source.translation, glm::vec3(0.0F)) * metres_per_unit;
+    const glm::dvec3 translation =
+        vector_or(source.translation, glm::dvec3(0.0)) * double{metres_per_unit};
+    node.transform.translation = glm::vec3(translation);
     node.transform.scale = vector_or(source.scale, glm::vec3(1.0F));
     const glm::vec4 xyzw = vector_or(source.rotation, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
     if (glm::length(xyzw) < 1e-6F) {
@@ -77,6 +80,7 @@ void read_transform(GltfDocument& document, const tinygltf::Node& source, const 
     }
     node.transform.rotation = glm::normalize(glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z));
     node.parent_from_node = glm::dmat4(node.transform.matrix());
+    node.parent_from_node[3] = glm::dvec4(translation, 1.0);
 }
 
 void read_node(GltfDocument& document, std::size_t index, float metres_per_unit,
@@ -193,6 +197,21 @@ void compose_world_matrices(GltfNodeTree& tree) {
 }
 
 }  // namespace
+
+void take_out_offset(const glm::dvec3& offset, GltfNodeTree& tree) {
+    for (GltfNode& node : tree.nodes) {
+        if (node.parent >= 0) {
+            continue;
+        }
+        node.parent_from_node[3] -= glm::dvec4(offset, 0.0);
+        if (glm::dvec3(node.remainder[3]) == glm::dvec3(0.0)) {
+            node.transform.translation = glm::vec3(node.parent_from_node[3]);
+        } else {  // all of it, see decompose()
+            node.remainder[3] -= glm::dvec4(offset, 0.0);
+        }
+    }
+    compose_world_matrices(tree);
+}
 
 GltfNodeTree read_node_tree(GltfDocument& document, float metres_per_unit) {
     GltfNodeTree tree;

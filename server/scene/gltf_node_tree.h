@@ -37,4 +37,7 @@ struct GltfNodeTree {
 /// SceneError.
 GltfNodeTree read_node_tree(GltfDocument& document, float metres_per_unit);
 
+/// Moves everything by -offset, m, in double precision.
+void take_out_offset(const glm::dvec3& offset, GltfNodeTree& tree);
+
 }  // namespace raybundle

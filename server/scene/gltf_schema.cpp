@@ -182,7 +182,7 @@ constexpr Rule rules[] = {
     choice("extensions.KHR_lights_punctual.lights[].type", "point|spot|directional", required),
     numbers("extensions.KHR_lights_punctual.lights[].color", 3, 0, 1e9),
     number("extensions.KHR_lights_punctual.lights[].intensity", 0, 1e12),
-    number("extensions.KHR_lights_punctual.lights[].range", 0, huge),
+    number("extensions.KHR_lights_punctual.lights[].range", 0, 1e308),  // FLT_MAX, too
     number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", 0, right_angle),
     number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", 0, right_angle),
 

@@ -9,6 +9,7 @@
 
 #include "scene/gltf_container.h"
 #include "scene/gltf_loader.h"
+#include "scene/gltf_similar_file.h"
 
 namespace raybundle {
 namespace {
@@ -122,11 +123,26 @@ std::string local_file(const std::string& scene_file, const std::string& json_pa
     const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
     // Files whose names contain a literal "%" are looked for as written, too.
     std::error_code error;
-    if (!std::filesystem::exists(folder / relative, error) &&
-        std::filesystem::exists(folder / uri, error)) {
+    if (std::filesystem::exists(folder / relative, error)) {
+        return (folder / relative).string();
+    }
+    if (std::filesystem::exists(folder / uri, error)) {
         return (folder / uri).string();
     }
-    return (folder / relative).string();
+    return similar_file(folder, relative.native()).value_or(folder / relative).string();
+}
+
+std::optional<std::string> other_spelling(const std::string& scene_file,
+                                          const std::string& json_path, const std::string& uri) {
+    if (uri.starts_with("data:")) {
+        return std::nullopt;
+    }
+    const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
+    const std::filesystem::path found(local_file(scene_file, json_path, uri));
+    if (found == folder / percent_decoded(uri) || found == folder / uri) {
+        return std::nullopt;
+    }
+    return folder.empty() ? found.string() : found.lexically_relative(folder).string();
 }
 
 std::vector<std::uint8_t> read_uri(const std::string& scene_file, const std::string& json_path,

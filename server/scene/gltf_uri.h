@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,15 @@ std::vector<std::uint8_t> read_uri(const std::string& scene_file, const std::str
 /// As read_uri(), but only makes sure that a referenced file exists.
 void check_uri(const std::string& scene_file, const std::string& json_path, const std::string& uri);
 
-/// The file that a relative reference names. Throws SceneError for what read_uri() refuses.
+/// The file that a relative reference names. Where there is none of that name it is the only one in
+/// the scene's folder whose name is spelt differently, see gltf_similar_file.h. Throws SceneError
+/// for what read_uri() refuses.
 std::string local_file(const std::string& scene_file, const std::string& json_path,
                        const std::string& uri);
+
+/// The name of that file, relative to the scene's folder, where it is spelt differently.
+std::optional<std::string> other_spelling(const std::string& scene_file,
+                                          const std::string& json_path, const std::string& uri);
 
 /// "%20" becomes a space; a "%" that starts no escape stays as it is.
 std::string percent_decoded(std::string_view text);

@@ -4,176 +4,244 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "scene/gltf_loader.h"
 #include "scene/ies_profile.h"
+#include "scene/ies_text.h"
 
 namespace raybundle {
 namespace {
 
 constexpr std::size_t max_file_bytes = 16U << 20U;
 constexpr std::size_t max_values = 1U << 20U;  // of candela
-constexpr double max_number = 1e9;
 
-class Reader {
-  public:
-    Reader(const std::string& file, std::string_view text) : file_(file), rest_(text) {}
-
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw SceneError(file_, fmt::format("line {}", line_), reason);
+/// Year of the standard that a line names, as "IES:LM-63-2019" or "IESNA91" do; 0: none.
+int year_of(std::string_view line) {
+    const std::string key = compact(line);
+    if (key.starts_with("IESNA91")) {
+        return 1991;
     }
-
-    [[nodiscard]] bool at_end() const { return rest_.empty(); }
-
-    /// The rest of this line.
-    std::string_view next_line() {
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++line_;
-        if (!line.empty() && line.back() == '\r') {
-            line.remove_suffix(1);
-        }
-        return line;
+    std::size_t at = key.starts_with("[") ? std::string::npos : key.find("LM-63");
+    if (at == std::string::npos) {
+        return 0;
     }
-
-    double number(const std::string& what, double low = -max_number, double high = max_number) {
-        skip_blanks();
-        std::string_view digits = rest_;
-        if (!digits.empty() && digits.front() == '+') {
-            digits.remove_prefix(1);
-        }
-        double value = 0.0;
-        const auto [end, error] =
-            std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (rest_.empty()) {
-            fail(fmt::format("the file ends where {} should be", what));
-        }
-        if (error != std::errc() || !ends_number(end)) {
-            fail(fmt::format("{} is not a number", what));
-        }
-        if (!(value >= low && value <= high)) {
-            fail(fmt::format("{} is {}, not in [{}, {}]", what, value, low, high));
-        }
-        rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-        return value;
+    at += 5;
+    at += at < key.size() && (key[at] < '0' || key[at] > '9') ? 1 : 0;
+    int year = 0;
+    std::size_t digits = 0;
+    for (; digits < 4 && at < key.size() && key[at] >= '0' && key[at] <= '9'; ++at, ++digits) {
+        year = 10 * year + (key[at] - '0');
     }
-
-    std::size_t count(const std::string& what, std::size_t high) {
-        const double value = number(what, 1.0, static_cast<double>(high));
-        if (value != std::floor(value)) {
-            fail(fmt::format("{} is {}, not an integer", what, value));
-        }
-        return static_cast<std::size_t>(value);
+    if (digits == 2) {
+        return year + (year >= 86 ? 1900 : 2000);
     }
+    return digits == 4 ? year : 0;
+}
 
-    std::vector<double> ascending(const std::string& what, std::size_t number_of, double low,
-                                  double high) {
-        std::vector<double> values;
-        for (std::size_t i = 0; i < number_of; ++i) {
-            values.push_back(number(what, low, high));
-            if (i > 0 && values[i] <= values[i - 1]) {
-                fail(fmt::format("{} {} is not above the one before it, {}", what, values[i],
-                                 values[i - 1]));
-            }
-        }
-        return values;
+/// What a file that has no TILT is instead, by its first lines; empty: not known.
+std::string other_format(const std::string& file, const std::string& text) {
+    if (compact(text.substr(0, 200)).starts_with("<")) {
+        return "this is XML or HTML, not the text of LM-63";
     }
-
-  private:
-    void skip_blanks() {
-        while (!rest_.empty() && is_blank(rest_.front())) {
-            line_ += rest_.front() == '\n' ? 1 : 0;
-            rest_.remove_prefix(1);
+    // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance.
+    IesReader reader(file, text);
+    reader.next_line();
+    for (int i = 0; i < 6; ++i) {
+        const std::string line = compact(reader.next_line());
+        if (line.empty() || line.find_first_not_of("0123456789.,") != std::string::npos) {
+            return "";
         }
     }
-    static bool is_blank(char c) {
-        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
-    }
-    [[nodiscard]] bool ends_number(const char* end) const {
-        return end == rest_.data() + rest_.size() || is_blank(*end);
-    }
+    return "this is EULUMDAT, not LM-63";
+}
 
-    const std::string& file_;
-    std::string_view rest_;
-    int line_ = 1;
+struct Head {
+    int year = 0;  ///< of the standard; 0 where no line names one
+    bool decimal_commas = false;
 };
 
-/// The part up to and with TILT: the year of the standard, 0 where no line names one. The factors
-/// of TILT=INCLUDE are those of a tilted luminaire; it is measured upright, where its factor is 1.
-int read_head(Reader& reader) {
-    int year = 0;
+/// The factors of TILT=INCLUDE are those of a tilted luminaire; it is measured upright, where its
+/// factor is 1.
+void skip_tilt(IesReader& reader) {
+    reader.number("the lamp-to-luminaire geometry", 1, 3);
+    const std::size_t pairs = reader.count("the number of tilt angles", 1000);
+    reader.ascending("a tilt angle", pairs, -360, 360);
+    for (std::size_t k = 0; k < pairs; ++k) {
+        reader.number("a tilt factor", 0, 1e3);
+    }
+}
+
+/// The part up to and with TILT.
+Head read_head(IesReader& reader, const std::string& file, const std::string& text) {
+    Head head;
     constexpr int max_lines = 10'000;
     for (int i = 0; i < max_lines && !reader.at_end(); ++i) {
         const std::string_view line = reader.next_line();
-        if (i == 0) {
-            for (const int known : {1991, 1995, 2002, 2019}) {
-                const std::string tail = std::to_string(known);
-                const bool old = known == 1991 && line.starts_with("IESNA91");
-                if (old || (line.starts_with("IES") && line.ends_with(tail))) {
-                    year = known;
-                }
-            }
-        }
-        if (!line.starts_with("TILT=")) {
+        head.year = head.year == 0 ? year_of(line) : head.year;
+        const std::string key = compact(line);
+        if (!key.starts_with("TILT=")) {
             continue;
         }
-        const std::string_view value = line.substr(5);
-        if (value.starts_with("INCLUDE")) {
-            reader.number("the lamp-to-luminaire geometry", 1, 3);
-            const std::size_t pairs = reader.count("the number of tilt angles", 1000);
-            reader.ascending("a tilt angle", pairs, -360, 360);
-            for (std::size_t k = 0; k < pairs; ++k) {
-                reader.number("a tilt factor", 0, 1e3);
-            }
-        } else if (!value.starts_with("NONE")) {
+        const bool included = key.starts_with("TILT=INCLUDE");
+        if (!included && !key.starts_with("TILT=NONE")) {
             reader.fail("TILT names a file: only NONE and INCLUDE are supported");
         }
-        return year;
+        head.decimal_commas = resolve_commas(reader, included);
+        if (included) {
+            skip_tilt(reader);
+        }
+        return head;
+    }
+    const std::string other = other_format(file, text);
+    if (!other.empty()) {
+        reader.fail(1, other);
     }
     reader.fail("there is no line that begins with TILT=");
 }
 
-void check_angles(const Reader& reader, const IesProfile::Data& data) {
+/// The limits of a range as they are meant: files have two decimals, and 359.99 for 360.
+void snap_limits(std::vector<double>& angles) {
+    constexpr double rounding = 0.01 + 1e-6;
+    const auto snapped = [](double angle) {
+        const double right = 90.0 * std::round(angle / 90.0);
+        return std::abs(angle - right) <= rounding ? right : angle;
+    };
+    const double first = snapped(angles.front());
+    const double last = snapped(angles.back());
+    if (angles.size() == 1) {
+        angles.front() = first;
+    } else if (first < angles[1] && last > angles[angles.size() - 2]) {
+        angles.front() = first;
+        angles.back() = last;
+    }
+}
+
+void check_type_c(const IesReader& reader, IesProfile::Data& data) {
     const std::vector<double>& v = data.vertical;
     const std::vector<double>& h = data.horizontal;
-    const auto starts = [](const std::vector<double>& angles, double a, double b) {
-        return angles.front() == a || angles.front() == b;
-    };
-    if (data.type == IesProfile::Type::c) {
-        if (v.size() > 1 && (!starts(v, 0.0, 90.0) || (v.back() != 90.0 && v.back() != 180.0))) {
-            reader.fail("vertical angles of type C go from 0 or 90 to 90 or 180");
-        }
-        const bool since_1995 = h.front() == 90.0 && h.back() == 270.0;
-        if (!since_1995 && (h.front() != 0.0 || (h.size() > 1 && h.back() < 90.0))) {
-            reader.fail("horizontal angles of type C go from 0 to 0, 90, 180 or 360");
-        }
-        return;
+    if ((v.front() != 0.0 && v.front() != 90.0) || v.size() < 2) {
+        reader.fail("vertical angles of type C begin at 0 or 90 and are at least two");
     }
-    for (const std::vector<double>* angles : {&v, &h}) {
-        if (!starts(*angles, 0.0, -90.0) || (angles->size() > 1 && angles->back() != 90.0)) {
+    if (v.back() != 90.0 && v.back() != 180.0) {
+        data.notes.push_back(
+            fmt::format("its vertical angles end at {}°: it is dark beyond", v.back()));
+    }
+    const bool since_1995 = h.front() == 90.0 && h.back() == 270.0;
+    if (!since_1995 && h.front() != 0.0 && h.size() > 1) {
+        reader.fail("horizontal angles of type C go from 0 to 0, 90, 180 or 360");
+    }
+}
+
+void check_types_a_and_b(const IesReader& reader, IesProfile::Data& data) {
+    for (const auto& [angles, name] :
+         {std::pair(&data.vertical, "vertical"), std::pair(&data.horizontal, "horizontal")}) {
+        const bool single = angles->size() == 1;
+        if (angles->front() > 0.0 || (!single && angles->back() <= 0.0) || angles->back() > 90.0) {
             reader.fail("angles of types A and B go from -90 or 0 to 90");
+        }
+        const bool whole = angles->front() == 0.0 || angles->front() == -90.0;
+        if (!single && (!whole || angles->back() != 90.0)) {
+            data.notes.push_back(fmt::format("its {} angles go from {}° to {}°: it is dark beyond",
+                                             name, angles->front(), angles->back()));
         }
     }
 }
 
+/// Where planes of type C leave out the last one, as programs do that count 0 and 360 as the same:
+/// its angle. Nothing where they do not.
+std::optional<double> missing_plane(const IesReader& reader, const IesProfile::Data& data) {
+    const std::vector<double>& h = data.horizontal;
+    const double last = h.back();
+    if (data.type != IesProfile::Type::c || h.size() == 1 || h.front() != 0.0 || last == 90.0 ||
+        last == 180.0 || last == 360.0) {
+        return std::nullopt;
+    }
+    const double end = last < 90.0 ? 90.0 : last < 180.0 ? 180.0 : 360.0;
+    const double step = last - h[h.size() - 2];
+    constexpr double rounding = 1e-6;
+    if (h.size() < 3 || end - last > step + rounding) {
+        reader.fail(
+            fmt::format("horizontal angles of type C go from 0 to 0, 90, 180 or 360; these "
+                        "end at {}, not one step of {} before {}",
+                        last, step, end));
+    }
+    return end;
+}
+
+/// Adds that plane: it is as the one that the symmetry puts in its place.
+void close_planes(double angle, IesProfile::Data& data) {
+    const bool circle = angle == 360.0;
+    const auto rows = static_cast<std::ptrdiff_t>(data.vertical.size());
+    const auto source = circle ? data.candela.begin() : data.candela.end() - rows;
+    const std::vector<double> plane(source, source + rows);
+    data.candela.insert(data.candela.end(), plane.begin(), plane.end());
+    const double last = data.horizontal.back();
+    data.horizontal.push_back(angle);
+    data.notes.push_back(fmt::format("its planes end at {}°: that at {}° is as that at {}°", last,
+                                     angle, circle ? 0.0 : last));
+}
+
+/// Values below zero are noise of the measurement where reading them as 0 adds no more than this
+/// share of the flux: a tenth of the percent that photometers differ by.
+constexpr double max_noise_share = 1e-3;
+
+IesProfile without_noise(const IesReader& reader, IesProfile::Data data, int lowest_line) {
+    const double lowest = *std::min_element(data.candela.begin(), data.candela.end());
+    if (lowest >= 0.0) {
+        return IesProfile(std::move(data));
+    }
+    const double raw = IesProfile(data).flux();
+    for (double& candela : data.candela) {
+        candela = std::max(candela, 0.0);
+    }
+    data.notes.push_back(
+        fmt::format("it has negative candela values, down to {}, which are read as 0", lowest));
+    IesProfile profile(std::move(data));
+    if (profile.flux() - raw > max_noise_share * profile.flux()) {
+        reader.fail(lowest_line, fmt::format("a candela value is {}: more than noise", lowest));
+    }
+    return profile;
+}
+
+/// Values in cd, with all factors. Returns the line of the lowest one.
+int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
+    const std::size_t count = data.vertical.size() * data.horizontal.size();
+    data.candela.reserve(count);
+    double lowest = 0.0;
+    int line = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = reader.number("a candela value");
+        data.candela.push_back(factor * value);
+        line = value < lowest ? reader.line() : line;
+        lowest = std::min(value, lowest);
+    }
+    if (reader.has_number()) {
+        reader.fail(fmt::format("more numbers follow than {} x {} candela values",
+                                data.vertical.size(), data.horizontal.size()));
+    }
+    return line;
+}
+
 }  // namespace
 
-IesProfile parse_ies(const std::string& file, std::string_view text) {
-    Reader reader(file, text);
-    if (text.size() > max_file_bytes) {
-        reader.fail(fmt::format("{} bytes; the limit is {}", text.size(), max_file_bytes));
+IesProfile parse_ies(const std::string& file, std::string_view bytes) {
+    const std::string text = plain_ies_text(bytes.substr(0, max_file_bytes));
+    IesReader reader(file, text);
+    if (bytes.size() > max_file_bytes) {
+        reader.fail(fmt::format("{} bytes; the limit is {}", bytes.size(), max_file_bytes));
     }
-    const int year = read_head(reader);
+    const Head head = read_head(reader, file, text);
     IesProfile::Data data;
+    if (head.decimal_commas) {
+        data.notes.emplace_back("its decimal commas are read as decimal points");
+    }
     const double lamps = reader.number("the number of lamps", 0, 1e6);
-    data.lamp_lumens = lamps * reader.number("the lumens per lamp", -1, max_number);
-    const double multiplier = reader.number("the candela multiplier", 0, max_number);
+    data.lamp_lumens = lamps * reader.number("the lumens per lamp", -1, IesReader::max_number);
+    const double multiplier = reader.number("the candela multiplier", 0, IesReader::max_number);
     const std::size_t rows = reader.count("the number of vertical angles", max_values);
     const std::size_t columns = reader.count("the number of horizontal angles", max_values);
     if (rows * columns > max_values) {
@@ -187,16 +255,20 @@ IesProfile parse_ies(const std::string& file, std::string_view text) {
     const double ballast = reader.number("the ballast factor", 0, 1e6);
     // Since 2002 it is not used any more, in 2019 it says how the file was made.
     const double lamp_factor = reader.number("the ballast-lamp photometric factor", 0, 1e6);
-    reader.number("the input watts");
+    data.input_watts = reader.number("the input watts");
     data.vertical = reader.ascending("a vertical angle", rows, -90, 180);
     data.horizontal = reader.ascending("a horizontal angle", columns, -90, 360);
-    check_angles(reader, data);
-    const double factor = multiplier * ballast * (year >= 2002 ? 1.0 : lamp_factor);
-    data.candela.reserve(rows * columns);
-    for (std::size_t i = 0; i < rows * columns; ++i) {
-        data.candela.push_back(factor * reader.number("a candela value", 0, max_number));
+    snap_limits(data.vertical);
+    snap_limits(data.horizontal);
+    const bool type_c = data.type == IesProfile::Type::c;
+    type_c ? check_type_c(reader, data) : check_types_a_and_b(reader, data);
+    const double factor = multiplier * ballast * (head.year >= 2002 ? 1.0 : lamp_factor);
+    const std::optional<double> missing = missing_plane(reader, data);
+    const int lowest_line = read_candela(reader, factor, data);
+    if (missing) {
+        close_planes(*missing, data);
     }
-    IesProfile profile(std::move(data));
+    IesProfile profile = without_noise(reader, std::move(data), lowest_line);
     if (!(profile.flux() > 0.0) || !std::isfinite(profile.flux())) {
         reader.fail("the luminaire gives no light");
     }

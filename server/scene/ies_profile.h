@@ -22,7 +22,9 @@ class IesProfile {
         std::vector<double> horizontal;  ///< at least 1
         /// cd, with all of the file's factors; [horizontal * vertical.size() + vertical]
         std::vector<double> candela;
+        double input_watts = 0.0;  ///< electrical, of the whole luminaire
         double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
+        std::vector<std::string> notes{};  ///< what a user should know about how it was read
     };
 
     explicit IesProfile(Data data);
@@ -43,9 +45,9 @@ class IesProfile {
     double flux_ = 0.0;
 };
 
-/// Parses the text of an IES file; `file` is its name for errors. Throws SceneError with the line
+/// Parses the bytes of an IES file; `file` is its name for errors. Throws SceneError with the line
 /// and the reason.
-IesProfile parse_ies(const std::string& file, std::string_view text);
+IesProfile parse_ies(const std::string& file, std::string_view bytes);
 
 /// Reads a file. Throws SceneError.
 IesProfile read_ies(const std::string& path);

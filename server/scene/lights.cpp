@@ -25,16 +25,27 @@ double world_area(const Scene& scene, const Triangle& triangle, const glm::mat4&
     return 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
 }
 
+/// Lamps that are switched off as they would be at a strength of 1.
+std::vector<Material> as_if_lit(std::vector<Material> materials) {
+    for (Material& material : materials) {
+        if (material.emission == glm::vec3(0.0F)) {
+            material.emission = material.dark_emission;
+        }
+    }
+    return materials;
+}
+
 }  // namespace
 
 std::vector<Light> find_lights(const Scene& scene) {
     std::vector<Emitter> emitters(scene.materials.size());
+    const std::vector<Material> materials = as_if_lit(scene.materials);
     std::vector<glm::mat4> world;
     for (const Object& object : scene.objects) {
         world.push_back(object.world_from_object());
     }
     for (const Triangle& triangle : scene.triangles) {
-        const Material& material = scene.materials[triangle.material];
+        const Material& material = materials[triangle.material];
         if (material.emission == glm::vec3(0.0F)) {
             continue;
         }
@@ -58,17 +69,37 @@ std::vector<Light> find_lights(const Scene& scene) {
         }
         const std::string& name = scene.materials[m].name;
         const glm::vec3 radiance(emitter.power / emitter.area);
-        const glm::vec3& factor = scene.materials[m].emission;
+        const glm::vec3 factor = materials[m].emission;
+        const bool dark = scene.materials[m].emission == glm::vec3(0.0F);
+        const glm::vec3 emitted = dark ? glm::vec3(0.0F) : radiance;
         glm::vec3 texture(0.0F);
         for (int c = 0; c < 3; ++c) {
             texture[c] = factor[c] > 0.0F ? radiance[c] / factor[c] : 1.0F;
         }
         lights.push_back({static_cast<std::uint32_t>(lights.size() + 1),
-                          name.empty() ? emitter.object->name : name, static_cast<int>(m), radiance,
+                          name.empty() ? emitter.object->name : name, static_cast<int>(m), emitted,
                           radiance / std::max(luminance(radiance), 1e-30F), texture, true,
-                          radiance});
+                          emitted});
     }
     return lights;
+}
+
+void measure_lights(Scene& scene) {
+    std::vector<double> areas(scene.materials.size());
+    std::vector<bool> emits(scene.materials.size());
+    for (const Light& light : scene.lights) {
+        emits[static_cast<std::size_t>(light.material)] = true;
+    }
+    for (const Triangle& triangle : scene.triangles) {
+        if (emits[triangle.material]) {
+            const glm::mat4 world = scene.objects[triangle.object].world_from_object();
+            areas[triangle.material] +=
+                (two_sided(scene, triangle) ? 2.0 : 1.0) * world_area(scene, triangle, world);
+        }
+    }
+    for (Light& light : scene.lights) {
+        light.area = areas[static_cast<std::size_t>(light.material)];
+    }
 }
 
 }  // namespace raybundle

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/punctual_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+
+#include "scene/scene.h"
 
 namespace raybundle {
 namespace {
 
-/// The nearest right-handed axes whose z is exact: objects may be scaled, sheared or mirrored.
-glm::dmat3 orthonormal(const glm::dmat3& axes) {
+/// The nearest axes whose z is exact: objects may be scaled, sheared or mirrored. Right-handed, or
+/// of the same hand as those that are given.
+glm::dmat3 orthonormal(const glm::dmat3& axes, bool keep_hand = false) {
     const double length = glm::length(axes[2]);
     const glm::dvec3 z = length > 0.0 ? axes[2] / length : glm::dvec3(0.0, 0.0, 1.0);
     glm::dvec3 x = axes[0] - glm::dot(axes[0], z) * z;
@@ -17,17 +21,34 @@ glm::dmat3 orthonormal(const glm::dmat3& axes) {
         x = other - glm::dot(other, z) * z;
     }
     x = glm::normalize(x);
-    return {x, glm::cross(z, x), z};
+    const glm::dvec3 y = glm::cross(z, x);
+    return {x, keep_hand && glm::determinant(axes) < 0.0 ? -y : y, z};
 }
 
 }  // namespace
+
+glm::vec3 colour_of(const PunctualLight& light) {
+    const float intensity = luminance(light.intensity);
+    return intensity > 0.0F ? light.intensity / intensity : light.dark_colour;
+}
+
+PunctualSetting setting_of(const PunctualLight& light) {
+    return light.setting.value_or(
+        PunctualSetting{light.intensity, colour_of(light), true, light.intensity});
+}
+
+float intensity_unit(const PunctualLight& light) {
+    const double flux = light.profile ? light.profile->flux() : 0.0;
+    return flux > 0.0 ? static_cast<float>(flux) : 1.0F;
+}
 
 PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object) {
     const glm::dmat4 world(world_from_object);
     PlacedLight placed;
     placed.kind = light.kind;
     placed.position = glm::dvec3(world * glm::dvec4(glm::dvec3(light.position), 1.0));
-    placed.axes = orthonormal(glm::dmat3(world) * glm::dmat3(light.axes));
+    // A mirrored luminaire throws to the mirrored side.
+    placed.axes = orthonormal(glm::dmat3(world) * glm::dmat3(light.axes), light.profile != nullptr);
     placed.intensity = glm::dvec3(light.intensity);
     placed.angular_radius = static_cast<double>(light.angular_radius);
     placed.inner_cosine = light.inner_cosine;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
@@ -25,6 +26,15 @@ SceneError::SceneError(std::string file, std::string json_path, std::string reas
 glm::mat4 Transform::matrix() const {
     const glm::mat4 moved = glm::translate(glm::mat4(1.0F), translation);
     return glm::scale(moved * glm::mat4_cast(rotation), scale);
+}
+
+bool has_emitter(const Scene& scene) {
+    const auto emits = [](const Light& light) { return light.radiance != glm::vec3(0.0F); };
+    const auto shines = [](const PunctualLight& light) {
+        return light.intensity != glm::vec3(0.0F);
+    };
+    return std::any_of(scene.lights.begin(), scene.lights.end(), emits) ||
+           std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(), shines);
 }
 
 }  // namespace raybundle

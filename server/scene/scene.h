@@ -90,6 +90,8 @@ struct Material {
     float reflectance = 1.0F;           ///< factor of the whole BRDF; 1 in files
     glm::vec3 emission{0.0F};           ///< radiance, cd/m²: emissiveFactor * emissiveStrength
     TextureSlot emission_texture;
+    /// Of a lamp that the file switches off, by an emissiveStrength of 0: its emissiveFactor.
+    glm::vec3 dark_emission{0.0F};
     bool double_sided = false;
     /// KHR_materials_diffuse_transmission: share of the light on one side that is sent from the
     /// other, like a Lambert surface's. With it base_colour is what is left to reflect, there is no
@@ -137,6 +139,9 @@ struct Camera {
     glm::vec3 target{0.0F, 0.0F, -1.0F};
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     float vertical_fov = 0.7F;  ///< radians
+    /// Part of its picture that is drawn: x and y of the part's centre from the picture's, upwards,
+    /// then the part's width and height, in units of the picture's half and whole edges.
+    glm::vec4 part{0.0F, 0.0F, 1.0F, 1.0F};
 };
 
 /// An emitting material seen as a luminaire: what the protocol lists under `lights`.
@@ -149,6 +154,7 @@ struct Light {
     glm::vec3 texture{1.0F};   ///< mean of the emission texture: radiance is emission times this
     bool on = true;
     glm::vec3 loaded{0.0F};  ///< radiance as the file has it
+    double area = 0.0;       ///< that emits, of both sides where both do, as loaded, m²
 };
 
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
@@ -185,11 +191,12 @@ struct Scene {
     std::vector<Object> objects;  ///< at least one
     std::vector<Camera> cameras;  ///< at least one: a framing default where the file has none
     std::vector<Light> lights;
-    std::vector<PunctualLight> punctual_lights;  ///< none of them black
+    std::vector<PunctualLight> punctual_lights;
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
-    Bounds bounds;  ///< world space
+    Bounds bounds;           ///< world space
+    glm::dvec3 origin{0.0};  ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };
@@ -200,9 +207,7 @@ inline bool two_sided(const Scene& scene, const Triangle& triangle) {
 }
 
 /// Whether anything but a sky emits light.
-inline bool has_emitter(const Scene& scene) {
-    return !scene.lights.empty() || !scene.punctual_lights.empty();
-}
+bool has_emitter(const Scene& scene);
 
 /// The light in the world, its object at its initial place.
 inline PlacedLight place_light(const Scene& scene, const PunctualLight& light) {

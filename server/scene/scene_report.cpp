@@ -68,6 +68,7 @@ SceneReport make_scene_report(const Scene& scene, const PatchMesh& mesh) {
     }
     report.edges = count_edge_defects(scene);
     report.unit_hint = unit_hint(scene.bounds);
+    report.enclosed = find_enclosed_lights(scene);
     report.patches = mesh.patch_count();
     report.patch_triangles = mesh.triangle_count();
     report.patch_vertices = mesh.positions.size();

@@ -10,6 +10,7 @@
 #include "scene/geometry_defects.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
+#include "scene/solid_shells.h"
 
 namespace raybundle {
 
@@ -22,6 +23,7 @@ struct SceneReport {
     double area = 0.0;              ///< of all triangles, one side, m²
     EdgeDefects edges;
     std::optional<std::string> unit_hint;  ///< set where the size suggests a wrong unit
+    std::vector<EnclosedLight> enclosed;   ///< lamps whose light does not get out
     std::size_t patches = 0;               ///< of the tessellation
     std::size_t patch_triangles = 0;
     std::size_t patch_vertices = 0;

@@ -7,6 +7,7 @@
 #include "scene/scene_report.h"
 
 #include "scene/environment.h"
+#include "scene/light_figures.h"
 
 namespace raybundle {
 namespace {
@@ -33,6 +34,10 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     out << fmt::format("{} ({})\n", scene.name, scene.path);
     out << fmt::format("bounds      {}  to  {}  ({} m)\n", text_of(scene.bounds.min),
                        text_of(scene.bounds.max), text_of(scene.bounds.extent()));
+    if (scene.origin != glm::dvec3(0.0)) {
+        out << fmt::format("origin      {:.0f}, {:.0f}, {:.0f} m of the file's coordinates\n",
+                           scene.origin.x, scene.origin.y, scene.origin.z);
+    }
     if (report.unit_hint) {
         out << fmt::format("unit        {}\n", *report.unit_hint);
     }
@@ -47,6 +52,10 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
         scene.removed.solid_insides);
     out << fmt::format("edges       {} open, {} shared by more than two triangles\n",
                        report.edges.boundary, report.edges.non_manifold);
+    for (const EnclosedLight& lamp : report.enclosed) {
+        out << fmt::format("enclosed    '{}': '{}' encloses it, none of its light gets out\n",
+                           lamp.light, lamp.object);
+    }
     out << fmt::format("sky         {} cd/m²\n", text_of(scene.sky_radiance));
     if (scene.environment) {
         out << fmt::format("environment {}\n", scene.environment->description());
@@ -65,6 +74,22 @@ const char* name_of(PunctualKind kind) {
     return "point";
 }
 
+/// In the units that people know lights by.
+std::string strength_of(const PunctualLight& light) {
+    const LightFigures figures = loaded_figures(light);
+    if (light.kind == PunctualKind::directional) {
+        return fmt::format("{:.4g} lx  (RGB {})", luminance(light.intensity),
+                           text_of(light.intensity));
+    }
+    if (!light.profile) {
+        return fmt::format("{:.4g} cd, {:.4g} lm  (RGB {})", figures.peak, figures.flux,
+                           text_of(light.intensity));
+    }
+    const std::string watts =
+        figures.watts > 0.0 ? fmt::format(", {:.4g} W", figures.watts) : std::string();
+    return fmt::format("{:.4g} lm, at most {:.4g} cd{}", figures.flux, figures.peak, watts);
+}
+
 void print_lists(std::ostream& out, const Scene& scene) {
     out << fmt::format("objects     {}\n", scene.objects.size());
     for (const Object& object : scene.objects) {
@@ -81,14 +106,14 @@ void print_lists(std::ostream& out, const Scene& scene) {
     }
     out << fmt::format("lights      {}\n", scene.lights.size() + scene.punctual_lights.size());
     for (const Light& light : scene.lights) {
-        out << fmt::format("  {:4} {}  {:.4g} cd/m²  (RGB {})\n", light.id, light.name,
-                           luminance(light.radiance), text_of(light.radiance));
+        out << fmt::format("  {:4} {}  {:.4g} cd/m², {:.4g} lm  (RGB {})\n", light.id, light.name,
+                           luminance(light.radiance), loaded_figures(light).flux,
+                           text_of(light.radiance));
     }
+    std::size_t id = scene.lights.size();
     for (const PunctualLight& light : scene.punctual_lights) {
-        out << fmt::format("       {}  {}  {:.4g} {}  (RGB {})\n", light.name, name_of(light.kind),
-                           luminance(light.intensity),
-                           light.kind == PunctualKind::directional ? "lx" : "cd",
-                           text_of(light.intensity));
+        out << fmt::format("  {:4} {}  {}  {}\n", ++id, light.name, name_of(light.kind),
+                           strength_of(light));
     }
     out << fmt::format("cameras     {}\n", scene.cameras.size());
     for (const Camera& camera : scene.cameras) {
@@ -149,15 +174,20 @@ Json lights_json(const Scene& scene) {
         result.push_back({{"id", light.id},
                           {"name", light.name},
                           {"luminance", luminance(light.radiance)},
+                          {"flux", loaded_figures(light).flux},
                           {"radiance", json_of(light.radiance)}});
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         const bool directional = light.kind == PunctualKind::directional;
+        const LightFigures figures = loaded_figures(light);
         result.push_back(
             {{"id", result.size() + 1},
              {"name", light.name},
              {"kind", name_of(light.kind)},
-             {directional ? "illuminance" : "luminousIntensity", luminance(light.intensity)},
+             {directional ? "illuminance" : "luminousIntensity",
+              directional ? static_cast<double>(luminance(light.intensity)) : figures.peak},
+             {"flux", directional ? Json(nullptr) : Json(figures.flux)},
+             {"watts", figures.watts > 0.0 ? Json(figures.watts) : Json(nullptr)},
              {"intensity", json_of(light.intensity)}});
     }
     return result;
@@ -196,6 +226,7 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"name", scene.name},
         {"path", scene.path},
         {"bounds", json_of(scene.bounds)},
+        {"origin", {{"x", scene.origin.x}, {"y", scene.origin.y}, {"z", scene.origin.z}}},
         {"triangles", scene.triangles.size()},
         {"vertices", report.referenced_vertices},
         {"area", report.area},
@@ -218,6 +249,9 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"cameras", cameras_json(scene)},
         {"textures", textures_json(scene)},
         {"notices", scene.notices}};
+    for (const EnclosedLight& lamp : report.enclosed) {
+        json["enclosedLights"].push_back({{"light", lamp.light}, {"object", lamp.object}});
+    }
     if (report.unit_hint) {
         json["unitHint"] = *report.unit_hint;
     }

@@ -89,7 +89,65 @@ class ShellSearch {
         return found;
     }
 
+    /// Lamps within closed shells.
+    std::vector<EnclosedLight> enclosed_lights() {
+        std::vector<EnclosedLight> found;
+        const std::vector<Lamp> luminous = lamps();
+        for (std::uint32_t s = 0; s < shells_.size(); ++s) {
+            const Shell& shell = shells_[s];
+            if (!shell.closed || !shell.opaque || volume(shell) == 0.0 || holds_a_camera(shell)) {
+                continue;
+            }
+            const std::uint32_t first = shell.triangles.front();
+            const std::string& object = scene_.objects[scene_.triangles[first].object].name;
+            for (const PunctualLight& light : scene_.punctual_lights) {
+                if (holds_lamp(shell, light)) {
+                    found.push_back({light.name, object});
+                }
+            }
+            for (const Lamp& lamp : luminous) {
+                const Shell& other = shells_[lamp.shell];
+                if (lamp.shell != s && holds_box(shell, other.box) &&
+                    holds_all_of(shell, other.triangles)) {
+                    found.push_back({*lamp.name, object});
+                }
+            }
+            if (looks_ > most_looks) {  // holds() is not to be relied on any more
+                return {};
+            }
+        }
+        return found;
+    }
+
   private:
+    struct Lamp {
+        std::uint32_t shell = 0;
+        const std::string* name = nullptr;
+    };
+
+    /// Shells with a material that emits, or would if it were switched on.
+    [[nodiscard]] std::vector<Lamp> lamps() const {
+        std::vector<const std::string*> name_of(scene_.materials.size(), nullptr);
+        for (const Light& light : scene_.lights) {
+            name_of[static_cast<std::size_t>(light.material)] = &light.name;
+        }
+        std::vector<Lamp> found;
+        for (std::uint32_t s = 0; s < shells_.size(); ++s) {
+            for (const std::uint32_t t : shells_[s].triangles) {
+                if (const std::string* name = name_of[scene_.triangles[t].material]) {
+                    found.push_back({s, name});
+                    break;
+                }
+            }
+        }
+        return found;
+    }
+
+    static bool holds_box(const Shell& shell, const BoxTree::Box& box) {
+        return glm::all(glm::lessThanEqual(shell.box.low, box.low)) &&
+               glm::all(glm::lessThanEqual(box.high, shell.box.high));
+    }
+
     /// Joins triangles at their edges, and notes those that are not in a closed surface.
     void find_edges() {
         PointIndex points;
@@ -170,15 +228,20 @@ class ShellSearch {
         return sum / 6.0;
     }
 
-    [[nodiscard]] bool holds_a_place(const Shell& shell) {
+    [[nodiscard]] bool holds_a_camera(const Shell& shell) {
         return std::any_of(scene_.cameras.begin(), scene_.cameras.end(),
-                           [&](const Camera& camera) { return holds(shell, camera.eye); }) ||
+                           [&](const Camera& camera) { return holds(shell, camera.eye); });
+    }
+
+    [[nodiscard]] bool holds_lamp(const Shell& shell, const PunctualLight& light) {
+        const PlacedLight placed = place_light(scene_, light);
+        return placed.kind != PunctualKind::directional && holds(shell, placed.position);
+    }
+
+    [[nodiscard]] bool holds_a_place(const Shell& shell) {
+        return holds_a_camera(shell) ||
                std::any_of(scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
-                           [&](const PunctualLight& light) {
-                               const PlacedLight placed = place_light(scene_, light);
-                               return placed.kind != PunctualKind::directional &&
-                                      holds(shell, placed.position);
-                           });
+                           [&](const PunctualLight& light) { return holds_lamp(shell, light); });
     }
 
     [[nodiscard]] bool holds_a_surface(std::uint32_t number, const BoxTree& tree) {
@@ -186,8 +249,7 @@ class ShellSearch {
         bool found = false;
         tree.for_each_overlapping(shell.box, [&](std::uint32_t other) {
             const BoxTree::Box& box = shells_[other].box;
-            if (!found && other != number && glm::all(glm::lessThanEqual(shell.box.low, box.low)) &&
-                glm::all(glm::lessThanEqual(box.high, shell.box.high))) {
+            if (!found && other != number && holds_box(shell, box)) {
                 found = holds_all_of(shell, shells_[other].triangles);
             }
         });
@@ -229,7 +291,7 @@ class ShellSearch {
                 glm::dot(c[1], c[2]) * length[0] + glm::dot(c[2], c[0]) * length[1];
             sum += 2.0 * std::atan2(above, below);
         }
-        return sum > clearly_inside * 4.0 * glm::pi<double>();
+        return std::abs(sum) > clearly_inside * 4.0 * glm::pi<double>();
     }
 
     const Scene& scene_;
@@ -240,6 +302,10 @@ class ShellSearch {
 };
 
 }  // namespace
+
+std::vector<EnclosedLight> find_enclosed_lights(const Scene& scene) {
+    return ShellSearch(scene).enclosed_lights();
+}
 
 std::size_t mark_solid_shells(Scene& scene) {
     if (std::none_of(scene.materials.begin(), scene.materials.end(),

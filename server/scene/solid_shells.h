@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -19,5 +21,15 @@ namespace raybundle {
 ///
 /// Returns the number of triangles marked. `scene.cameras` must be known.
 std::size_t mark_solid_shells(Scene& scene);
+
+/// A lamp of which no light gets out.
+struct EnclosedLight {
+    std::string light;   ///< name of the punctual light, or of the material that emits
+    std::string object;  ///< whose surface encloses it
+};
+
+/// Lamps within closed, opaque surfaces that hold no camera: bulbs in shades that were modelled
+/// without glass. Looks no further where that would take too long. `scene.cameras` must be known.
+std::vector<EnclosedLight> find_enclosed_lights(const Scene& scene);
 
 }  // namespace raybundle

@@ -66,7 +66,8 @@ SpecularSurface specular_surface(const Material& material, const glm::vec3& base
         surface.f90 = brdf.lobe.f90;
     } else if (surface.is_glass()) {
         surface.ior = std::clamp(material.ior, least_index, most_index);
-        const glm::vec3 colour = glm::clamp(base_colour, 0.0F, 1.0F) * material.reflectance;
+        const glm::vec3 colour =
+            glm::clamp(base_colour, 0.0F, 1.0F) * (material.reflectance * material.transmission);
         // Through a body light passes two boundaries: its colour is that of both.
         surface.tint = surface.kind == SpecularKind::glass ? glm::sqrt(colour) : colour;
         surface.absorption = absorption_of(material);

@@ -36,9 +36,39 @@ PatchColour colour_of(const Scene& scene, const Material& material, const PatchM
     return patch_colour(scene, material, {mesh.uvs[t.x], mesh.uvs[t.y], mesh.uvs[t.z]}, factor);
 }
 
+void apply(PunctualLight& light, const LightEdit& edit) {
+    PunctualSetting setting = setting_of(light);
+    if (edit.colour) {
+        setting.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        const float intensity =
+            edit.intensity ? *edit.intensity / intensity_unit(light) : luminance(setting.intensity);
+        setting.intensity = intensity * setting.colour;
+    }
+    setting.on = edit.on.value_or(setting.on);
+    light.intensity = setting.on ? setting.intensity : glm::vec3(0.0F);
+    light.setting = setting;
+}
+
 }  // namespace
 
+std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light) {
+    const std::size_t first = scene.lights.size() + 1;
+    const bool known = light >= first && light - first < scene.punctual_lights.size();
+    return known ? std::optional(light - first) : std::nullopt;
+}
+
+std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
+    return light <= scene.lights.size()
+               ? static_cast<std::uint32_t>(scene.lights[light - 1].material)
+               : no_material;
+}
+
 std::string problem_of(const Scene& scene, const LightEdit& edit) {
+    if (punctual_index(scene, edit.light)) {
+        return {};
+    }
     if (edit.light < 1 || edit.light > scene.lights.size()) {
         return "no light " + std::to_string(edit.light);
     }
@@ -63,6 +93,10 @@ std::string problem_of(const Scene& scene, const MaterialEdit& edit) {
 }
 
 std::uint32_t apply(Scene& scene, const LightEdit& edit) {
+    if (const auto punctual = punctual_index(scene, edit.light)) {
+        apply(scene.punctual_lights[*punctual], edit);
+        return no_material;
+    }
     Light& light = scene.lights[edit.light - 1];
     const float intensity = edit.intensity.value_or(luminance(light.radiance));
     if (edit.colour) {

@@ -2,6 +2,7 @@
 // Changes of lights and materials while a scene is being shown.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,8 +15,9 @@ namespace raybundle {
 
 /// A light as it shall be; what is absent stays.
 struct LightEdit {
-    std::uint32_t light = 0;          ///< Light::id
-    std::optional<float> intensity;   ///< luminance, cd/m², >= 0
+    /// Light::id; punctual lights are numbered after the others.
+    std::uint32_t light = 0;
+    std::optional<float> intensity;  ///< >= 0: cd/m², or times intensity_unit() of a punctual light
     std::optional<glm::vec3> colour;  ///< linear, >= 0, not black; scaled to luminance 1
     std::optional<bool> on;
 };
@@ -33,7 +35,18 @@ struct MaterialEdit {
 std::string problem_of(const Scene& scene, const LightEdit& edit);
 std::string problem_of(const Scene& scene, const MaterialEdit& edit);
 
-/// Makes an edit without problem. Returns the index of the material that has changed.
+/// Index of a punctual light by its number; nothing for other numbers.
+std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light);
+
+/// Of a light that is no surface.
+constexpr std::uint32_t no_material = 0xffffffff;
+
+/// Index of the material that emits a light's light, or no_material. light: a number without
+/// problem.
+std::uint32_t material_of_light(const Scene& scene, std::uint32_t light);
+
+/// Makes an edit without problem. Returns the index of the material that has changed, or
+/// no_material.
 std::uint32_t apply(Scene& scene, const LightEdit& edit);
 std::uint32_t apply(Scene& scene, const MaterialEdit& edit);
 

@@ -3,6 +3,7 @@
 // of that mean as the bundles show it.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "luminance.glsl"
 layout(std430, binding = BINDING_INCREMENTS) buffer IncrementBuffer { vec4 increments[]; };
 layout(std430, binding = BINDING_STAGE) buffer StageBuffer { vec4 stage[]; };
@@ -11,7 +12,7 @@ uniform float bundles;  // K
 uniform float unseen;   // share of the mean that may be missing: its square joins the variance
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

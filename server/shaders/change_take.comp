@@ -2,6 +2,7 @@
 // End of one bundle of a special phase: its sums join those of the stage.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "luminance.glsl"
 #include "accumulator.glsl"
 layout(std430, binding = BINDING_STAGE) buffer StageBuffer { vec4 stage[]; };
@@ -9,7 +10,7 @@ uniform uint patch_count;
 uniform float factor;  // undoes the weight that the bundle was transferred with
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

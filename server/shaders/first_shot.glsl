@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of punctual lights at a point (incoming first shot, ch. 4.3.1). Each light keeps a map of the nearest
 // surfaces round it. The surfaces in the map about a point are only candidates: whether one is in the way is
-// decided by its own triangle, so that the edges of shadows are as sharp as the geometry and not the map's.
+// decided by its own triangle, so that the edges of shadows are as sharp as the geometry and not the map's. SHADOW_RAYS:
+// where the map marks that a surface begins or ends nearby, which it may have missed, a ray decides.
 #include "facets.glsl"
 layout(std430, binding = BINDING_PUNCTUAL) readonly buffer PunctualBuffer { PunctualData punctual[]; };
 layout(binding = UNIT_SHADOW_MAPS) uniform usampler2DArray shadow_maps;
-#ifdef ALPHA_MASK
+#ifdef SHADOW_RAYS
+layout(binding = UNIT_SHADOW_EDGES) uniform usampler2DArray shadow_edges;
+#include "shadow_rays.glsl"
+#elif defined(ALPHA_MASK)
 layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
 #endif
 #ifdef IES
@@ -64,7 +68,7 @@ uint obstacle(uint surface, vec3 position, vec3 to_light, bool distant, uint own
 }
 
 /// Whether the light reaches a point of a facet. One of the four surfaces in the map about the line that is met
-/// hides it, and so do four that are all in front of the point and barely missed.
+/// hides it. Where there is no ray, so do four that are all in front of the point and barely missed.
 bool is_lit(PunctualData light, vec3 position, vec3 to_light, uint own_facet) {
     vec2 at;
     int layer = int(map_layer(light, position, at));
@@ -72,6 +76,9 @@ bool is_lit(PunctualData light, vec3 position, vec3 to_light, uint own_facet) {
     int last = int(light.map.w) - 1;
     bool distant = light.map.z == PUNCTUAL_DIRECTIONAL;
     uint beside = 0u;
+#ifdef SHADOW_RAYS
+    bool unsure = any(lessThan(corner, ivec2(0))) || any(greaterThanEqual(corner, ivec2(last)));
+#endif
     for (int k = 0; k < 4; ++k) {
         ivec2 texel = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), ivec2(last));
         uint found = obstacle(texelFetch(shadow_maps, ivec3(texel, layer), 0).r, position, to_light, distant, own_facet);
@@ -79,8 +86,17 @@ bool is_lit(PunctualData light, vec3 position, vec3 to_light, uint own_facet) {
             return false;
         }
         beside += found;
+#ifdef SHADOW_RAYS
+        unsure = unsure || texelFetch(shadow_edges, ivec3(texel, layer), 0).r != 0u;
+#endif
     }
-    return beside < 4u;
+    bool lit = beside < 4u;
+#ifdef SHADOW_RAYS
+    RARELY(unsure) {
+        lit = !is_hidden(position, to_light, distant, own_facet, shadow_tie);
+    }
+#endif
+    return lit;
 }
 
 #ifdef IES

@@ -79,6 +79,7 @@
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]
 #define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/zone_balance.cpp
+#define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
@@ -126,7 +127,8 @@
 #define UNIT_VERTEX_CAUSTICS 21     // rgba16f: as UNIT_VERTEX_IRRADIANCE, of caustics
 #define UNIT_FACET_BOXES 22         // rgba32f: FacetBox, two texels each
 #define UNIT_SLOPES 23              // rgba32ui: RadianceSlope
-#define UNIT_PIXEL_KEPT 24            // rgba32f: see view_keep.comp
+#define UNIT_PIXEL_KEPT 25            // rgba32f: see view_keep.comp
+#define UNIT_SHADOW_EDGES 24      // r8ui array: see first_shot.glsl
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -333,7 +335,7 @@ struct PixelSurface {
     uint facet;        // also of black backs; and flags, PIXEL_...
 };
 
-#define PIXEL_EMITTER 0x80000000u
+#define PIXEL_EMITTER 0x80000000u  // or, of a PIXEL_CONTINUED, shows one or the sky
 #define PIXEL_SKY 0x40000000u
 #define PIXEL_BACK 0x20000000u  // the facet's back is seen
 #define PIXEL_GLOSSY 0x10000000u

@@ -43,6 +43,7 @@ uniform uint first_of_quad;  // which of the four is asked first, the same befor
 #else
 layout(local_size_x = VIEW_TILE * VIEW_TILE) in;
 #endif
+#include "linear_index.glsl"
 #ifdef CONTINUED
 #include "continued.glsl"
 #endif
@@ -230,7 +231,7 @@ uint receiving_pixel() {
 #elif defined(GLOSSY_PIXELS)
     return specular_pixel();
 #else
-    return gl_GlobalInvocationID.x;
+    return linear_index();
 #endif
 }
 

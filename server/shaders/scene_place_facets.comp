@@ -2,6 +2,7 @@
 // Plane and barycentric weights of all facets at one place of the objects.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_WORLD_POSITIONS) readonly buffer WorldBuffer { vec4 world[]; };
 layout(std430, binding = BINDING_FACET_INDICES) readonly buffer IndexBuffer { uint indices[]; };
 layout(std430, binding = BINDING_FACETS) buffer FacetBuffer { FacetGeometry facets[]; };
@@ -12,7 +13,7 @@ uniform uint facet_count;
 vec4 affine(vec3 gradient, vec3 zero_at) { return vec4(gradient, -dot(gradient, zero_at)); }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= facet_count) {
         return;
     }

@@ -2,6 +2,7 @@
 // Plane and area of all patches at one place of the objects.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_WORLD_POSITIONS) readonly buffer WorldBuffer { vec4 world[]; };
 layout(std430, binding = BINDING_TRIANGLES) readonly buffer TriangleBuffer { uvec4 triangles[]; };
 layout(std430, binding = BINDING_PATCH_TRIANGLE) readonly buffer PatchTriangleBuffer {
@@ -15,7 +16,7 @@ uniform uint patch_count;
 uniform uint triangle_count;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

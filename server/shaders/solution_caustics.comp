@@ -2,6 +2,7 @@
 // What a new estimate of the caustics' irradiance (solution/caustics.h) makes of the patches' radiance.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 layout(std430, binding = BINDING_CAUSTICS) buffer CausticBuffer { vec4 caustic_radiance[]; };
@@ -25,7 +26,7 @@ vec3 irradiance_of(uint i) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

@@ -3,6 +3,7 @@
 // state before that stays, and the error that it has left is the first part of what this one leaves.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_CHECKPOINT) buffer CheckpointBuffer { vec4 checkpoint[]; };
 #include "checkpoint.glsl"
@@ -10,7 +11,7 @@ uniform uint patch_count;
 uniform bool unsettled;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

@@ -6,6 +6,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "corrected_weight.glsl"
 #include "checkpoint.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
@@ -32,7 +33,7 @@ const float wrong = 1.5;           // squared error of few bundles over what the
 const float likely_unseen = 0.15;  // of the squared error that most_weight reckons with
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

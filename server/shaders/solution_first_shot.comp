@@ -4,8 +4,13 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
+#ifndef FACETS
+#include "facets.glsl"
+#endif
+#define SHADOW_RAYS
 #include "first_shot.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
@@ -17,7 +22,10 @@ layout(std430, binding = BINDING_FIRST_SHOT) buffer FirstShotBuffer { vec4 first
 layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuffer { vec4 transmittance[]; };
 #endif
 uniform uint patch_count;
+uniform bool radiance_follows;  // else change_source.comp lets it
 uniform uint divisions;  // of each edge; a patch has its square of parts
+uniform uint first_light;  // of those that this dispatch adds
+uniform uint end_light;
 
 const float inverse_pi = 0.31830988618;
 
@@ -32,7 +40,7 @@ vec2 part_centroid(uint k) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }
@@ -47,7 +55,7 @@ void main() {
 #ifdef GLOSSY
     bool glossy = is_glossy(i);
 #endif
-    for (uint k = 0u; k < punctual_count; ++k) {
+    for (uint k = first_light; k < end_light; ++k) {
         vec3 sum = vec3(0.0);
         vec3 w_in;
         for (uint part = 0u; part < parts; ++part) {
@@ -75,7 +83,18 @@ void main() {
         }
 #endif
     }
-    radiance[i].rgb = max(radiance[i].rgb + reflected - first_shot[2u * i + 1u].rgb, 0.0);
+    // The first dispatch takes back what there was before.
+    vec3 change = reflected;
+    if (first_light == 0u) {
+        change -= first_shot[2u * i + 1u].rgb;
+    } else {
+        irradiance += first_shot[2u * i].rgb;
+        reflected += first_shot[2u * i + 1u].rgb;
+    }
+    if (radiance_follows) {
+        vec3 sent = radiance[i].rgb + change;
+        radiance[i].rgb = end_light == punctual_count ? max(sent, 0.0) : sent;
+    }
     first_shot[2u * i] = vec4(irradiance, 0.0);
     first_shot[2u * i + 1u] = vec4(reflected, patch_attributes(i).x);
 }

@@ -2,6 +2,7 @@
 // Fluxes of the iterate, summed over blocks of patches, always in the same order.
 #include "layouts.glsl"
 layout(local_size_x = POWER_BLOCK) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums flux[]; };
@@ -10,9 +11,9 @@ layout(std430, binding = BINDING_FLUX) writeonly buffer FluxBuffer { FluxSums fl
 uniform uint patch_count;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     FluxSums sum = sum_fluxes(i < patch_count ? patch_flux(i) : no_flux);
-    if (gl_LocalInvocationID.x == 0u) {
-        flux[gl_WorkGroupID.x] = sum;
+    if (gl_LocalInvocationID.x == 0u && i < patch_count) {
+        flux[linear_group()] = sum;
     }
 }

@@ -3,6 +3,7 @@
 // their light was another one counts less, as in solution_correct.comp.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) buffer IrradianceBuffer { vec4 irradiance[]; };
 #ifdef GLOSSY
 layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
@@ -12,7 +13,7 @@ uniform float change;      // q
 uniform float forgetting;  // q^2 over the weight of a special phase
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i < patch_count) {
         irradiance[i].w /= 1.0 + irradiance[i].w * forgetting;
 #ifdef GLOSSY

@@ -3,12 +3,13 @@
 // at the iterate of others (TRANSMISSION).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 #include "zone_level.glsl"
 uniform uint patch_count;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i < patch_count) {
         source[i].rgb = levelled(i, source[i].rgb);
     }

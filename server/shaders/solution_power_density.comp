@@ -2,6 +2,7 @@
 // Selection density p_j / A_j of every patch and the running sum of p_j within its block.
 #include "layouts.glsl"
 layout(local_size_x = POWER_BLOCK) in;
+#include "linear_index.glsl"
 #include "power.glsl"
 layout(std430, binding = BINDING_CDF) writeonly buffer CdfBuffer { float cdf[]; };
 uniform uint patch_count;
@@ -9,7 +10,7 @@ uniform uint block_count;
 shared float sums[POWER_BLOCK];
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     uint lane = gl_LocalInvocationID.x;
     vec3 total = blocks[block_count].xyz;
     float p = 0.0;

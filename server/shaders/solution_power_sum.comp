@@ -3,6 +3,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = POWER_BLOCK) in;
+#include "linear_index.glsl"
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
 #include "zone_level.glsl"
@@ -17,7 +18,7 @@ layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
 uniform uint patch_count;
 shared vec3 sums[POWER_BLOCK];
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     uint lane = gl_LocalInvocationID.x;
     sums[lane] = vec3(0.0);
     if (i < patch_count) {
@@ -48,7 +49,7 @@ void main() {
             sums[lane] += sums[lane + stride];
         }
     }
-    if (lane == 0u) {
-        blocks[gl_WorkGroupID.x].xyz = sums[0];
+    if (lane == 0u && i < patch_count) {
+        blocks[linear_group()].xyz = sums[0];
     }
 }

@@ -8,6 +8,7 @@
 // other side, and what glossy patches send beside their main part have no slopes.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
@@ -37,7 +38,7 @@ Plane plane_of(vec3 origin, vec3 normal, float size) {
 vec2 place_in(Plane plane, vec3 point) { return vec2(dot(point - plane.origin, plane.x), dot(point - plane.origin, plane.y)); }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

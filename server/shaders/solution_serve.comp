@@ -3,6 +3,7 @@
 // in since.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) writeonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_KEPT) readonly buffer KeptBuffer { vec4 kept[]; };
 layout(std430, binding = BINDING_SINCE) readonly buffer SinceBuffer { vec4 since[]; };
@@ -10,7 +11,7 @@ layout(std430, binding = BINDING_SINCE) readonly buffer SinceBuffer { vec4 since
 uniform uint patch_count;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

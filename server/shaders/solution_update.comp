@@ -14,6 +14,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "accumulator.glsl"
 #include "density.glsl"
 #include "scatter.glsl"
@@ -55,7 +56,7 @@ void note_escaped_flux() {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i == 0u && shooter_density > 0.0) {
         note_escaped_flux();
     }

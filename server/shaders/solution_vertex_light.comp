@@ -3,6 +3,7 @@
 // floor that runs on beneath it, the light above is not that below: patches that are dark beside others are left out.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "luminance.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
@@ -22,7 +23,7 @@ vec3 middle_of(uint triangle) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= vertex_count) {
         return;
     }

@@ -7,6 +7,7 @@
 // The radiance of a glossy shooter (SHOOTER_GLOSSY) differs from pixel to pixel.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "luminance.glsl"
 #include "accumulator.glsl"
 #include "density.glsl"
@@ -129,7 +130,7 @@ void deposit(Run run, Sum sum) {
 }
 
 void main() {
-    if (gl_GlobalInvocationID.x == 0u) {
+    if (linear_index() == 0u) {
 #ifdef SHOOTER_GLOSSY
         vec4 sent = texelFetch(radiance_texels, int(bundle.resolution.z));  // what `missed` is a share of
 #else
@@ -139,9 +140,9 @@ void main() {
         counters.overflowed = 0u;
     }
     // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
-    uint block = gl_GlobalInvocationID.x >> 3;
+    uint block = linear_index() >> 3;
     uint row_block = block / run_columns;
-    uint row = row_stride * (row_block * 8u + (gl_GlobalInvocationID.x & 7u)) + row_phase;
+    uint row = row_stride * (row_block * 8u + (linear_index() & 7u)) + row_phase;
     if (row >= rows) {
         return;
     }

@@ -16,6 +16,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 uniform uint first_column;  // the rectangle of the window that is transferred
 uniform uint first_row;
 uniform uint last_column;   // one past the end
@@ -118,6 +119,10 @@ void order_coincident(inout Hit a, inout Hit b) {
 #endif
 }
 
+#ifdef SKY
+#include "line_edges.glsl"
+#endif
+
 // The last list of more than four surfaces, nearest first, and the places that they had before.
 float held_depth[LONGEST_LIST];
 uint held_surface[LONGEST_LIST];
@@ -214,6 +219,15 @@ uvec4 sort_long_list(uint pixel, inout uint count, vec3 point) {
         held_surface[i] = a.surface;
     }
 #endif
+#ifdef SKY
+    for (uint k = 1u; k < count; ++k) {
+        Hit a = Hit(held_depth[k - 1u], 0.0, held_surface[k - 1u]);
+        Hit b = Hit(held_depth[k], 0.0, held_surface[k]);
+        order_at_edge(a, b, point);
+        held_surface[k - 1u] = a.surface;
+        held_surface[k] = b.surface;
+    }
+#endif
     for (uint k = 0u; k < count; ++k) {
         layer_surfaces[layer_slot(k, pixel)] = held_surface[k];
     }
@@ -254,6 +268,11 @@ void sort_short_list(inout ShortList list, vec3 point, vec3 pixel_step) {
     order_coincident(list.h1, list.h2);
     order_coincident(list.h1, list.h3);
     order_coincident(list.h2, list.h3);
+#ifdef SKY
+    order_at_edge(list.h0, list.h1, point);
+    order_at_edge(list.h1, list.h2, point);
+    order_at_edge(list.h2, list.h3, point);
+#endif
 }
 
 /// Goes to the next pixel. Returns whether the order still holds.
@@ -301,6 +320,11 @@ Pairs sort_lists(ivec2 first, int end) {
         RARELY(count > 4u || folded) {
             sorted = sort_long_list(pixel, count, point);
         }
+#ifdef SKY
+        if (facet_base == 0u) {
+            add_missed(sorted, count, point);
+        }
+#endif
         sorted_lists[texel.x - first.x] = sorted;
         pairs.near |= face_each_other(uvec2(NO_HIT, sorted.x)) ? 1u : 0u;
         pairs.near |= face_each_other(sorted.xy) ? 2u : 0u;
@@ -318,7 +342,7 @@ Pairs sort_lists(ivec2 first, int end) {
 /// True where the lists have no room for all surfaces: nothing is transferred then.
 bool note_overflow() {
     bool overflowed = counters.layers > layer_capacity();
-    if (gl_GlobalInvocationID.x == 0u) {
+    if (linear_index() == 0u) {
         counters.overflowed = overflowed ? 1u : 0u;
         if (overflowed) {
             counters.wanted = max(counters.wanted, counters.layers);
@@ -330,9 +354,9 @@ bool note_overflow() {
 
 void main() {
     // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
-    uint block = gl_GlobalInvocationID.x >> 3;
+    uint block = linear_index() >> 3;
     uint row_block = block / run_columns;
-    uint row = row_stride * (row_block * 8u + (gl_GlobalInvocationID.x & 7u)) + row_phase;
+    uint row = row_stride * (row_block * 8u + (linear_index() & 7u)) + row_phase;
     if (note_overflow() || row >= rows) {
         return;
     }

@@ -4,7 +4,7 @@
 //
 // A window's line runs up to a pixel of the window beside the receiver, and what is as near to that as the line, the
 // line sees otherwise: light in a slot would be spread over the floor beside it. Crowded receivers (view_crowded.comp)
-// follow their own ray as far as that matters.
+// follow their own ray as far as that matters. So does a receiver that no line nearby meets, before it believes in the sky.
 #include "layouts.glsl"
 #include "rarely.glsl"
 #include "density.glsl"
@@ -12,8 +12,10 @@
 #include "facets.glsl"
 #include "pixel_receiver.glsl"
 #include "layers.glsl"
-#ifdef CROWDED
+#if defined(CROWDED) || defined(SKY)
 #include "facet_boxes.glsl"
+#endif
+#ifdef CROWDED
 uniform float own_ray_reach;  // m
 #endif
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;  // along the bundle
@@ -25,6 +27,7 @@ struct Seen {
     uint surface;  // NO_HIT: the sky
     float ahead;   // m
     bool own;      // the line meets the receiver's own surface
+    bool unsure;   // and another one as near, which it takes for one behind it
 };
 
 #ifdef CROWDED
@@ -42,7 +45,7 @@ bool own_ray_decides(vec4 plane, Receiver x, vec3 looking) {
 /// line: in the window's plane; x_depth: of x along the axis; lateral: from x to the line.
 /// CROWDED: only beyond the way that the receiver's own ray is followed.
 Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 lateral, float footprint) {
-    Seen seen = Seen(NO_HIT, beyond_all, false);
+    Seen seen = Seen(NO_HIT, beyond_all, false, false);
     float tiny = bundle.sky.w;
     vec3 looking = far ? bundle.axis_z.xyz : -bundle.axis_z.xyz;
     vec3 geometric = x.geometric * mat3(bundle.axis_x.xyz, bundle.axis_y.xyz, bundle.axis_z.xyz);
@@ -68,6 +71,9 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
             passed = beside_receiver(x, surface, vec3(lateral, along), looking, footprint, tiny);
         }
 #endif
+#ifdef SKY
+        seen.unsure = seen.unsure || (passed && close && surface >> 1 != x.surface >> 1);
+#endif
         if (passed) {
             continue;
         }
@@ -80,7 +86,7 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
             nearer = meets_facet(load_facet(facet_base + facet_of(surface)), x.position, looking);
         }
         if (nearer) {
-            seen = Seen(surface, ahead, seen.own);
+            seen = Seen(surface, ahead, seen.own, seen.unsure);
         }
     }
     return seen;
@@ -141,6 +147,16 @@ vec3 gather(Receiver x, out vec3 w_in) {
                     line = other_line;
                 }
             }
+        }
+        // None may: facets are narrower than the window's pixels in many files. Then, and where walls meet, the receiver's own
+        // ray decides. Objects that have moved are where they are now to a ray.
+        Met beyond = Met(NO_HIT, 0.0, false);
+        RARELY(seen.surface == NO_HIT && (seen.unsure || !seen.own) && facet_base == 0u) {
+            beyond = nearest_facet(x.position, w_in, beyond_all, bundle.sky.w);
+        }
+        if (beyond.facet != NO_HIT) {
+            vec3 point = x.position + beyond.ahead * w_in;
+            return cos_x * sent_by(load_facet(beyond.facet), point, beyond.back ? 1u : 0u, beyond.ahead);
         }
 #endif
         if (seen.surface == NO_HIT) {

@@ -3,6 +3,7 @@
 // of a random plane see each other and exchange radiance both ways.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
 uniform uint run_columns;  // runs of run_length pixels a row
 #define AS_RASTERISED
@@ -14,13 +15,13 @@ uvec2 load_pair(ivec2 texel) {
 }
 
 void main() {
-    if (gl_GlobalInvocationID.x == 0u) {
+    if (linear_index() == 0u) {
         counters.overflowed = 0u;
     }
     // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
-    uint block = gl_GlobalInvocationID.x >> 3;
+    uint block = linear_index() >> 3;
     uint row_block = block / run_columns;
-    uint row = row_stride * (row_block * 8u + (gl_GlobalInvocationID.x & 7u)) + row_phase;
+    uint row = row_stride * (row_block * 8u + (linear_index() & 7u)) + row_phase;
     if (row >= bundle.resolution.y) {
         return;
     }

@@ -4,6 +4,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "density.glsl"
 #include "scene_geometry.glsl"
 #include "sending_gloss.glsl"
@@ -15,7 +16,7 @@ uniform uint patch_base;  // patches and vertices of the place that is drawn
 uniform uint vertex_base;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= patch_count) {
         return;
     }

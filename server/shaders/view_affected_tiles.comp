@@ -3,6 +3,7 @@
 // along which some pixel of the tile looks passes a box that holds a moved object at either place.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 // A list for each pair of bundles, and in GLOSSY scenes one more of the tiles with glossy pixels.
@@ -65,7 +66,7 @@ void list(uint tile, uint k) {
 }
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x;
+    uint tile = linear_index();
     if (tile >= tile_count()) {
         return;
     }

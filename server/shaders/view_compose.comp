@@ -4,6 +4,7 @@
 // down to a smaller frame.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "view_radiance.glsl"
 #ifdef LINEAR
 layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { vec4 frame[]; };
@@ -71,7 +72,7 @@ vec3 shown(uvec2 at) {
 #endif
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     if (index >= frame_width * frame_height) {
         return;
     }

@@ -4,6 +4,7 @@
 // the pixel's patch has measured.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
 #endif
@@ -22,7 +23,7 @@ uniform float most_weight;    // see solution_correct.comp
 uniform float bundles_noise;  // 1/K: variance over square of an increment that the patch has not seen
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     if (index >= view.size.x * view.size.y) {
         return;
     }

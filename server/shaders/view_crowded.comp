@@ -4,6 +4,7 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #define CROWDED_ACCESS
 #include "crowded_pixels.glsl"
 #include "facets.glsl"
@@ -77,7 +78,7 @@ void append(uint index) {
 }
 
 void main() {
-    uint index = first_pixel + gl_GlobalInvocationID.x;
+    uint index = first_pixel + linear_index();
     uvec4 p = pixels[2u * min(index, end_pixel - 1u)];
     if (index >= end_pixel || p.w == NO_PATCH) {
         return;

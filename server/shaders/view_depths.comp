@@ -3,6 +3,7 @@
 // near over depth (view/camera_matrices.cpp); 0 where nothing is.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
 layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { float inverse_depths[]; };
 uniform uint columns;        // at least 2
@@ -12,7 +13,7 @@ uniform uint height;
 uniform float near_distance; // m
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     if (index >= columns * rows) {
         return;
     }

@@ -2,6 +2,7 @@
 // Lists the tiles of a viewer's picture with edge pixels.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(std430, binding = BINDING_EDGE_COUNTS) readonly buffer EdgeCountBuffer { uint edge_counts[]; };
 #define TILE_LISTS 1
@@ -9,7 +10,7 @@ layout(std430, binding = BINDING_EDGE_COUNTS) readonly buffer EdgeCountBuffer { 
 #include "tiles.glsl"
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x;
+    uint tile = linear_index();
     if (tile >= tile_count()) {
         return;
     }

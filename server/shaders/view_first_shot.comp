@@ -4,12 +4,17 @@
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
 #include "octahedral.glsl"
 #ifdef GLOSSY
 #include "pixel_gloss.glsl"
 #endif
+#ifndef FACETS
+#include "facets.glsl"
+#endif
+#define SHADOW_RAYS
 #include "first_shot.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
@@ -17,18 +22,24 @@ layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 #include "continued.glsl"
 #endif
 /// Irradiance per pixel (radiance units); in GLOSSY scenes the glossy radiance of all pixels follows.
-layout(std430, binding = BINDING_PIXEL_FIRST_SHOT) writeonly buffer PixelFirstShotBuffer { vec4 pixel_first_shot[]; };
+layout(std430, binding = BINDING_PIXEL_FIRST_SHOT) buffer PixelFirstShotBuffer { vec4 pixel_first_shot[]; };
+
+uniform uint first_light;  // of those that this dispatch adds
+uniform uint end_light;
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     uint pixels = view.size.x * view.size.y;
     if (index >= pixels) {
         return;
     }
     uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
     uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, facet
-    vec3 irradiance = vec3(0.0);
+    vec3 irradiance = first_light == 0u ? vec3(0.0) : pixel_first_shot[index].rgb;
     vec3 gloss = vec3(0.0);
+#ifdef GLOSSY
+    gloss = first_light == 0u ? gloss : pixel_first_shot[pixels + index].rgb;
+#endif
     RARELY(p.w != NO_PATCH) {
         // The surface point itself: the stored one is kept away from creases.
         uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
@@ -50,7 +61,7 @@ void main() {
         uint record = reflectance_record(facet_material(facet), q.y);
         Brdf brdf = pixel_brdf(record, albedo, dot(normal, w_out), at_out);
 #endif
-        for (uint k = 0u; k < punctual_count; ++k) {
+        for (uint k = first_light; k < end_light; ++k) {
             vec3 w_in;
             vec3 arriving = punctual_irradiance(k, position, normal, geometric, facet, w_in);
             irradiance += arriving;

@@ -3,6 +3,7 @@
 // be judged (zones/kept_light.h); or what is left of it joins the rest again.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
 #endif
@@ -15,7 +16,7 @@ layout(std430, binding = BINDING_PIXEL_DELTA) buffer PixelKeptBuffer { vec4 pixe
 uniform bool split;
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     if (index >= view.size.x * view.size.y) {
         return;
     }

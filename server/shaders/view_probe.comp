@@ -2,6 +2,7 @@
 // What single pixels show: surface point, light, and its error. One group each.
 #include "layouts.glsl"
 layout(local_size_x = 1) in;
+#include "linear_index.glsl"
 #include "view_radiance.glsl"
 #include "view_scatter.glsl"
 #include "octahedral.glsl"
@@ -26,7 +27,10 @@ float relative_error(uint pixel_index) {
 }
 
 void main() {
-    uint slot = gl_WorkGroupID.x;
+    uint slot = linear_group();
+    if (slot >= picks.length()) {
+        return;
+    }
     uint pixel_index = floatBitsToUint(picks[slot].position.x);
     PixelSurface p = load_pixel(pixel_index);
     if (p.patch_id == NO_PATCH) {

@@ -175,6 +175,15 @@ vec2 plane_weights(vec3 direction, vec3 from_corner, vec3 e1, vec3 e2) {
     return vec2(dot(from_corner, q), dot(direction, cross(from_corner, e1))) * inverse;
 }
 
+#if defined(MIRRORS) && !defined(CONTINUED)
+/// Whether the strongest end of a specular pixel's view ray is a lamp or the sky: such a pixel counts for no error.
+bool ends_at_light(uvec2 at) {
+    uint surface = continued[continued_index(at, continued_entry(at), 0u)].surface;
+    return surface == NO_HIT ||
+           texelFetch(material_texels, 5 * int(facet_material(surface >> 1)) + 1).rgb != vec3(0.0);
+}
+#endif
+
 void main() {
     uvec2 at = refreshed.xy + gl_GlobalInvocationID.xy;
     if (at.x >= refreshed.z || at.y >= refreshed.w) {
@@ -265,7 +274,9 @@ void main() {
     note_specular(index, int(lobe.z) != LOBE_NONE);
 #endif
 #if defined(MIRRORS) && !defined(CONTINUED)
-    flags |= is_continued(at) ? PIXEL_CONTINUED : 0u;
+    if (is_continued(at)) {
+        flags |= PIXEL_CONTINUED | (ends_at_light(at) ? PIXEL_EMITTER : 0u);
+    }
 #endif
     bool emitter = texelFetch(material_texels, material + 1).rgb != vec3(0.0);
     pixels[2u * index] = uvec4(floatBitsToUint(receiving_point(triangle.w >> CREASE_SHIFT, weights, a, e1, e2)), id);

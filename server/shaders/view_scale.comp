@@ -3,6 +3,7 @@
 // glossy part of pixels whose material reflects otherwise now. INCREMENTS: those of a special phase instead.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 #include "facets.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
@@ -21,7 +22,7 @@ uniform vec3 factor;
 uniform uint material;  // that reflects otherwise, or NO_PATCH
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linear_index();
     if (index >= view.size.x * view.size.y) {
         return;
     }

@@ -3,6 +3,7 @@
 // the sums of the coarser probe that it lies beside.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_FRAME) readonly buffer CoarseScatterBuffer { float coarse_scatter[]; };
 layout(std430, binding = BINDING_PIXEL_SCATTER) writeonly buffer PixelScatterBuffer { float pixel_scatter[]; };
 uniform uint factor;         // pixels along an edge that each was divided into
@@ -12,7 +13,7 @@ uniform uint coarse_columns;
 uniform uint coarse_rows;
 
 void main() {
-    uint probe = gl_GlobalInvocationID.x;
+    uint probe = linear_index();
     if (probe >= probes) {
         return;
     }

@@ -2,6 +2,8 @@
 // Partial sums over a viewer's probe pixels, in a fixed order:
 //  x: estimated squared error of the shown luminance, from the scatter of its samples
 //  y: squared luminance, z: logarithm of luminance, w: pixels counted
+// and, as the third of these parts (view_detail.comp has the second):
+//  x: by how much the iterate of the solution is brighter than its mean, as shown luminance, y: shown luminance
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
@@ -9,10 +11,30 @@ layout(local_size_x = 64) in;
 #include "view_scatter.glsl"
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 #include "false_colour.glsl"
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer MeanBuffer { vec4 mean_irradiance[]; };
+layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 iterate[]; };
 uniform float logarithm_floor;   // radiance units
 uniform float unsampled_error;   // relative error to assume where nothing is known yet
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
+uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
 uniform float fresh_share;       // samples with less than this share of the weight say nothing
+
+vec2 drift = vec2(0.0);  // of this invocation's probes
+
+/// By how much the iterate of a patch's irradiance is ahead of its mean, as luminance of what is sent of it.
+float ahead(uint id, vec3 sent_share) {
+    return luminance(sent_share * (iterate[id].rgb - mean_irradiance[id].rgb)) * inverse_pi;
+}
+
+/// The same of what comes through from the other side, which is known per patch and has no samples of its own.
+float ahead_behind(uint id) {
+#ifdef TRANSMISSION
+    vec4 through = transmittance[id];
+    return through.rgb == vec3(0.0) ? 0.0 : ahead(floatBitsToUint(through.w), through.rgb);
+#else
+    return 0.0;
+#endif
+}
 
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
@@ -38,6 +60,9 @@ vec4 probe_statistics(uint probe) {
 #endif
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
+    float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
+    float through = share * ahead_behind(p.patch_id);
+    drift += vec2(share * ahead(p.patch_id, pixel_albedo(p)) + through, l);
     float weight = shown_sum(index, p).w;
     float own_weight = view.weights.y;
     if (weight <= 0.0 || own_weight <= fresh_share * weight) {
@@ -47,8 +72,8 @@ vec4 probe_statistics(uint probe) {
     float variance = mean_and_variance(probe, own_weight, view.weights.z).y * variance_of_mean;
     // The sums may be younger than the mean that is shown.
     variance *= min(own_weight / weight, 1.0);
-    float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
-    return vec4(min(variance * reflectance * reflectance, l * l), l * l, logarithm, 1.0);
+    variance = variance * reflectance * reflectance + through * through * variance_of_patches;
+    return vec4(min(variance, l * l), l * l, logarithm, 1.0);
 }
 
 void main() {
@@ -60,5 +85,10 @@ void main() {
     vec4 total = group_sum(sum);
     if (gl_LocalInvocationID.x == 0u) {
         partial[gl_WorkGroupID.x] = total;
+    }
+    barrier();
+    total = group_sum(vec4(drift, 0.0, 0.0));
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[2u * gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
     }
 }

@@ -3,6 +3,7 @@
 // interpolation in the picture (Gouraud).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
+#include "linear_index.glsl"
 layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
 layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
@@ -18,7 +19,7 @@ uvec2 pack_irradiance(vec3 e) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = linear_index();
     if (i >= vertex_count) {
         return;
     }

@@ -209,6 +209,12 @@ std::vector<glm::vec4> Caustics::read_irradiance() const {
     return values;
 }
 
+glm::vec3 Caustics::read_irradiance(std::uint32_t patch) const {
+    glm::vec4 value(0.0F);
+    irradiance_.read<glm::vec4>(std::span(&value, 1), sizeof(glm::vec4) * patch);
+    return glm::vec3(value);
+}
+
 void Caustics::bind() const {
     radiance_.bind_storage(BINDING_CAUSTICS);
     glBindTextureUnit(UNIT_VERTEX_CAUSTICS, vertex_texture_.get());

@@ -51,6 +51,7 @@ class Caustics {
     void bind() const;
     /// Irradiance per patch, radiance units, either sign.
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
+    [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
     [[nodiscard]] std::size_t bytes() const;
 

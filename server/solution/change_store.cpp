@@ -44,6 +44,9 @@ void ChangeStore::set_source(const glm::vec3& scale,
                              std::span<const std::uint32_t> reflecting) const {
     old_surfaces_.bind_storage(BINDING_OLD_SURFACES);
     changed_.bind_storage(BINDING_CHANGED_RADIANCE);
+    if (store_.first_shot() != nullptr) {
+        store_.first_shot()->bind_remembered();
+    }
     source_.set("patch_count", patch_count_);
     source_.set("scale", scale);
     source_.set("material", NO_PATCH);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/first_shot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gpu/gl_scope.h"
@@ -10,6 +11,10 @@ namespace raybundle {
 namespace {
 
 constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
+/// Rays to lights that one invocation follows. llvmpipe ends an invocation's loops after 65 535
+/// rounds, all loops together: 4000 boxes a ray are left.
+constexpr unsigned most_rays = 16;
+
 /// Parts along an edge of a patch: many patches are small ones, and many lights average over what
 /// each of them misses.
 unsigned divisions_of(std::uint32_t patches, std::size_t lights) {
@@ -49,14 +54,38 @@ FirstShot::FirstShot(const GpuScene& scene)
     }
 }
 
-void FirstShot::update() {
+void FirstShot::remember(const FirstShot& other) {
+    if (remembered_.bytes() == 0) {
+        remembered_ = Buffer("first shot before", patches_.bytes());
+    }
+    glCopyNamedBufferSubData(other.patches_.get(), remembered_.get(), 0, 0,
+                             static_cast<GLsizeiptr>(patches_.bytes()));
+}
+
+void FirstShot::update(bool radiance_follows) {
     lights_.write(maps_.draw(), 0);
     const GlScope scope("first shot");
     bind();
     set_uniforms(shoot_);
+    const unsigned divisions = divisions_of(scene_.patch_count(), scene_.punctual_lights().size());
     shoot_.set("patch_count", scene_.patch_count());
-    shoot_.set("divisions", divisions_of(scene_.patch_count(), scene_.punctual_lights().size()));
-    shoot_.dispatch(scene_.patch_count());
+    shoot_.set("radiance_follows", radiance_follows);
+    shoot_.set("divisions", divisions);
+    dispatch(shoot_, scene_.patch_count(), most_rays / (divisions * divisions));
+}
+
+void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads) const {
+    dispatch(program, threads, most_rays);
+}
+
+void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads,
+                         unsigned most_lights) const {
+    const auto lights = static_cast<unsigned>(scene_.punctual_lights().size());
+    for (unsigned first = 0; first < lights; first += most_lights) {
+        program.set("first_light", first);
+        program.set("end_light", std::min(first + most_lights, lights));
+        program.dispatch(threads);
+    }
 }
 
 void FirstShot::bind() const {
@@ -84,6 +113,12 @@ std::vector<glm::vec3> FirstShot::read_irradiance() const {
     return irradiance;
 }
 
+glm::vec3 FirstShot::read_irradiance(std::uint32_t patch) const {
+    glm::vec4 value(0.0F);
+    patches_.read<glm::vec4>(std::span(&value, 1), 2 * sizeof(glm::vec4) * patch);
+    return glm::vec3(value);
+}
+
 std::vector<glm::vec4> FirstShot::read_reflected() const {
     std::vector<glm::vec4> values(2 * std::size_t{scene_.patch_count()});
     patches_.read<glm::vec4>(values);
@@ -96,7 +131,8 @@ std::vector<glm::vec4> FirstShot::read_reflected() const {
 }
 
 std::size_t FirstShot::bytes() const {
-    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes();
+    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes() +
+           remembered_.bytes();
 }
 
 }  // namespace raybundle

@@ -20,23 +20,34 @@ class FirstShot {
   public:
     explicit FirstShot(const GpuScene& scene);
 
-    /// Anew for the present place of the objects. The patches' radiance takes on the change. The
-    /// solution's buffers are bound.
-    void update();
+    /// Anew for the present lights and the present place of the objects. The patches' radiance
+    /// takes on the change, unless ChangeStore::set_source() shall do that (`radiance_follows`).
+    /// The solution's buffers are bound.
+    void update(bool radiance_follows = true);
+    /// Keeps what `other`, of the same patches, has found, as what was before a change.
+    void remember(const FirstShot& other);
+    /// For change_source.comp.
+    void bind_remembered() const { remembered_.bind_storage(BINDING_OLD_FIRST_SHOT); }
     void bind() const;
     /// Sets the uniforms of shaders/first_shot.glsl.
     void set_uniforms(const ShaderProgram& program) const;
+    /// Runs a program of one invocation a thread that adds the light of some of the lights.
+    void dispatch(const ShaderProgram& program, std::size_t threads) const;
     /// Irradiance per patch, radiance units. Synchronous.
     [[nodiscard]] std::vector<glm::vec3> read_irradiance() const;
+    [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;
     /// Main part of the radiance that it makes (radiance units), w = area, m². Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_reflected() const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    void dispatch(const ShaderProgram& program, std::size_t threads, unsigned most_lights) const;
+
     const GpuScene& scene_;
     ShadowMaps maps_;
     Buffer lights_, patches_;
-    Buffer profiles_;  // only where some light has one
+    Buffer profiles_;    // only where some light has one
+    Buffer remembered_;  // once the scene has changed
     ShaderProgram shoot_;
 };
 

@@ -83,13 +83,12 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
                    mesh.vertex_object, shifted_matrices(scene)),
       place_vertices_({"scene_place_vertices.comp"}),
       place_patches_({"scene_place_patches.comp"}) {
-    const std::vector<glm::mat4> matrices = shifted_matrices(scene);
-    for (int place = 0; place < 2; ++place) {
-        world_from_object_.insert(world_from_object_.end(), matrices.begin(), matrices.end());
-    }
     for (const Object& object : scene.objects) {
         object_bounds_.push_back(object.bounds);
     }
+    placed_ = shifted_matrices(scene);
+    find_pieces(scene, mesh);
+    world_from_object_ = kept_places(scene);
     upload_geometry(scene, mesh);
     upload_materials(scene, mesh);
     upload_details(scene);
@@ -137,8 +136,8 @@ float GpuScene::largest_emission(const Scene& scene, const PatchMesh& mesh) {
         scene.sky_radiance +
         (scene.environment ? 2.0F * glm::vec3(scene.environment->mean()) : glm::vec3(0.0F));
     float largest = std::max({sky.r, sky.g, sky.b});
-    // Of a white surface: one that faces a directional light, or a quarter of the scene's diameter
-    // away from a lamp.
+    // Of a white surface that faces a directional light, or is a quarter of the diameter from a
+    // lamp.
     const float distance = 0.25F * glm::length(scene.bounds.extent());
     for (const PunctualLight& light : scene.punctual_lights) {
         const glm::vec3 i =
@@ -361,8 +360,12 @@ glm::mat4 GpuScene::now_from_before(std::uint32_t object) const {
     return glm::mat4(glm::mat3(x, y, z));
 }
 
+Bounds GpuScene::bounds_at(std::uint32_t object, const glm::mat4& world) const {
+    return transformed(object_bounds_[object], world);
+}
+
 Bounds GpuScene::object_bounds(std::uint32_t object, Place place) const {
-    return transformed(object_bounds_[object], world_from_object(object, place));
+    return bounds_at(object, world_from_object(object, place));
 }
 
 Bounds GpuScene::bounds() const {

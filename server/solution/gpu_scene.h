@@ -10,6 +10,7 @@
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
 #include "scene/environment.h"
+#include "scene/neighbourhood.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "solution/facet_boxes.h"
@@ -41,7 +42,8 @@ class GpuScene {
     [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
 
     /// Keeps the present place as `before` and puts MOST_MOVED objects elsewhere, at most. Uploads
-    /// matrices only.
+    /// matrices only. What leaves the scene's neighbourhood has no size until it comes back, so
+    /// that bundles stay as fine, and places as precise, as without it.
     void move_objects(std::span<const ObjectMove> moves);
     /// Those objects until settle(), the rest NO_PATCH.
     [[nodiscard]] const glm::uvec4& moved_objects() const { return moved_; }
@@ -96,6 +98,8 @@ class GpuScene {
     [[nodiscard]] glm::vec3 sky_towards(const glm::vec3& direction) const;
     /// What a view shows beyond the scene; its environment is bound with bind().
     void set_background(layout::ViewParameters& view) const;
+    /// The lights that the scene was made with, of other intensities.
+    void update_punctual_lights(const Scene& scene);
     /// A light with a disc is several without.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return punctual_lights_;
@@ -138,6 +142,11 @@ class GpuScene {
     void upload_matrices();
     void place_geometry(Place place) const;
     void measure();
+    void find_pieces(const Scene& scene, const PatchMesh& mesh);
+    [[nodiscard]] std::vector<glm::mat4> kept_places(const Scene& scene) const;
+    [[nodiscard]] Bounds bounds_at(std::uint32_t object, const glm::mat4& world) const;
+    [[nodiscard]] ScenePiece piece_at(std::uint32_t object, const glm::mat4& world) const;
+    [[nodiscard]] glm::mat4 kept(std::uint32_t object, const glm::mat4& world_from_object) const;
 
     std::uint32_t patch_count_, triangle_count_, vertex_count_, object_count_;
     glm::vec3 origin_;
@@ -161,6 +170,10 @@ class GpuScene {
     std::vector<PunctualLight> punctual_lights_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
+    std::vector<glm::mat4> placed_;             // present ones, of what is stray as well
+    std::vector<ScenePiece> object_pieces_;     // areas and emission at `placed_` of the beginning
+    std::vector<float> first_volume_;           // of their unit cubes at that time, m³
+    Neighbourhood neighbourhood_;
 
     ReflectanceTables reflectance_;
     std::unique_ptr<SpecularRays> specular_rays_;

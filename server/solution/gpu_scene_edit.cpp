@@ -43,6 +43,10 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
     upload_reflectors(mesh);
 }
 
+void GpuScene::update_punctual_lights(const Scene& scene) {
+    punctual_lights_ = without_discs(scene.punctual_lights);
+}
+
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const SpecularKind kind = specular_kind(scene.materials[material]);
     const bool followed =
@@ -69,8 +73,8 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
     for (std::size_t i = 0; i < std::min<std::size_t>(moves.size(), MOST_MOVED); ++i) {
         const ObjectMove& move = moves[i];
         moved_[static_cast<int>(i)] = move.object;
-        world_from_object_[move.object] =
-            glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
+        placed_[move.object] = glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
+        world_from_object_[move.object] = kept(move.object, placed_[move.object]);
         rescaled_ = rescaled_ || differ_in_size(world_from_object(move.object, Place::now),
                                                 world_from_object(move.object, Place::before));
         facet_boxes_.place(move.object, world_from_object_[move.object]);
@@ -85,10 +89,9 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
 
 PlacedLight GpuScene::placed_light(std::size_t light) const {
     const PunctualLight& punctual = punctual_lights_[light];
-    return place_light(
-        punctual, punctual.object == PunctualLight::no_object
-                      ? glm::translate(glm::mat4(1.0F), -origin_)
-                      : world_from_object(static_cast<std::uint32_t>(punctual.object), Place::now));
+    return place_light(punctual, punctual.object == PunctualLight::no_object
+                                     ? glm::translate(glm::mat4(1.0F), -origin_)
+                                     : placed_[static_cast<std::size_t>(punctual.object)]);
 }
 
 std::vector<Bounds> GpuScene::moved_bounds() const {

@@ -119,6 +119,19 @@ void RadianceStore::bind() const {
     }
 }
 
+void RadianceStore::remember_first_shot(const RadianceStore& other) {
+    if (first_shot_ && other.first_shot_) {
+        first_shot_->remember(*other.first_shot_);
+    }
+}
+
+void RadianceStore::renew_first_shot() {
+    if (first_shot_) {
+        bind();
+        first_shot_->update(false);
+    }
+}
+
 void RadianceStore::reshoot(float phase_weight) {
     if (!first_shot_) {
         return;
@@ -349,8 +362,16 @@ std::vector<glm::vec4> RadianceStore::read_irradiance() const {
 
 glm::vec4 RadianceStore::read_irradiance(std::uint32_t patch) const {
     glm::vec4 value(0.0F);
-    irradiance_.read(std::span(&value, 1), sizeof(glm::vec4) * std::min(patch, patch_count_ - 1));
-    return {glm::vec3(value) * scene_.radiance_unit(), value.w};
+    patch = std::min(patch, patch_count_ - 1);
+    irradiance_.read(std::span(&value, 1), sizeof(glm::vec4) * patch);
+    glm::vec3 sum(value);
+    if (first_shot_) {
+        sum += first_shot_->read_irradiance(patch);
+    }
+    if (caustics_ != nullptr) {
+        sum += caustics_->read_irradiance(patch);
+    }
+    return {sum * scene_.radiance_unit(), value.w};
 }
 
 std::vector<glm::vec3> RadianceStore::read_radiance() const {

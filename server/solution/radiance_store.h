@@ -63,6 +63,11 @@ class RadianceStore {
     /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
     /// the means lose weight by how much of all light that is. phase_weight: as for correct().
     void reshoot(float phase_weight);
+    /// Before lights or surfaces change: what punctual lights bring by `other`, this store or one
+    /// that it takes over, is kept for ChangeStore::set_source(). Nothing where there are none.
+    void remember_first_shot(const RadianceStore& other);
+    /// After that: it is found anew. The radiance is left to set_source().
+    void renew_first_shot();
     /// Share of its weight that a mean of this weight has kept in the last reshoot().
     [[nodiscard]] float kept_share(float weight) const {
         return 1.0F / (1.0F + weight * forgetting_);

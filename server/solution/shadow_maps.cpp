@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu/egl_context.h"
+#include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
 
 namespace raybundle {
@@ -38,17 +38,16 @@ int map_size(unsigned layers) {
     return size;
 }
 
-Texture2D create_layers(int size, unsigned layers) {
+Texture2D create_layers(GLenum format, int size, unsigned layers) {
+    check_texture_layers("the shadow maps of the punctual lights", layers);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
     Texture2D texture(name);
-    glTextureStorage3D(name, 1, GL_R32UI, size, size, static_cast<GLsizei>(layers));
+    glTextureStorage3D(name, 1, format, size, size, static_cast<GLsizei>(layers));
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glObjectLabel(GL_TEXTURE, name, -1, "shadow maps");
-    if (glGetError() == GL_OUT_OF_MEMORY) {
-        throw GpuError("out of GPU memory: shadow maps of the punctual lights");
-    }
+    check_gl_errors("making the shadow maps of the punctual lights or before");
     return texture;
 }
 
@@ -76,7 +75,8 @@ glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
 ShadowMaps::ShadowMaps(const GpuScene& scene)
     : scene_(scene),
       raster_({"bundle_raster.vert", "bundle_nearest.frag"},
-              with(scene.defines(), "CLEAR_GLASS 1")) {
+              with(scene.defines(), "CLEAR_GLASS 1")),
+      edge_raster_({"bundle_raster.vert", "shadow_edges.frag"}) {
     for (const PunctualLight& light : scene.punctual_lights()) {
         layers_ += layers_of(light);
         if (light.profile &&
@@ -85,13 +85,27 @@ ShadowMaps::ShadowMaps(const GpuScene& scene)
         }
     }
     size_ = map_size(layers_);
-    maps_ = create_layers(size_, layers_);
+    maps_ = create_layers(GL_R32UI, size_, layers_);
+    edges_ = create_layers(GL_R8UI, size_, layers_);
     depths_ = create_texture_2d("shadow depths", GL_DEPTH_COMPONENT32F, size_, size_);
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     framebuffer_ = Framebuffer(name);
     glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depths_.get(), 0);
     glObjectLabel(GL_FRAMEBUFFER, name, -1, "shadow maps");
+    glCreateFramebuffers(1, &name);
+    edge_framebuffer_ = Framebuffer(name);
+    glObjectLabel(GL_FRAMEBUFFER, name, -1, "shadow edges");
+    const auto& defines = scene.defines();
+    if (std::find(defines.begin(), defines.end(), "ALPHA_MASK 1") != defines.end()) {
+        cut_out_raster_.emplace(std::vector<std::string>{"bundle_raster.vert", "shadow_edges.frag"},
+                                std::vector<std::string>{"CUT_OUT 1"});
+    }
+}
+
+void ShadowMaps::bind() const {
+    glBindTextureUnit(UNIT_SHADOW_MAPS, maps_.get());
+    glBindTextureUnit(UNIT_SHADOW_EDGES, edges_.get());
 }
 
 /// Number of a light's profile among all that are different.
@@ -149,7 +163,36 @@ glm::mat4 ShadowMaps::clip_from_world(const layout::PunctualData& light, unsigne
                                     row(-z, origin)));
 }
 
+/// Lines and points of three texels reach at least one of the four texel centres round any point
+/// beside an edge, however short it is.
+void ShadowMaps::mark_edges(unsigned layer, const glm::mat4& clip) {
+    constexpr float width = 3.0F;  // texels
+    glBindFramebuffer(GL_FRAMEBUFFER, edge_framebuffer_.get());
+    glNamedFramebufferTextureLayer(edge_framebuffer_.get(), GL_COLOR_ATTACHMENT0, edges_.get(), 0,
+                                   static_cast<GLint>(layer));
+    const GLuint unmarked[4] = {0, 0, 0, 0};
+    glClearBufferuiv(GL_COLOR, 0, unmarked);
+    glDisable(GL_DEPTH_TEST);
+    glLineWidth(width);
+    glPointSize(width);
+    edge_raster_.use();
+    edge_raster_.set("clip_from_world", clip);
+    for (const GLenum mode : {GL_LINE, GL_POINT}) {
+        glPolygonMode(GL_FRONT_AND_BACK, mode);
+        scene_.draw(Place::now, clip, false, edge_raster_);
+    }
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    if (cut_out_raster_) {
+        cut_out_raster_->use();
+        cut_out_raster_->set("clip_from_world", clip);
+        scene_.draw(Place::now, clip, false, *cut_out_raster_);
+    }
+}
+
 void ShadowMaps::draw_layer(unsigned layer, const glm::mat4& clip) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glEnable(GL_DEPTH_TEST);
+    raster_.use();
     glNamedFramebufferTextureLayer(framebuffer_.get(), GL_COLOR_ATTACHMENT0, maps_.get(), 0,
                                    static_cast<GLint>(layer));
     const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
@@ -163,14 +206,13 @@ void ShadowMaps::draw_layer(unsigned layer, const glm::mat4& clip) {
 std::span<const layout::PunctualData> ShadowMaps::draw() {
     const GlScope scope("shadow maps");
     place_lights();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, size_, size_);
-    glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    raster_.use();
     for (const layout::PunctualData& light : lights_) {
         for (unsigned face = 0; face < light.map.y; ++face) {
-            draw_layer(light.map.x + face, clip_from_world(light, face));
+            const glm::mat4 clip = clip_from_world(light, face);
+            draw_layer(light.map.x + face, clip);
+            mark_edges(light.map.x + face, clip);
         }
     }
     glDisable(GL_DEPTH_TEST);
@@ -179,7 +221,7 @@ std::span<const layout::PunctualData> ShadowMaps::draw() {
 
 std::size_t ShadowMaps::bytes() const {
     const auto texels = static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_);
-    return texels * sizeof(std::uint32_t) * (std::size_t{layers_} + 1);
+    return texels * ((sizeof(std::uint32_t) + 1) * std::size_t{layers_} + sizeof(float));
 }
 
 }  // namespace raybundle

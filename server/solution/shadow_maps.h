@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,8 @@
 namespace raybundle {
 
 /// What each punctual light sees of the scene: numbers of the nearest surfaces, a cube of six faces
-/// round a point light, one face for a spot and for a directional light. shaders/first_shot.glsl
-/// reads them.
+/// round a point light, one face for a spot and for a directional light; and near which of their
+/// texels some surface begins or ends. shaders/first_shot.glsl reads them.
 class ShadowMaps {
   public:
     explicit ShadowMaps(const GpuScene& scene);
@@ -22,7 +23,7 @@ class ShadowMaps {
     /// Draws all maps for the present place of the objects. Returns the lights as shaders want
     /// them; valid until the next call.
     std::span<const layout::PunctualData> draw();
-    void bind() const { glBindTextureUnit(UNIT_SHADOW_MAPS, maps_.get()); }
+    void bind() const;
     /// The lights' profiles, each once, in the order of PunctualData::profile.
     [[nodiscard]] const std::vector<std::shared_ptr<const IesProfile>>& profiles() const {
         return profiles_;
@@ -33,6 +34,7 @@ class ShadowMaps {
     void place_lights();
     [[nodiscard]] unsigned profile_of(std::size_t light) const;
     void draw_layer(unsigned layer, const glm::mat4& clip_from_world);
+    void mark_edges(unsigned layer, const glm::mat4& clip_from_world);
     [[nodiscard]] glm::mat4 clip_from_world(const layout::PunctualData& light, unsigned face) const;
 
     const GpuScene& scene_;
@@ -40,9 +42,10 @@ class ShadowMaps {
     std::vector<std::shared_ptr<const IesProfile>> profiles_;
     unsigned layers_ = 0;
     int size_ = 0;  // texels along an edge
-    Texture2D maps_, depths_;
-    Framebuffer framebuffer_;
-    ShaderProgram raster_;
+    Texture2D maps_, depths_, edges_;
+    Framebuffer framebuffer_, edge_framebuffer_;
+    ShaderProgram raster_, edge_raster_;
+    std::optional<ShaderProgram> cut_out_raster_;  // only where alpha cuts some surfaces
 };
 
 }  // namespace raybundle

@@ -20,7 +20,7 @@ ZoneBalance::ZoneBalance(const Scene& scene, const PatchMesh& mesh, const GpuSce
     : scene_(scene),
       gpu_scene_(gpu_scene),
       patch_count_(gpu_scene.patch_count()),
-      rays_(scene, mesh, present_places(), seed),
+      rays_(scene, mesh, present_places(), gpu_scene.diameter(), seed),
       base_colour_(mesh.base_colour),
       levels_(1),
       zones_buffer_("zones", max_zones * sizeof(layout::ZoneLevelData) +
@@ -59,7 +59,7 @@ void ZoneBalance::refresh() {
         return;
     }
     stale_ = false;
-    rays_.place(present_places());
+    rays_.place(present_places(), gpu_scene_.diameter());
     std::vector<ExchangeRay> traced = rays_.trace();
     partition_ = find_zones(rays_, traced);
     levels_ = ZoneLevels(partition_.count);

@@ -2,6 +2,7 @@
 #include "transport/scene_change.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct Share {
 double box_area(const Bounds& bounds) {
     const glm::dvec3 e = bounds.extent();
     return 2.0 * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+
+/// Of a light without extent; a directional one shines at a quarter of a box's surface in the mean.
+double flux_over_pi(const PunctualLight& light, int channel, const Bounds& bounds) {
+    const glm::dvec3 flux = light.kind == PunctualKind::directional
+                                ? 0.25 * box_area(bounds) * glm::dvec3(light.intensity)
+                                : place_light(light, glm::mat4(1.0F)).flux();
+    return flux[channel] / glm::pi<double>();
 }
 
 /// Of what sum flux |ratio - g| is least at; 1 where that is as good.
@@ -51,14 +60,11 @@ double weighted_median(std::vector<Share>& shares) {
 
 }  // namespace
 
-glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, std::span<const glm::vec3> before,
-                       std::span<const glm::vec3> after) {
-    if (!scene.punctual_lights.empty()) {
-        return glm::vec3(1.0F);  // their share of the solution would be scaled too
-    }
+glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, const Emission& before,
+                       const Emission& after) {
     std::vector<std::pair<std::size_t, double>> emitters;  // patch, area
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        if (before[i] != glm::vec3(0.0F)) {
+    for (std::size_t i = 0; i < before.patches.size(); ++i) {
+        if (before.patches[i] != glm::vec3(0.0F)) {
             emitters.emplace_back(i, world_area(scene, mesh, i));
         }
     }
@@ -68,14 +74,40 @@ glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, std::span<cons
         shares.clear();
         shares.push_back({1.0, mean_sky(scene)[c] * box_area(scene.bounds)});
         for (const auto& [patch, area] : emitters) {
-            const auto old = static_cast<double>(before[patch][c]);
+            const auto old = static_cast<double>(before.patches[patch][c]);
             if (old > 0.0) {
-                shares.push_back({static_cast<double>(after[patch][c]) / old, area * old});
+                shares.push_back({static_cast<double>(after.patches[patch][c]) / old, area * old});
+            }
+        }
+        for (std::size_t i = 0; i < before.punctual.size(); ++i) {
+            const PunctualLight& light = before.punctual[i];
+            const auto old = static_cast<double>(light.intensity[c]);
+            if (old > 0.0) {
+                shares.push_back({static_cast<double>(after.punctual[i].intensity[c]) / old,
+                                  flux_over_pi(light, c, scene.bounds)});
             }
         }
         scale[c] = static_cast<float>(weighted_median(shares));
     }
     return scale;
+}
+
+bool anything_left(const Emission& before, const Emission& after, const glm::vec3& scale) {
+    constexpr float rounding = 1e-6F;  // of a product of two floats, relative
+    const auto differ = [&scale](const glm::vec3& old, const glm::vec3& next) {
+        return glm::any(glm::greaterThan(glm::abs(next - scale * old), rounding * next));
+    };
+    for (std::size_t i = 0; i < before.patches.size(); ++i) {
+        if (differ(before.patches[i], after.patches[i])) {
+            return true;
+        }
+    }
+    for (std::size_t i = 0; i < before.punctual.size(); ++i) {
+        if (differ(before.punctual[i].intensity, after.punctual[i].intensity)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace raybundle

@@ -31,12 +31,22 @@ constexpr SpecialSettings interactive_special() {
     return settings;
 }
 
-/// By which colour the solution is best multiplied when emission goes from `before` to `after`
-/// (cd/m², per patch): the weighted median of the ratios, so that the least flux is left to be
-/// transferred (1 in doubt). Where all emission changes alike nothing is left, and where the
-/// brightest light goes out nothing remains of it, noise included. sky: of the scene, the same
-/// before and after, with the area of the scene's bounds.
-glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, std::span<const glm::vec3> before,
-                       std::span<const glm::vec3> after);
+/// What a scene emits: of patches radiance, cd/m², and lights without extent, the same ones before
+/// and after a change.
+struct Emission {
+    std::span<const glm::vec3> patches;
+    std::span<const PunctualLight> punctual;
+};
+
+/// By which colour the solution is best multiplied when what is emitted changes: the weighted
+/// median of the ratios, so that the least flux is left to be transferred (1 in doubt). Where all
+/// emission changes alike nothing is left, and where the brightest light goes out nothing remains
+/// of it, noise included. The scene's sky is the same before and after, with the area of its
+/// bounds.
+glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, const Emission& before,
+                       const Emission& after);
+
+/// Whether there is something to transfer once the solution has been multiplied.
+bool anything_left(const Emission& before, const Emission& after, const glm::vec3& scale);
 
 }  // namespace raybundle

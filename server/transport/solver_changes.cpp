@@ -27,23 +27,11 @@ constexpr float carried_light_weight = 1.0F;
 constexpr double settled_enough = 0.95;
 /// Samples that the iterate is worth after any change, so that its steps are large again.
 constexpr float iterate_age_after_change = 31.0F;
-constexpr float rounding = 1e-6F;  // of a product of two floats, relative
 
 /// Whether an emitter has come or gone among the patches.
 bool emitters_differ(std::span<const glm::vec3> before, std::span<const glm::vec3> after) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         if ((before[i] == glm::vec3(0.0F)) != (after[i] == glm::vec3(0.0F))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool anything_left(std::span<const glm::vec3> before, std::span<const glm::vec3> after,
-                   const glm::vec3& scale) {
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        const glm::vec3 difference = glm::abs(after[i] - scale * before[i]);
-        if (glm::any(glm::greaterThan(difference, rounding * after[i]))) {
             return true;
         }
     }
@@ -151,8 +139,7 @@ void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_obj
 void Solver::adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale) {
     const float largest = GpuScene::largest_emission(scene, mesh);
     const float unit = scene_.radiance_unit();
-    if (largest <= 0.0F || !scene.punctual_lights.empty() ||
-        (largest < unit * unit_range && largest * unit_range > unit)) {
+    if (largest <= 0.0F || (largest < unit * unit_range && largest * unit_range > unit)) {
         return;
     }
     const float next = GpuScene::unit_for(largest);
@@ -194,23 +181,26 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
                              std::span<const std::uint32_t> materials,
                              std::span<const std::uint32_t> reflecting,
                              std::span<BundleReceiver* const> receivers) {
-    const std::vector<glm::vec3> before = mesh.emission;
+    const std::vector<glm::vec3> emitted = mesh.emission;
+    const std::vector<PunctualLight> punctual = scene_.punctual_lights();
     refresh_surfaces(scene, materials, mesh);
-    SurfaceChange change;
-    change.scale = common_scale(scene, mesh, before, mesh.emission);
-    change.reflecting = reflecting;
-    change.transfer = !reflecting.empty() || anything_left(before, mesh.emission, change.scale);
-    change.redraw = !reflecting.empty() || emitters_differ(before, mesh.emission);
     begin_change();
+    store_.remember_first_shot(store_);
     change_store().remember_surfaces(scene_);
+    scene_.update_punctual_lights(scene);
+    const Emission before{emitted, punctual};
+    const Emission after{mesh.emission, scene_.punctual_lights()};
+    SurfaceChange change;
+    change.scale = common_scale(scene, mesh, before, after);
+    change.reflecting = reflecting;
+    change.transfer = !reflecting.empty() || anything_left(before, after, change.scale);
+    change.redraw = !reflecting.empty() || emitters_differ(emitted, mesh.emission);
     change.glossy = any_glossy(reflecting);
     scene_.update_surfaces(scene, mesh, materials);
     zones_.surfaces_changed(mesh);
-    if (!reflecting.empty()) {
-        store_.reshoot(first_shot_weight);
-    }
     change.glossy = change.glossy || any_glossy(reflecting);
     adapt_unit(scene, mesh, change.scale);
+    store_.renew_first_shot();
     carried_light_.update(scene, mesh);
     if (caustics_) {
         caustics_->update(scene, materials, mesh.emission);
@@ -230,6 +220,7 @@ void Solver::take_over(const Solver& other, std::span<const std::uint32_t> refle
     store_.adopt(other.store_);
     begin_change();
     change_store().remember_surfaces(other.scene_);
+    store_.remember_first_shot(other.store_);
     SurfaceChange change;
     change.scale = glm::vec3(other.scene_.radiance_unit() / scene_.radiance_unit());
     change.reflecting = reflecting;

@@ -60,6 +60,17 @@ double variance_of_mean(std::uint64_t samples, SampleOrder order) {
     return std::pow(beyond, -2.0 * gain.exponent);
 }
 
+double variance_of_patches(std::uint64_t samples, bool sky) {
+    const auto n = static_cast<double>(std::max<std::uint64_t>(samples, 1));
+    return 2.0 / (n * std::pow(n, sky ? -0.66 : -0.8));
+}
+
+double lag_of_mean(double ahead, double noise, std::uint64_t samples, SampleOrder order, bool sky) {
+    const double by_chance =
+        noise / std::sqrt(variance_of_patches(samples, sky) * variance_of_mean(samples, order));
+    return std::sqrt(std::max(ahead * ahead - by_chance * by_chance, 0.0));
+}
+
 double discretisation_error(double at_edges, double elsewhere) {
     // Measured at 48x48 pixels against path tracing, means of many runs: smoothing leaves a quarter
     // of what it takes away, textures and normal maps err by half of their second differences.

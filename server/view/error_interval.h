@@ -26,6 +26,19 @@ enum class SampleOrder { low_discrepancy, shuffled };
 /// and 2 %.
 double variance_of_mean(std::uint64_t samples, SampleOrder order);
 
+/// How far the mean of the samples is behind, relative, at least, while their light still rises or
+/// falls: they do not scatter about what they have not reached. ahead: by how much the iterate, a
+/// mean of recent samples, is brighter than the mean of all, over the picture; noise: of the
+/// latter. The iterate averages fewer samples and gains nothing by their sequence, so that by
+/// chance it is ahead by noise sqrt(n s / (2 variance_of_mean)), s being its step
+/// (Solver::iterate_step(): n^-0.8, n^-0.66 with a sky), were the noise the same all over the
+/// picture. So much counts for nothing.
+double lag_of_mean(double ahead, double noise, std::uint64_t samples, SampleOrder order, bool sky);
+
+/// Variance of the mean of so many samples over that of the iterate, were they independent: 2/(n
+/// s).
+double variance_of_patches(std::uint64_t samples, bool sky);
+
 /// What pixels do not resolve, relative: squared differences, over the picture's squared light,
 /// that smoothing makes at edges and that other pixels have from their four neighbours.
 double discretisation_error(double at_edges, double elsewhere);

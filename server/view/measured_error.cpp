@@ -9,11 +9,32 @@ namespace raybundle {
 void MeasuredError::take(const SquaredError& square, const ImageStatistics& by_samples) {
     constexpr double too_badly = 0.5;  // share of the squared error
     const double said = by_samples.relative_error;
+    const double stated = said * said + carried_square_;
     if (by_samples.known && by_samples.samples > 0 && said > 0.0 && square.standard_error > 0.0 &&
-        square.standard_error < too_badly * std::max(said * said, square.value)) {
+        square.standard_error < too_badly * std::max(stated, square.value)) {
         square_ = square;
         said_ = by_samples;
+        carried_square_ = 0.0;
     }
+}
+
+void MeasuredError::carry_over() {
+    if (square_) {
+        const double said = said_.relative_error;
+        carried_square_ = std::max(square_->value - said * said, 0.0);
+    }
+    square_.reset();
+}
+
+/// The error may be all that samples say and all that was found beyond, or the former alone.
+ImageStatistics MeasuredError::with_carried(const ImageStatistics& by_samples) const {
+    ImageStatistics s = by_samples;
+    if (s.known && carried_square_ > 0.0) {
+        const double carried = std::sqrt(carried_square_);
+        s.relative_error = std::hypot(s.relative_error, carried);
+        s.error_high = std::hypot(s.error_high, carried);
+    }
+    return s;
 }
 
 /// The squared error as it is to be expected after more samples. Those have noise of their own,
@@ -34,10 +55,10 @@ SquaredError MeasuredError::now(const ImageStatistics& by_samples) const {
 }
 
 ImageStatistics MeasuredError::with(const ImageStatistics& by_samples) const {
-    ImageStatistics s = by_samples;
-    if (!square_ || !s.known || s.samples == 0) {
-        return s;
+    if (!square_ || !by_samples.known || by_samples.samples == 0) {
+        return with_carried(by_samples);
     }
+    ImageStatistics s = by_samples;
     const SquaredError square = now(by_samples);
     const ErrorInterval interval = measured_interval({s.relative_error, s.error_low, s.error_high},
                                                      square.value, square.standard_error);
@@ -56,8 +77,10 @@ double MeasuredError::samples_factor_to(double target, const ImageStatistics& by
                                         SampleOrder order, double unresolved) const {
     const double resolved = by_samples.discretisation * std::sqrt(1.0 - unresolved * unresolved);
     if (!square_ || !(by_samples.relative_error > 0.0)) {
-        return samples_factor(by_samples.noise, unresolved * by_samples.discretisation, target,
-                              by_samples.samples, order);
+        return samples_factor(
+            by_samples.noise,
+            std::hypot(unresolved * by_samples.discretisation, std::sqrt(carried_square_)), target,
+            by_samples.samples, order);
     }
     const ImageStatistics s = with(by_samples);
     const double then =

@@ -27,7 +27,7 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
       view_("view parameters", sizeof(layout::ViewParameters)),
       vertex_irradiance_("vertex irradiance",
                          2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
-      statistics_buffer_("view statistics", 2 * statistics_groups * sizeof(glm::vec4)) {
+      statistics_buffer_("view statistics", 3 * statistics_groups * sizeof(glm::vec4)) {
     statistics_buffer_.clear();
     statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
     vertex_irradiance_texture_ =
@@ -105,7 +105,7 @@ void ViewerImage::shoot_first() const {
     }
     const GlScope scope("pixel first shot");
     store_.first_shot()->set_uniforms(programs_.first_shot);
-    programs_.first_shot.dispatch(pixel_count(size_));
+    store_.first_shot()->dispatch(programs_.first_shot, pixel_count(size_));
 }
 
 void ViewerImage::create_pixel_textures() {

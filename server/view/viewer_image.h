@@ -178,7 +178,7 @@ class ViewerImage : public BundleReceiver {
     void shade_continued(const Buffer& radiance);
     /// The sums of view_statistics.comp and view_detail.comp as last requested; waits for them.
     struct StatisticsSums {
-        glm::dvec4 light{0.0}, detail{0.0};
+        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0};
     };
     StatisticsSums statistics_sums();
 
@@ -220,6 +220,7 @@ class ViewerImage : public BundleReceiver {
     void create_pixel_textures();
     void bind_pixels() const;
     void upload_view();
+    void check_picture() const;
     void receive(const ViewPrograms::Receive& programs, const Context& context);
     void mark_crowded(float window_pixel);
     void set_place(const ShaderProgram& program, Place place) const;
@@ -232,7 +233,7 @@ class ViewerImage : public BundleReceiver {
     void keep_light(bool apart);
     void join_kept();
     void interpolate_vertices();
-    void evaluate(const glm::dvec4& sum, const glm::dvec4& detail);
+    void evaluate(const StatisticsSums& sums);
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] float near_distance() const { return near_share * scene_.diameter(); }

@@ -159,6 +159,9 @@ void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::ui
         programs_.scale.set("material", material);
         programs_.scale.dispatch(std::size_t{size_.x} * size_.y);
     };
+    if (!redraw) {
+        shoot_first();
+    }
     parameters_.constant *= glm::vec4(scale, 0.0F);
     if (scale != glm::vec3(1.0F)) {
         run(scale, NO_PATCH);

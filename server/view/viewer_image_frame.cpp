@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a viewer's picture shows: frames, depths, and the light at the ends of mirrors' rays.
 #include <cmath>
+#include <string>
 
+#include "gpu/gl_limits.h"
 #include "view/continued_view.h"
 #include "view/viewer_image.h"
 
@@ -42,6 +44,13 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     frame_readback_->request(
         smoothed ? edges_->average(programs_.edges, frame_, mode == DisplayMode::photo) : frame_,
         frame_bytes_);
+    check_picture();
+}
+
+/// Throws GlError where the driver has refused a command that the picture depends on.
+void ViewerImage::check_picture() const {
+    check_gl_errors("making a picture of " + std::to_string(size_.x) + "x" +
+                    std::to_string(size_.y));
 }
 
 void ViewerImage::request_depths(std::uint32_t columns) {

@@ -21,6 +21,7 @@ std::vector<glm::vec4> ViewerImage::read_radiance() {
     }
     std::vector<glm::vec4> result(pixel_count(size_));
     linear.read<glm::vec4>(result);
+    check_picture();
     return result;
 }
 
@@ -44,6 +45,7 @@ std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::u
                         static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
     programs_.probe.dispatch(pixels.size());
     buffer.read<layout::PickResult>(picks);
+    check_picture();
     std::vector<std::optional<PixelProbe>> found(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (picks[i].position.w > 0.0F) {

@@ -8,6 +8,26 @@
 
 namespace raybundle {
 
+namespace {
+
+/// Of a sky: less of it comes into closed rooms by what bundles do not resolve (`ClosedRoom*` finds
+/// 2e-5), and is not worth a picture.
+constexpr double unresolved_sky = 1e-4;
+
+/// Mean luminance of the sky towards the corners of a cube, cd/m².
+double sky_luminance(const GpuScene& scene) {
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8 && scene.has_sky(); ++corner) {
+        const glm::vec3 towards((corner & 1U) != 0 ? 1.0F : -1.0F,
+                                (corner & 2U) != 0 ? 1.0F : -1.0F,
+                                (corner & 4U) != 0 ? 1.0F : -1.0F);
+        sum += static_cast<double>(luminance(scene.sky_towards(glm::normalize(towards))));
+    }
+    return 0.125 * sum * static_cast<double>(scene.radiance_unit());
+}
+
+}  // namespace
+
 /// What the pixels show is another thing from now on, or of other accuracy.
 void ViewerImage::restart_scatter() {
     scatter_.clear();
@@ -47,6 +67,8 @@ void ViewerImage::request_statistics() {
                              static_cast<float>(std::min(statistics_.noise, 1.0)));
     programs_.statistics.set(
         "variance_of_mean", static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
+    programs_.statistics.set("variance_of_patches", static_cast<float>(variance_of_patches(
+                                                        scatter_samples_, scene_.has_sky())));
     programs_.statistics.set("fresh_share", scatter_samples_ < GROUP_SIZE ? 2.0F : 0.16F);
     programs_.statistics.dispatch(statistics_groups * 64);
     if (ends_ == nullptr &&
@@ -83,6 +105,7 @@ ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
     for (std::size_t i = 0; i < statistics_groups; ++i) {
         sums.light += glm::dvec4(parts[i]);
         sums.detail += glm::dvec4(parts[statistics_groups + i]);
+        sums.drift += glm::dvec4(parts[2 * statistics_groups + i]);
     }
     return sums;
 }
@@ -95,13 +118,18 @@ const ImageStatistics& ViewerImage::statistics() {
 }
 
 void ViewerImage::finish_statistics() {
-    const StatisticsSums own = statistics_sums();
-    evaluate(own.light +
-                 (continued() != nullptr ? continued()->statistics_sums().light : glm::dvec4(0.0)),
-             own.detail);
+    StatisticsSums sums = statistics_sums();
+    if (continued() != nullptr) {
+        const StatisticsSums behind = continued()->statistics_sums();
+        sums.light += behind.light;
+        sums.drift += behind.drift;
+    }
+    evaluate(sums);
 }
 
-void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
+void ViewerImage::evaluate(const StatisticsSums& sums) {
+    const glm::dvec4& sum = sums.light;
+    const glm::dvec4& detail = sums.detail;
     if (sum.w <= 0.0) {
         return;
     }
@@ -113,18 +141,28 @@ void ViewerImage::evaluate(const glm::dvec4& sum, const glm::dvec4& detail) {
         detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) *
                              unresolved_share(grid_)
                        : 0.0;
+    // What has not been reached yet has no scatter, and how far it is from the light that is still
+    // to come nobody knows.
+    const double lag = sums.drift.y > 0.0
+                           ? lag_of_mean(sums.drift.x / sums.drift.y, statistics_.noise,
+                                         requested_samples_, sample_order(), scene_.has_sky())
+                           : 0.0;
+    const bool unknown = lag > std::hypot(statistics_.noise, statistics_.discretisation);
+    statistics_.noise = std::min(std::hypot(statistics_.noise, lag), 1.0);
     const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
                                                   requested_samples_, sample_order());
     statistics_.relative_error = interval.error;
     statistics_.error_low = interval.low;
-    statistics_.error_high = interval.high;
+    statistics_.error_high = unknown ? std::max(interval.high, 1.0) : interval.high;
     statistics_.mean_log_luminance = sum.z / sum.w + std::log(unit);
     statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
 }
 
 float ViewerImage::automatic_exposure() const {
     // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
-    const double stops = -statistics_.mean_log_luminance / std::log(2.0);
+    // A room that next to nothing of the sky gets into stays dark.
+    const double least = std::log(std::max(unresolved_sky * sky_luminance(scene_), 1e-30));
+    const double stops = -std::max(statistics_.mean_log_luminance, least) / std::log(2.0);
     return static_cast<float>(std::clamp(stops, -30.0, 30.0));
 }
 

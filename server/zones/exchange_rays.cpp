@@ -80,7 +80,8 @@ void ExchangeRays::reject_backs(const RTCFilterFunctionNArguments* arguments) {
 }
 
 ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
-                           std::span<const glm::mat4> world_from_object, std::uint64_t seed)
+                           std::span<const glm::mat4> world_from_object, float diameter,
+                           std::uint64_t seed)
     : scene_(scene),
       positions_(mesh.positions),
       triangles_(mesh.triangles),
@@ -103,7 +104,7 @@ ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
         objects_.push_back(vertex_object_[triangles_[triangle].x]);
     }
     build();
-    place(world_from_object);
+    place(world_from_object, diameter);
     choose_densities(mesh);
 }
 
@@ -138,19 +139,15 @@ ExchangeRays::Corners ExchangeRays::corners_of(std::size_t triangle) const {
     return {corner(t.x), corner(t.y), corner(t.z)};
 }
 
-void ExchangeRays::place(std::span<const glm::mat4> world_from_object) {
+void ExchangeRays::place(std::span<const glm::mat4> world_from_object, float diameter) {
     world_from_object_.assign(world_from_object.begin(), world_from_object.end());
-    Bounds bounds;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const Corners at = corners_of(i);
         vertices_[3 * i] = at.a;
         vertices_[3 * i + 1] = at.b;
         vertices_[3 * i + 2] = at.c;
-        bounds.add(at.a);
-        bounds.add(at.b);
-        bounds.add(at.c);
     }
-    lift_ = triangles_.empty() ? 0.0F : lift_share * glm::length(bounds.extent());
+    lift_ = lift_share * diameter;
     rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry_);
     rtcCommitScene(rays_.get());

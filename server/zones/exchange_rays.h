@@ -38,15 +38,16 @@ struct ExchangeRay {
 class ExchangeRays {
   public:
     /// world_from_object: of all objects, in the space that rays live in; sky directions are the
-    /// same there as in the world. Throws std::runtime_error where memory runs out.
+    /// same there as in the world. diameter: of the scene, m. Throws std::runtime_error where
+    /// memory runs out.
     ExchangeRays(const Scene& scene, const PatchMesh& mesh,
-                 std::span<const glm::mat4> world_from_object, std::uint64_t seed);
+                 std::span<const glm::mat4> world_from_object, float diameter, std::uint64_t seed);
     ~ExchangeRays();
     ExchangeRays(ExchangeRays&&) noexcept = default;
     ExchangeRays& operator=(ExchangeRays&&) = delete;
 
     /// Objects are elsewhere; commits what trace() needs.
-    void place(std::span<const glm::mat4> world_from_object);
+    void place(std::span<const glm::mat4> world_from_object, float diameter);
     /// A patch's share of all rays follows its area, its object, its emission and its number.
     void choose_densities(const PatchMesh& mesh);
     /// All rays, in the order of their patches. On all cores; the same bits always.

@@ -384,6 +384,8 @@ describe('figures', () => {
         assert.deepEqual(snapshotSize(0, screen, limits), screen);
         assert.deepEqual(snapshotSize(1920, screen, limits), {width: 1920, height: 1440});
         assert.deepEqual(snapshotSize(3840, screen, limits), {width: 2880, height: 2160});
+        const large = snapshotSize(8192, screen, {...limits, maxSnapshotEdge: 8192});
+        assert.deepEqual(large, {width: 8192, height: 6144});
         const tall = snapshotSize(3840, {width: 1, height: 900}, limits);
         assert.deepEqual(tall, {width: 2, height: 2160});
     });
@@ -394,6 +396,9 @@ describe('figures', () => {
         const {width, height} = fitViewport(1000, 750, 3, 1280 * 960, limits);
         assert.ok(width * height <= 1280 * 960 && Math.abs(width / height - 4 / 3) < 0.01);
         assert.equal(fitViewport(9000, 100, 1, Infinity, limits).width, 3840);
+        const told = {...limits, maxViewportPixels: 3840 * 2160, maxViewportEdge: 8192};
+        assert.deepEqual(fitViewport(430, 932, 3, Infinity, told), {width: 1290, height: 2796});
+        assert.deepEqual(fitViewport(5120, 2880, 1, Infinity, told), {width: 3840, height: 2160});
         assert.deepEqual(fitViewport(0, 0, 1, Infinity, limits), {width: 16, height: 16});
     });
 

@@ -99,6 +99,19 @@ describe('the page without its server', () => {
         assert.equal(await page.textContent('#banner-title'), 'Connecting to the server');
     });
 
+    it('says how far the server is with the scene, before the welcome', async () => {
+        const sceneOpening = {name: 'a.glb', by: 0, byName: '', stage: 'COMPILING', reason: ''};
+        const {page} = await openPage((request, send) => {
+            if (request.hello) {
+                send({replyTo: undefined, sceneOpening});
+            }
+        });
+        await page.waitForFunction(() =>
+            document.getElementById('banner-text').textContent.includes('step 3 of 3, compiling'),
+        );
+        assert.ok(await page.isHidden('#preparing'), 'nobody opens another scene');
+    });
+
     it('says that it waits for the first picture, and what draws it', async () => {
         const {page} = await openPage((request, send) =>
             send(request.hello ? {welcome: WELCOME} : {ok: {}}),

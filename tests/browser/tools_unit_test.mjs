@@ -9,13 +9,14 @@ import * as colour from '../../client_web/colour.js';
 import {choicesOf} from '../../client_web/compare.js';
 import {effectCost, pathInWords} from '../../client_web/effects.js';
 import {
-    carriedGrid, csvCell, gridCsv, gridOn, mainFace, measuredAgain, pointsOf, spreadOver, standardStep, summaryOf,
+    carriedGrid, csvCell, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, standardStep,
+    summaryOf,
     typicalError,
 } from '../../client_web/grid.js';
 import {stateOf} from '../../client_web/grid_panel.js';
 import {History, subjectOf} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
-import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem} from '../../client_web/light_panel.js';
+import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/light_panel.js';
 import {DarkViews} from '../../client_web/lost.js';
 import {avatarTexts, frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
@@ -194,6 +195,20 @@ describe('a measuring grid', () => {
         assert.equal(summaryOf([-1, -1]), null);
     });
 
+    it('says how well mean and uniformity are known', () => {
+        const {meanError, mean, uniformity} = intervalsOf([100, -1, 300, 200], [0.01, -1, 0.01, 0.01]);
+        close(meanError, 0.01, 1e-12);
+        close(mean.low, 200 * (1 - 0.0196), 1e-9);
+        close(mean.high, 200 * (1 + 0.0196), 1e-9);
+        close(uniformity.high, 0.5 * (1 + 0.0196), 1e-9);
+        assert.ok(uniformity.low < 0.5 * (1 - 0.0196) && uniformity.low > 0.48);
+        const many = intervalsOf(Array(100).fill(200), Array(100).fill(0.01));
+        assert.ok(many.uniformity.low < 0.97 && many.uniformity.high === 1);
+        assert.equal(intervalsOf([100, 200], [0.01, -1]), null, 'not known');
+        assert.equal(intervalsOf([0, -1], [-1, -1]), null, 'dark');
+        assert.deepEqual(intervalsOf([0, 200], [-1, 0.01]).uniformity, {low: 0, high: 0}, 'what is black is known');
+    });
+
     it('becomes a table', () => {
         const grid = {origin: vec3(0, 0, 0), stepX: vec3(1, 0, 0), stepY: vec3(0, 0, 2), columns: 4, rows: 1};
         const result = {illuminance: [123.4567, -1, 5, 5], relativeError: [0.02, -1, 0.7, -1], epoch: 7};
@@ -362,6 +377,16 @@ describe('colours and units', () => {
     it('dim by ratios', () => {
         close(dimmerShare(dimmerPosition(1)), 1, 1e-9);
         close(dimmerShare(0), 0.01, 1e-12);
+    });
+
+    it('say what people know lights by, as they are dimmed', () => {
+        const light = {id: 1, name: 'lamp', kind: 'POINT', unit: 'LM', colour: {x: 1, y: 1, z: 1}, on: true};
+        const ies = {...light, intensity: 4800, loadedIntensity: 9600, flux: 9600, peak: 3000, watts: 80};
+        assert.equal(lightFigures(ies), 'at most 1\u202f500 cd · 80 W');
+        const point = {...light, unit: 'CD', intensity: 100, loadedIntensity: 100, flux: 1256.6, peak: 100};
+        assert.equal(lightFigures(point), '1\u202f257 lm');
+        const area = {...light, unit: 'CD_PER_M2', intensity: 0, loadedIntensity: 0, flux: undefined};
+        assert.equal(lightFigures(area), '');
     });
 
     it('say no more digits than there are', () => {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <stop_token>
 #include <thread>
 
 #include "daemon.h"
@@ -37,11 +39,12 @@ Phases phases(std::uint16_t port) {
             counted(text, "raybundle_iteration_seconds_count{strategy=\"special\"}")};
 }
 
-/// The same once a number of slices has been reached and no more come; waits up to a minute.
+/// The same once a number of slices has been reached and no more come; only what hangs takes so
+/// long as is waited.
 Phases phases_at_rest(std::uint16_t port, int least_slices) {
     Phases last;
     int same = 0;
-    for (int i = 0; i < 240 && same < 3; ++i) {
+    for (int i = 0; i < 2400 && same < 3; ++i) {
         const Phases now = phases(port);
         same = now.slices >= least_slices && now == last ? same + 1 : 0;
         last = now;
@@ -95,6 +98,71 @@ TEST_F(ChangesTest, WhatWaitsTogetherPassesOnePhase) {
     EXPECT_GE(surfaces.begun, 1);
     EXPECT_LE(surfaces.begun, 2);
     EXPECT_GE(surfaces.slices, bundles);
+}
+
+/// A viewer that drags an object as fast as it may, on a thread of its own: the next step is on its
+/// way before the last one is answered.
+class Dragger {
+  public:
+    static constexpr int most_steps = 300;
+
+    Dragger(std::uint16_t port, int object)
+        : viewer_(port), thread_([this, object](const std::stop_token& stop) {
+              viewer_.join();
+              for (int step = 1; step <= most_steps && !stop.stop_requested(); ++step) {
+                  const double to_and_fro = step % 2 == 0 ? 0.05 : 0.0;
+                  Json move = moved(object, 2.0 + to_and_fro, 0.825, 1.7);
+                  move["moveObject"]["final"] = false;
+                  move["id"] = step;
+                  viewer_.send(move);
+                  if (step > 1) {
+                      viewer_.answer_to(static_cast<std::uint32_t>(step - 1));
+                  }
+              }
+              done_ = true;
+          }) {}
+
+    [[nodiscard]] bool done() const { return done_; }
+
+  private:
+    JsonViewer viewer_;
+    std::atomic<bool> done_{false};
+    std::jthread thread_;
+};
+
+/// Iterations so far, those of special phases left out.
+int iterations(std::uint16_t port) {
+    const std::string text =
+        http_exchange(port, "GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+    return counted(text, "raybundle_iteration_seconds_count{strategy=\"perspective\"}") +
+           counted(text, "raybundle_iteration_seconds_count{strategy=\"layered\"}");
+}
+
+TEST_F(ChangesTest, WhoDragsLeavesFramesAndIterationsToEverybody) {
+    constexpr int few = 6;  // of the changes that two draggers make
+    JsonViewer second(daemon_.port());
+    second.join();
+    for (JsonViewer* const watcher : {&viewer_, &second}) {
+        ASSERT_FALSE(watcher->next_frame([](const Json&) { return true; }).empty());
+    }
+    const int phases_before = phases(daemon_.port()).begun;
+    const int iterations_before = iterations(daemon_.port());
+    Dragger short_box(daemon_.port(), 2);
+    Dragger tall_box(daemon_.port(), 3);
+    for (JsonViewer* const watcher : {&viewer_, &second}) {
+        int frames = 0;
+        int shown = 0;
+        while (frames < few && !(short_box.done() && tall_box.done())) {
+            const Json header = watcher->next_frame([](const Json&) { return true; });
+            ASSERT_FALSE(header.empty());
+            frames += header.value("epoch", 0) > shown ? 1 : 0;
+            shown = header.value("epoch", 0);
+        }
+        EXPECT_EQ(frames, few) << "of " << shown << " changes";
+    }
+    const int begun = phases(daemon_.port()).begun - phases_before;
+    // The last one has not ended, and the first had none to wait for.
+    EXPECT_GE(iterations(daemon_.port()) - iterations_before, begun - 2);
 }
 
 /// The room of effects/polished.gltf, where nothing is smooth but a metal floor that sends so much

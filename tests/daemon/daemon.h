@@ -17,6 +17,10 @@ class Daemon {
     /// Starts it and waits until it listens. `options` follow the scene. Throws std::runtime_error
     /// with its output where it ends instead.
     explicit Daemon(const std::string& scene, const std::vector<std::string>& options = {});
+    /// Only starts it: wait_for_address() has to follow before port().
+    struct Unready {};
+    Daemon(Unready unready, const std::string& scene, const std::vector<std::string>& options);
+    void wait_for_address();
     ~Daemon();  ///< kills it if need be
     Daemon(const Daemon&) = delete;
     Daemon& operator=(const Daemon&) = delete;
@@ -26,7 +30,7 @@ class Daemon {
     void signal(int number) const;
 
     /// Waits for the end: the exit status, or minus the signal that ended it. Nothing where it
-    /// still runs after two minutes.
+    /// still runs after five minutes.
     std::optional<int> wait();
 
     /// Sends a signal and waits.
@@ -38,7 +42,7 @@ class Daemon {
     /// What it has written so far, log included.
     std::string output();
 
-    /// Waits until the output holds a text. False: not within two minutes.
+    /// Waits until the output holds a text. False: not in five minutes.
     bool says(const std::string& text);
 
   private:

@@ -20,9 +20,9 @@ double metric(std::uint16_t port, const std::string& name) {
     return found == std::string::npos ? -1.0 : std::stod(text.substr(found + name.size() + 2));
 }
 
-/// Waits up to a minute for a metric to reach a value.
+/// Waits for a metric to reach a value. False: only what hangs takes so long.
 bool reaches(std::uint16_t port, const std::string& name, double value) {
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 3000; ++i) {
         if (metric(port, name) == value) {
             return true;
         }
@@ -43,25 +43,45 @@ class ViewersTest : public testing::Test {
 
 std::unique_ptr<Daemon> ViewersTest::daemon_;
 
-TEST(AdmissionTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
-    const Daemon daemon(scene_file("cornell_box.gltf"), {"--min-frames-per-second", "2"});
-    JsonViewer small(daemon.port());
-    EXPECT_TRUE(small.join().contains("welcome"));
-    JsonViewer another(daemon.port());
-    EXPECT_TRUE(another.join().contains("welcome"));
-    std::vector<std::unique_ptr<JsonViewer>> large;
+using Viewers = std::vector<std::unique_ptr<JsonViewer>>;
+
+/// Adds viewers with pictures of 4K until one is refused: its refusal; empty where twelve are
+/// admitted.
+Json refusal_of_large_pictures(std::uint16_t port, Viewers& large) {
     Json refusal;
     for (int i = 0; i < 12 && refusal.empty(); ++i) {
-        large.push_back(std::make_unique<JsonViewer>(daemon.port()));
+        large.push_back(std::make_unique<JsonViewer>(port));
         const Json answer = large.back()->join("", 3840, 2160);
         if (answer.contains("error") || !answer.contains("welcome")) {
             refusal = answer;
         }
     }
+    return refusal;
+}
+
+/// Whoever is alone is admitted, however slow a machine is.
+TEST(AdmissionTest, ThePictureThatWouldStarveTheOthersIsRefusedWithWhatFits) {
+    const Daemon daemon(scene_file("cornell_box.gltf"), {"--min-frames-per-second", "60"});
+    JsonViewer first(daemon.port());
+    EXPECT_TRUE(first.join().contains("welcome"));
+    Viewers large;
+    const Json refusal = refusal_of_large_pictures(daemon.port(), large);
     ASSERT_FALSE(refusal.empty()) << "twelve 4K pictures were admitted";
     EXPECT_EQ(refusal.at("error").at("code"), "RESOURCE_EXHAUSTED");
     EXPECT_NE(refusal.at("error").at("message").get<std::string>().find("fit"), std::string::npos);
     EXPECT_GE(metric(daemon.port(), "raybundle_viewers_refused_total"), 1.0);
+}
+
+/// Two small pictures fit into half a second where a machine is not too busy.
+TEST(AdmissionHeavyTest, APictureThatGrowsTooLargeIsRefused) {
+    const Daemon daemon(scene_file("cornell_box.gltf"), {"--min-frames-per-second", "2"});
+    JsonViewer small(daemon.port());
+    EXPECT_TRUE(small.join().contains("welcome"));
+    JsonViewer another(daemon.port());
+    EXPECT_TRUE(another.join().contains("welcome"));
+    Viewers large;
+    const Json refusal = refusal_of_large_pictures(daemon.port(), large);
+    ASSERT_FALSE(refusal.empty()) << "twelve 4K pictures were admitted";
     const Json grown = small.request({{"setViewport", {{"width", 3840}, {"height", 2160}}}});
     EXPECT_EQ(grown.at("error").at("code"), "RESOURCE_EXHAUSTED") << grown.dump();
 }
@@ -75,7 +95,7 @@ TEST_F(ViewersTest, AViewerThatAcknowledgesNothingIsPausedAndComesBack) {
         R"({"id":1,"hello":{"protocol":"1.0","viewport":{"width":160,"height":120}}})");
     // The active one must keep acknowledging meanwhile.
     bool paused = false;
-    for (int i = 0; i < 500 && !paused; ++i) {
+    for (int i = 0; i < 5000 && !paused; ++i) {
         active.request({{"ping", Json::object()}});
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         paused = metric(daemon_->port(), "raybundle_paused_viewers") == 1.0;

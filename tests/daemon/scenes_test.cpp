@@ -227,13 +227,13 @@ TEST_F(ScenesTest, AnUploadThatBreaksOffLeavesNothing) {
         RawClient client(daemon_->port());
         client.send("PUT /scenes/half.glb HTTP/1.1\r\nHost: a\r\nAuthorization: Bearer " +
                     editor_token + "\r\nContent-Length: 100000\r\n\r\nglTF");
-        for (int i = 0; i < 1000 && folder_->files() == files; ++i) {
+        for (int i = 0; i < 15000 && folder_->files() == files; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
         EXPECT_EQ(folder_->files(), files + 1) << "it is being written";
         client.reset();
     }
-    for (int i = 0; i < 1000 && folder_->files() > files; ++i) {
+    for (int i = 0; i < 15000 && folder_->files() > files; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     EXPECT_EQ(folder_->files(), files);

@@ -87,7 +87,7 @@ TEST_F(SnapshotTest, MayBeLargerThanThePictureAndIsGivenToOneAddressOnly) {
     const char last = url[url.size() - 5];
     const char* const other = last == '0' ? "1.png" : "0.png";
     EXPECT_TRUE(get(url.substr(0, url.size() - 5) + other).empty());
-    EXPECT_EQ(viewer.request(snapshot("PNG", 5000, 450, 0.3)).at("error").at("code"),
+    EXPECT_EQ(viewer.request(snapshot("PNG", 8193, 450, 0.3)).at("error").at("code"),
               "INVALID_ARGUMENT");
 }
 
@@ -106,7 +106,7 @@ TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
     }
     be_content(viewer);
     Json answer;
-    for (int i = 0; i < 50 && !answer.contains("snapshotReady"); ++i) {
+    for (int i = 0; i < 3000 && !answer.contains("snapshotReady"); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 100));
         answer = viewer.request(snapshot("PNG", 64, 48, 0.5));
     }

@@ -67,6 +67,21 @@ TEST(VarianceOfMean, BeginsAsOfIndependentSamplesAndFallsWithTheSequence) {
 
 /// So many times more samples bring the noise, which falls with their power, to where the interval
 /// ends at the target.
+/// By chance the iterate is a few times the noise ahead, the more samples the more.
+TEST(LagOfMean, IsNothingByChanceAndNearlyAllThatIsFarBeyond) {
+    for (const SampleOrder order : {SampleOrder::low_discrepancy, SampleOrder::shuffled}) {
+        for (const bool sky : {false, true}) {
+            EXPECT_EQ(lag_of_mean(0.0, 0.0, 0, order, sky), 0.0);
+            EXPECT_EQ(lag_of_mean(0.01, 0.01, 1000, order, sky), 0.0);
+            EXPECT_EQ(lag_of_mean(-0.01, 0.01, 1000, order, sky), 0.0);
+            EXPECT_NEAR(lag_of_mean(0.4, 0.01, 1000, order, sky), 0.4, 0.02);
+            EXPECT_NEAR(lag_of_mean(-0.4, 0.01, 1000, order, sky), 0.4, 0.02);
+        }
+    }
+    EXPECT_EQ(lag_of_mean(0.09, 0.02, 1024, SampleOrder::low_discrepancy, false), 0.0);
+    EXPECT_GT(lag_of_mean(0.11, 0.02, 1024, SampleOrder::low_discrepancy, false), 0.0);
+}
+
 TEST(SamplesFactor, LeadsToTheTarget) {
     constexpr double noise = 0.2;
     constexpr double rest = 0.005;
@@ -184,8 +199,38 @@ TEST(MeasuredError, IsNotTakenWhereItSaysLessThanTheSamples) {
     EXPECT_EQ(measured.with(s).error_high, s.error_high);
     measured.take({0.01, 0.001}, s);
     EXPECT_TRUE(measured.known());
-    measured.forget();
-    EXPECT_EQ(measured.with(s).error_high, s.error_high);
+}
+
+TEST(MeasuredError, StaysWhenThePictureShowsSomethingElseUntilPathsSayOtherwise) {
+    MeasuredError measured;
+    measured.take({0.07, 0.005}, statistics_of(100, 0.01, 0.0));  // 26 %
+    measured.carry_over();
+    EXPECT_FALSE(measured.known());
+    const ImageStatistics changed = statistics_of(40, 0.006, 0.0);
+    for (int i = 0; i < 2; ++i) {  // another change before paths have come
+        const ImageStatistics stated = measured.with(changed);
+        EXPECT_NEAR(stated.relative_error, 0.26, 0.01);
+        EXPECT_GE(stated.error_high, stated.relative_error);
+        EXPECT_EQ(stated.error_low, changed.error_low);
+        EXPECT_FALSE(stated.meets(0.05));
+        EXPECT_TRUE(
+            std::isinf(measured.samples_factor_to(0.05, changed, SampleOrder::low_discrepancy)));
+        measured.carry_over();
+    }
+    measured.take({0.02, 0.2}, changed);  // says nothing
+    EXPECT_NEAR(measured.with(changed).relative_error, 0.26, 0.01);
+    measured.take({0.0, 0.002}, changed);
+    EXPECT_LT(measured.with(changed).relative_error, 0.02);
+    measured.carry_over();
+    EXPECT_EQ(measured.with(changed).error_high, changed.error_high);
+}
+
+TEST(MeasuredError, CarriesNothingThatSamplesKnewOf) {
+    MeasuredError measured;
+    measured.take({0.009, 0.001}, statistics_of(100, 0.1, 0.0));
+    measured.carry_over();
+    const ImageStatistics changed = statistics_of(40, 0.006, 0.0);
+    EXPECT_EQ(measured.with(changed).error_high, changed.error_high);
 }
 
 /// 100 pictures, four of each run. Their errors are 10 to 30 %, of which the noise of the reference

@@ -302,5 +302,46 @@ TEST(SpecularView, PicturesStayTheSameToTheBit) {
     EXPECT_EQ(picture_of(room, towards_mirror(), 16), picture_of(room, towards_mirror(), 16));
 }
 
+/// Error that a picture of a room states, of a lamp on the wall opposite. pane: between it and the
+/// eye.
+ImageStatistics stated_error(bool pane) {
+    SceneBuilder b;
+    const auto paint = b.add_material(glm::vec3(0.5F));
+    const auto lamp = b.add_material(glm::vec3(0.5F), glm::vec3(1000.0F));
+    b.add_box({0, 0, 0}, {4, 3, 4}, true, 8, paint);
+    b.add_quad({1.4F, 1.1F, 3.95F}, {0, 0.8F, 0}, {1.2F, 0, 0}, 2, 2, lamp);
+    if (pane) {
+        b.add_quad({1.0F, 0.5F, 2.0F}, {0, 2, 0}, {2, 0, 0}, 1, 1,
+                   b.add_material(glass_material(0.0F)));
+    }
+    SolverSettings settings;
+    settings.coarse = {128, 200};
+    Solver solver(b.scene, b.mesh, settings);
+    const ViewPrograms programs(solver.scene());
+    ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+    Camera camera;
+    camera.eye = {2.0F, 1.5F, 0.3F};
+    camera.target = {2.0F, 1.5F, 4.0F};
+    camera.vertical_fov = 0.9F;
+    image.set_camera(camera);
+    BundleReceiver* const receivers[] = {&image};
+    for (int i = 0; i < 128; ++i) {
+        solver.step(receivers);
+    }
+    image.request_statistics();
+    image.finish_statistics();
+    return image.statistics();
+}
+
+/// The lamp is brighter than anything else: in the denominator it would make all errors small.
+TEST(SpecularView, ALampBehindAPaneCountsForTheErrorAsMuchAsOneInFrontOfIt) {
+    const ImageStatistics direct = stated_error(false);
+    const ImageStatistics behind = stated_error(true);
+    ASSERT_TRUE(direct.known && behind.known);
+    EXPECT_NEAR(behind.noise / direct.noise, 1.0, 0.4);
+    EXPECT_NEAR(behind.discretisation / direct.discretisation, 1.0, 0.25);
+    EXPECT_NEAR(behind.rms_luminance / direct.rms_luminance, 1.0, 0.1);
+}
+
 }  // namespace
 }  // namespace raybundle

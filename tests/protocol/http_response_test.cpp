@@ -39,6 +39,70 @@ TEST(HttpResponse, HealthAndMetrics) {
     EXPECT_EQ(get("/metrics").content_type, "text/plain; version=0.0.4; charset=utf-8");
 }
 
+TEST(HttpResponse, HealthTellsLiveReadyAndEditableApart) {
+    const auto status = [](const char* path, bool ready, bool editable) {
+        HttpContent content{kFiles, ready, ""};
+        content.editable = editable;
+        return http_response(HttpMethod::get, path, content).status;
+    };
+    EXPECT_EQ(status("/healthz/live", false, false), 200);
+    EXPECT_EQ(status("/healthz/ready", false, true), 503);
+    EXPECT_EQ(status("/healthz/ready", true, false), 200);
+    EXPECT_EQ(status("/healthz/editable", true, false), 503);
+    EXPECT_EQ(status("/healthz/editable", false, true), 503);
+    EXPECT_EQ(status("/healthz/editable", true, true), 200);
+    EXPECT_EQ(status("/healthz", true, false), 200) << "as it always was";
+    EXPECT_EQ(status("/healthz/other", true, true), 404);
+}
+
+/// What a response says in a header; "-" where it is absent.
+std::string header_of(const HttpResponse& response, std::string_view name) {
+    for (const auto& [key, value] : response.headers) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return "-";
+}
+
+TEST(HttpResponse, FilesAreCompressedAndRevalidated) {
+    const std::string page = "<!doctype html>" + std::string(1000, 'x');
+    const std::array<EmbeddedFile, 2> files{{{"index.html", page}, {"tiny.js", ";"}}};
+    const EncodedFiles encoded(files);
+    const auto ask = [&](std::string_view path, const std::string& accept,
+                         const std::string& known) {
+        return http_response(HttpMethod::get, path,
+                             {files, true, "", true, nullptr, &encoded, accept, known});
+    };
+    const HttpResponse plain = ask("/", "", "");
+    EXPECT_EQ(plain.content(), page);
+    EXPECT_EQ(header_of(plain, "content-encoding:"), "-");
+    EXPECT_EQ(header_of(plain, "vary:"), "Accept-Encoding");
+    const HttpResponse packed = ask("/", "deflate, gzip;q=0.5", "");
+    EXPECT_LT(packed.content().size(), 200U);
+    EXPECT_EQ(header_of(packed, "content-encoding:"), "gzip");
+    EXPECT_EQ(ask("/tiny.js", "gzip", "").content(), ";") << "would only grow";
+    const std::string etag = header_of(packed, "etag:");
+    EXPECT_NE(etag, header_of(plain, "etag:")) << "other bytes";
+    const HttpResponse known = ask("/", "gzip", "\"a\", W/" + etag);
+    EXPECT_EQ(known.status, 304);
+    EXPECT_FALSE(known.send_body);
+    EXPECT_EQ(header_of(known, "etag:"), etag);
+    EXPECT_EQ(ask("/", "", etag).status, 200) << "it has no bytes to show without gzip";
+    EXPECT_EQ(ask("/nothing", "gzip", "*").status, 404);
+}
+
+TEST(HttpResponse, AcceptEncodingIsReadAsTheStandardSays) {
+    for (const char* yes : {"gzip", "GZIP", "deflate, gzip", "*", "br;q=1.0, gzip;q=0.8, *;q=0.1",
+                            " x-gzip ", "gzip; q=0.001", "identity;q=0, *"}) {
+        EXPECT_TRUE(accepts_gzip(yes)) << yes;
+    }
+    for (const char* no : {"", "identity", "gzip;q=0", "gzip; q=0.0, *", "br", "*;q=0", "gzipped",
+                           "gzip;q=x", ",,;"}) {
+        EXPECT_FALSE(accepts_gzip(no)) << no;
+    }
+}
+
 TEST(HttpResponse, OnlyGetAndHead) {
     EXPECT_EQ(http_response(HttpMethod::other, "/", {kFiles, true, ""}).status, 405);
     const HttpResponse head = http_response(HttpMethod::head, "/", {kFiles, true, ""});

@@ -49,7 +49,7 @@ TEST(MessageValidation, Sizes) {
          {Case{R"({"setViewport":{"width":3840,"height":2160}})", nullptr},
           Case{R"({"setViewport":{"width":0,"height":600}})", "setViewport.width"},
           Case{R"({"setViewport":{"width":800}})", "setViewport.height"},
-          Case{R"({"setViewport":{"width":3841,"height":600}})", "setViewport.width"},
+          Case{R"({"setViewport":{"width":65536,"height":600}})", "setViewport.width"},
           Case{R"({"hello":{"protocol":"1.0","viewport":{"width":9}}})",
                "hello.viewport.height"}}) {
         expect_case(c.text, c.field);
@@ -74,6 +74,62 @@ TEST(MessageValidation, SceneChanges) {
                "setMaterial.baseColour"},
           Case{R"({"setMaterial":{"material":1,"roughness":2}})", "setMaterial.roughness"},
           Case{R"({"setMaterial":{"material":1,"metallic":1}})", nullptr}}) {
+        expect_case(c.text, c.field);
+    }
+}
+
+TEST(MessageValidation, ChangesOfNothingAreRefused) {
+    expect_case(R"({"setLight":{"light":1}})", "setLight");
+    expect_case(R"({"setMaterial":{"material":1}})", "setMaterial");
+    expect_case(R"({"setDisplay":{}})", "setDisplay");
+}
+
+TEST(MessageValidation, MisspeltFieldsAndValuesAreNamed) {
+    for (const Case& c :
+         {Case{R"({"setLight":{"light":1,"color":{"x":1,"y":1,"z":1}}})", "setLight.color"},
+          Case{R"({"setLight":{"light":1,"on":true,"intensty":5}})", "setLight.intensty"},
+          Case{R"({"setMaterial":{"material":1,"metallic":1,"baseColor":{}}})",
+               "setMaterial.baseColor"},
+          Case{R"({"moveObject":{"object":1,"transform":{"position":{"x":1}}}})",
+               "moveObject.transform.position"},
+          Case{R"({"moveObject":{"object":1,"transform":{"scale":{"X":1}}}})",
+               "moveObject.transform.scale.X"},
+          Case{R"({"setDisplay":{"mode":"PHOTOGRAPH"}})", "setDisplay.mode"},
+          Case{R"({"setDisplay":{"mode":77}})", "setDisplay.mode"},
+          Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1,"format":"exr"}})",
+               "snapshot.format"},
+          Case{R"({"hello":{"protocol":"1.0","codecs":["PNG","AV1"]}})", "hello.codecs"},
+          Case{R"({"hello":{"protocol":"1.0","tokn":"x"}})", "hello.tokn"},
+          Case{R"({"ping":{},"foo":1})", "\"foo\""}, Case{R"({"ack":{"frame":1,"":2}})", "ack."}}) {
+        expect_case(c.text, c.field);
+    }
+}
+
+TEST(MessageValidation, WrongTypesAreNamed) {
+    for (const Case& c :
+         {Case{R"({"setCamera":{"eye":{"x":"left"}}})", "setCamera.eye.x"},
+          Case{R"({"setCamera":{"eye":[1,2,3]}})", "setCamera.eye"},
+          Case{R"({"setCamera":{"eye":7}})", "setCamera.eye"},
+          Case{R"({"setLight":7})", "setLight"},
+          Case{R"({"setLight":[{"light":1}]})", "setLight"},
+          Case{R"({"setLight":{"light":-1}})", "setLight.light"},
+          Case{R"({"setLight":{"light":1.5}})", "setLight.light"},
+          Case{R"({"setLight":{"light":4294967296}})", "setLight.light"},
+          Case{R"({"setLight":{"light":1,"on":"yes"}})", "setLight.on"},
+          Case{R"({"setLight":{"light":1,"on":1}})", "setLight.on"},
+          Case{R"({"setLight":{"light":1,"intensity":true}})", "setLight.intensity"},
+          Case{R"({"setLight":{"light":1,"intensity":1e300}})", "setLight.intensity"},
+          Case{R"({"setLight":{"light":1,"intensity":1,"intensity":2}})", "setLight.intensity"},
+          Case{R"({"hello":{"protocol":1.0}})", "hello.protocol"},
+          Case{R"({"hello":{"protocol":"1.0","codecs":"PNG"}})", "hello.codecs"},
+          Case{R"({"hello":{"protocol":"1.0","codecs":[null]}})", "hello.codecs"},
+          Case{R"({"hello":{"protocol":"1.0","codecs":[["PNG"]]}})", "hello.codecs"},
+          Case{R"({"setDisplay":{"mode":{}}})", "setDisplay.mode"},
+          Case{R"({"setTarget":{"seconds":1,"relativeError":0.1}})", "setTarget"},
+          Case{R"({"id":"one","ping":{}})", "id"},
+          Case{R"({"id":null,"ping":{}})", nullptr},
+          Case{R"({"id":"7","setLight":{"light":"1","intensity":"1.5","on":true}})", nullptr},
+          Case{R"({"setLight":{"light":1.0,"on":null,"intensity":1}})", nullptr}}) {
         expect_case(c.text, c.field);
     }
 }

@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "loop/loop_metrics.h"
+#include "metrics_check.h"
 #include "net/metrics_text.h"
 #include "net/network_state.h"
 
@@ -43,6 +45,40 @@ TEST(NetworkMetrics, EveryFamilyIsDeclaredOnceAndHasSamples) {
     EXPECT_EQ(declared, sampled);
     EXPECT_TRUE(declared.contains("raybundle_queue_delay_seconds"));
     EXPECT_TRUE(declared.contains("raybundle_viewers"));
+}
+
+TEST(MetricsCheck, FindsWhatPromtoolFinds) {
+    const auto finds = [](const std::string& text, std::string_view problem) {
+        for (const std::string& found : metrics_problems(text)) {
+            if (found.find(problem) != std::string::npos) {
+                return true;
+            }
+        }
+        return false;
+    };
+    const std::string good = "# HELP a_total How many\n# TYPE a_total counter\na_total 1\n";
+    EXPECT_TRUE(metrics_problems(good).empty());
+    EXPECT_TRUE(finds(good + good, "once"));
+    EXPECT_TRUE(finds(good + "a_total 2\n", "twice"));
+    EXPECT_TRUE(finds("# HELP a How\n# TYPE a counter\na 1\n", "_total"));
+    EXPECT_TRUE(finds("# HELP a_total How\n# TYPE a_total gauge\na_total 1\n", "_total"));
+    EXPECT_TRUE(finds("# TYPE a gauge\na 1\n", "HELP"));
+    EXPECT_TRUE(finds("# HELP a How\n# TYPE a gauge\n", "no sample"));
+    EXPECT_TRUE(finds("# HELP a_ms How\n# TYPE a_ms gauge\na_ms 1\n", "base unit"));
+    EXPECT_TRUE(finds("# HELP a How\n# TYPE a gauge\na{quantile=\"1\"} 1\n", "no summary"));
+    EXPECT_TRUE(finds("# HELP a How\n# TYPE a gauge\na nan\n", "number"));
+    EXPECT_TRUE(finds("# HELP a How\n# TYPE a gauge\na 1", "does not end"));
+    EXPECT_TRUE(finds("a 1\n", "TYPE"));
+}
+
+TEST(MetricsCheck, FindsNothingInWhatTheServerSays) {
+    NetworkState state({});
+    const auto link = state.viewers.add(1000, {});
+    LoopMetrics loop;
+    state.set_metrics_source([&] { return loop.text(); });
+    for (const std::string& problem : metrics_problems(state.metrics())) {
+        ADD_FAILURE() << problem;
+    }
 }
 
 }  // namespace

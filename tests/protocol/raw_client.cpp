@@ -14,7 +14,7 @@ namespace raybundle {
 namespace {
 
 /// Only what hangs takes so long, with sanitizers on a busy machine either.
-constexpr int kTimeoutMs = 120000;
+constexpr int kTimeoutMs = 300000;
 constexpr int kPing = 9;
 constexpr int kPong = 10;
 

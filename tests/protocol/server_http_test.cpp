@@ -47,6 +47,73 @@ TEST_F(ServerHttpTest, SendsSecurityHeaders) {
     EXPECT_TRUE(has(answer, "x-content-type-options: nosniff\r\n"));
 }
 
+TEST_F(ServerHttpTest, ModulesAreCompressedAndAskedForOnce) {
+    const std::string ask = "GET /main.js HTTP/1.1\r\nHost: 127.0.0.1\r\nAccept-Encoding: gzip\r\n";
+    RawClient client(server_.port());
+    client.send(ask + "\r\n");
+    const std::string head = client.read_until("\r\n\r\n");
+    EXPECT_TRUE(has(head, "content-encoding: gzip\r\n")) << head;
+    EXPECT_TRUE(has(head, "vary: Accept-Encoding\r\n")) << head;
+    const std::size_t at = head.find("etag: ") + 6;
+    const std::string etag = head.substr(at, head.find('\r', at) - at);
+    const std::string again = http_exchange(
+        server_.port(), ask + "If-None-Match: " + etag + "\r\nConnection: close\r\n\r\n");
+    EXPECT_TRUE(again.starts_with("HTTP/1.1 304")) << again;
+    EXPECT_TRUE(has(again, "etag: " + etag)) << again;
+    EXPECT_TRUE(again.ends_with("\r\n\r\n")) << "a body: " << again;
+    // The connection serves the next request after a 304.
+    RawClient kept(server_.port());
+    for (int i = 0; i < 2; ++i) {
+        kept.send(ask + "If-None-Match: " + etag + "\r\n\r\n");
+        EXPECT_TRUE(kept.read_until("\r\n\r\n").starts_with("HTTP/1.1 304"));
+    }
+}
+
+TEST_F(ServerHttpTest, CookiesOfASingleSignOnPassAndWhatIsBeyondGets431) {
+    const auto with_cookie = [this](std::size_t bytes) {
+        return http_exchange(server_.port(), "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nCookie: s=" +
+                                                 std::string(bytes, 'c') +
+                                                 "\r\nConnection: close\r\n\r\n");
+    };
+    EXPECT_TRUE(with_cookie(8192).starts_with("HTTP/1.1 200"));
+    const std::string refused = with_cookie(30000);
+    EXPECT_TRUE(refused.starts_with("HTTP/1.1 431")) << refused;
+    EXPECT_TRUE(has(refused, "more than 16384 bytes")) << refused;
+    const auto upgrade = [this](std::size_t bytes) {
+        return RawClient(server_.port())
+            .upgrade("/ws", "Cookie: s=" + std::string(bytes, 'c') + "\r\n");
+    };
+    EXPECT_TRUE(upgrade(8192).starts_with("HTTP/1.1 101"));
+    EXPECT_TRUE(upgrade(30000).starts_with("HTTP/1.1 431"));
+}
+
+TEST_F(ServerHttpTest, HandshakesThatTheStandardForbidsAreRefused) {
+    const auto answer = [this](const std::string& headers) {
+        return http_exchange(server_.port(),
+                             "GET /ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
+                             "Connection: Upgrade\r\n" +
+                                 headers + "\r\n");
+    };
+    const std::string key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    const std::string version = "Sec-WebSocket-Version: 13\r\n";
+    for (const char* wrong : {"", "Sec-WebSocket-Version: 12\r\n", "Sec-WebSocket-Version: 8\r\n",
+                              "Sec-WebSocket-Version: 130\r\n"}) {
+        const std::string said = answer(key + wrong);
+        EXPECT_TRUE(said.starts_with("HTTP/1.1 426")) << wrong << said;
+        EXPECT_TRUE(has(said, "sec-websocket-version: 13\r\n")) << said;
+    }
+    for (const char* wrong : {"", "Sec-WebSocket-Key: dGhl\r\n", "Sec-WebSocket-Key: x\r\n"}) {
+        EXPECT_TRUE(answer(version + wrong).starts_with("HTTP/1.1 400")) << wrong;
+    }
+    const std::string unknown =
+        answer(key + version + "Sec-WebSocket-Protocol: chat, raybundle.v9\r\n");
+    EXPECT_TRUE(unknown.starts_with("HTTP/1.1 400")) << unknown;
+    EXPECT_TRUE(has(unknown, "raybundle.v1")) << unknown;
+    RawClient one_of_two(server_.port());
+    EXPECT_TRUE(has(one_of_two.upgrade("/ws", "Sec-WebSocket-Protocol: chat, raybundle.v1\r\n"),
+                    "raybundle.v1"));
+}
+
 TEST_F(ServerHttpTest, HeadHasNoBody) {
     const std::string answer = request("HEAD /");
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 200"));

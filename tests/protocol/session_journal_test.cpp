@@ -232,6 +232,46 @@ TEST_F(SessionJournalTest, AFullDiskIsAnErrorAndChangesNothing) {
     EXPECT_NO_THROW(journal.append(move(epoch + 1, 1, 2.0F))) << "it replaces another";
 }
 
+TEST_F(SessionJournalTest, ABackupIsMadeWhileAServerWrites) {
+    SessionJournal journal(settings_);
+    journal.append(move(1, 2, 0.5F));
+    journal.append(move(2, 1, 1.5F));
+    const std::string copy = folder_ / "copy.db";
+    SqliteDatabase(settings_.file).execute("VACUUM INTO '" + copy + "'");
+    EXPECT_NO_THROW(journal.append(move(3, 3, 2.5F)));
+    JournalSettings of_copy = settings_;
+    of_copy.file = copy;
+    SessionJournal restored(of_copy);
+    EXPECT_EQ(restored.epoch(), 2U);
+    EXPECT_EQ(restored.changes().size(), 2U);
+}
+
+/// A reader holds a lock of SQLite as long as it likes: changes go on.
+TEST_F(SessionJournalTest, WhoReadsDoesNotHoldUpChanges) {
+    SessionJournal journal(settings_);
+    journal.append(move(1, 2, 0.5F));
+    SqliteDatabase reader(settings_.file);
+    reader.execute("BEGIN");
+    auto select = reader.prepare("SELECT epoch FROM change");
+    ASSERT_TRUE(select.step());
+    EXPECT_NO_THROW(journal.append(move(2, 3, 2.5F)));
+    EXPECT_FALSE(select.step()) << "it sees what was there when it began";
+}
+
+TEST_F(SessionJournalTest, ASecondServerIsToldAndMayComeLater) {
+    std::optional<SessionJournal> first(settings_);
+    first->append(move(1, 2, 0.5F));
+    try {
+        const SessionJournal second(settings_);
+        ADD_FAILURE() << "two servers write";
+    } catch (const JournalError& error) {
+        EXPECT_EQ(std::string(error.what()), settings_.file + ": another server uses it");
+    }
+    EXPECT_EQ(damaged_files(), 0U);
+    first.reset();
+    EXPECT_EQ(SessionJournal(settings_).epoch(), 1U);
+}
+
 TEST_F(SessionJournalTest, NewerVersionsAndMissingFoldersAreErrorsThatNameTheFile) {
     SessionJournal(settings_).append(move(1, 1, 1.0F));
     SqliteDatabase(settings_.file).execute("PRAGMA user_version=99");

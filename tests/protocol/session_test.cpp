@@ -75,6 +75,31 @@ TEST_F(SessionTest, MinorVersionsAreAccepted) {
     EXPECT_TRUE(session_.has_joined());
 }
 
+TEST_F(SessionTest, MisspeltFieldsAreRefusedUnlessHelloAsksForLeniency) {
+    const std::string light = R"({"id":2,"setLight":{"light":1,"on":true,"flux":5}})";
+    receive(kFirstHello);
+    receive(light);
+    EXPECT_NE(sent().find("setLight.flux: unknown field"), std::string::npos);
+    EXPECT_EQ(inbox_.drain().size(), 1U);
+    for (const char* hello : {R"({"hello":{"protocol":"1.0","lenient":true,"mood":1}})",
+                              R"({"hello":{"protocol":"1.99","mood":1}})"}) {
+        ViewerLink link{4, 100000, {}};
+        Session session{link, inbox_, gate_, {}, 10.0};
+        session.on_fragment(hello, true, true, false, 0.0);
+        session.on_fragment(light, true, true, false, 0.0);
+        EXPECT_FALSE(link.has_output()) << hello;
+        EXPECT_EQ(inbox_.drain().size(), 2U) << hello;
+    }
+}
+
+TEST_F(SessionTest, AnAcknowledgementWithAnIdIsAnswered) {
+    receive(kFirstHello);
+    receive(R"({"ack":{"frame":1}})");
+    EXPECT_EQ(sent(), "");
+    receive(R"({"id":9,"ack":{"frame":1}})");
+    EXPECT_PRED_FORMAT2(SameJson, sent(), R"({"replyTo":9,"ok":{}})");
+}
+
 TEST_F(SessionTest, NonsenseVersionsAreInvalid) {
     for (const char* version :
          {"1", "1.", ".1", "one", "1.0.0", "-1.0", "1.-1", " 1.0", "99999999999.0"}) {

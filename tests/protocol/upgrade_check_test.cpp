@@ -14,6 +14,34 @@ TEST(UpgradeCheck, OnlyOnePath) {
     EXPECT_EQ(refusal_status({"/ws/", "", "a:1"}, {}), 404);
 }
 
+TEST(UpgradeCheck, VersionKeyAndSubprotocolAreThoseOfTheStandard) {
+    const auto status = [](UpgradeRequest request) {
+        const auto refusal = refuse_upgrade(request, {});
+        return refusal ? refusal->status : 0;
+    };
+    UpgradeRequest good{"/ws", "", "a:1"};
+    EXPECT_EQ(status(good), 0);
+    for (const char* version : {"", "12", "14", "13 ", "+13", "013"}) {
+        UpgradeRequest request = good;
+        request.version = version;
+        EXPECT_EQ(status(request), 426) << version;
+    }
+    for (const char* key : {"", "dGhl", "dGhlIHNhbXBsZSBub25jZQ=", "dGhlIHNhbXBsZSBub25jZQ===",
+                            "dGhlIHNhbXBsZSBub2 jZQ==", "dGhlIHNhbXBsZSBub25jZQ--"}) {
+        UpgradeRequest request = good;
+        request.key = key;
+        EXPECT_EQ(status(request), 400) << key;
+    }
+    for (const auto& [protocols, expected] :
+         {std::pair("raybundle.v1", 0), std::pair("chat, raybundle.v1", 0), std::pair("", 0),
+          std::pair(" raybundle.v1 ,x", 0), std::pair("raybundle.v2", 400), std::pair("chat", 400),
+          std::pair("Raybundle.v1", 400), std::pair(" , ", 0)}) {
+        UpgradeRequest request = good;
+        request.protocols = protocols;
+        EXPECT_EQ(status(request), expected) << protocols;
+    }
+}
+
 TEST(UpgradeCheck, PagesOfOtherOriginsAreRefused) {
     EXPECT_EQ(refusal_status({"/ws", "http://a:8080", "A:8080"}, {}), 0);
     EXPECT_EQ(refusal_status({"/ws", "https://a", "a"}, {}), 0);

@@ -78,6 +78,54 @@ TEST(WireCodec, IgnoresUnknownFieldsAndUnknownCodecs) {
     EXPECT_NE(std::find(codecs.begin(), codecs.end(), v1::PNG), codecs.end());
 }
 
+TEST(WireCodec, LenientReadingIgnoresWhatANewerClientSays) {
+    const std::string light = R"({"setLight":{"light":1,"on":true,"flux":{"lm":[900]}},"x":1})";
+    const ParsedMessage lenient = parse_text_message(light, {}, Reading::lenient);
+    ASSERT_TRUE(std::holds_alternative<v1::ClientMessage>(lenient));
+    EXPECT_TRUE(std::get<v1::ClientMessage>(lenient).set_light().on());
+    EXPECT_EQ(refused(parse_text_message(light)).code, v1::Error::INVALID_ARGUMENT);
+    accepted(R"({"hello":{"protocol":"1.0","lenient":true,"codecs":["AV1"],"mood":1},"x":1})");
+    const std::string typo = R"({"setLight":{"light":1,"color":{"x":1}}})";
+    EXPECT_EQ(refused(parse_text_message(typo, {}, Reading::lenient)).text.substr(0, 9),
+              "setLight:")
+        << "nothing that is known would change";
+}
+
+TEST(WireCodec, RefusesUnknownPartsOfBinaryMessages) {
+    v1::ClientMessage message;
+    message.mutable_set_light()->set_light(1);
+    auto* const colour = message.mutable_set_light()->mutable_colour();
+    colour->set_x(1.0F);
+    colour->GetReflection()->MutableUnknownFields(colour)->AddVarint(900, 1);
+    const std::string bytes = message.SerializeAsString();
+    EXPECT_EQ(refused(parse_binary_message(bytes)).text,
+              "setLight.colour: unknown field number 900");
+    EXPECT_TRUE(std::holds_alternative<v1::ClientMessage>(
+        parse_binary_message(bytes, {}, Reading::lenient)));
+    v1::ClientMessage hello;
+    hello.mutable_hello()->set_protocol("1.0");
+    hello.mutable_hello()->add_codecs(static_cast<v1::Codec>(77));
+    EXPECT_TRUE(refused(parse_binary_message(hello.SerializeAsString()))
+                    .text.starts_with("hello.codecs: unknown value 77"));
+    hello.mutable_hello()->set_lenient(true);
+    EXPECT_TRUE(
+        std::holds_alternative<v1::ClientMessage>(parse_binary_message(hello.SerializeAsString())));
+}
+
+TEST(WireCodec, ErrorsDoNotShowTheParser) {
+    for (const char* text :
+         {R"({"setCamera":{"eye":{"x":"left"}}})", R"({"ping":{},"ack":{"frame":1}})",
+          R"({"ack":{"frame":4294967296}})", R"({"ack":{"frame":"1e2"}})",
+          R"({"setDisplay":{"mode":3e9}})", R"({"hello":{"codecs":[1e99]}})",
+          R"({"setTarget":{"seconds":1,"relativeError":1}})", R"({"setLight":"x"})",
+          R"({"setLight":{"light":1,"intensity":"1,5"}})"}) {
+        const std::string said = refused(parse_text_message(text)).text;
+        for (const char* word : {"proto", "oneof", "TYPE_", "INVALID_ARGUMENT", "google"}) {
+            EXPECT_EQ(said.find(word), std::string::npos) << text << ": " << said;
+        }
+    }
+}
+
 TEST(WireCodec, AnswersUnknownMessagesWithTheirId) {
     const Refusal refusal = refused(parse_text_message(R"({"id":12,"teleport":{"where":"moon"}})"));
     EXPECT_EQ(refusal.code, v1::Error::UNIMPLEMENTED);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -158,6 +159,57 @@ TEST(EmitterPixels, AreThoseWhoseAreaShowsAnEmitterAndTheirNeighboursAreNotMeasu
             EXPECT_EQ(measured[pixel], !near) << x << ", " << y;
         }
     }
+}
+
+Material smooth_material(float metallic, float transmission) {
+    Material material;
+    material.base_colour = glm::vec3(0.9F);
+    material.metallic = metallic;
+    material.roughness = 0.0F;
+    material.transmission = transmission;
+    return material;
+}
+
+/// The lamp seen from 1 m above the floor's middle, or from there the floor below.
+Camera vertical_camera(bool up) {
+    Camera camera;
+    const auto place = [](float x, float y, float z) {
+        return glm::vec3(odd_rotation() * glm::vec4(x, y, z, 1.0F));
+    };
+    camera.eye = place(1.5F, 1.0F, 1.5F);
+    camera.target = place(1.5F, up ? 4.0F : 0.0F, 1.5F);
+    camera.up = place(0.0F, 0.0F, 1.0F);
+    camera.vertical_fov = 2.0F * std::atan(0.5F);
+    return camera;
+}
+
+TEST(EmitterPixels, SeenThroughAPaneAreThoseThatAreSeenDirectly) {
+    const SceneBuilder room = enclosure(0.5F);
+    SceneBuilder glazed = enclosure(0.5F);
+    glazed.add_quad({0, 2, 0}, {4, 0, 0}, {0, 0, 4}, 1, 1,
+                    add_material(glazed, smooth_material(0.0F, 1.0F)));
+    const View direct(room);
+    const View through(glazed);
+    const Camera up = vertical_camera(true);
+    const auto expected =
+        measured_pixels(direct.tracing.scene, CameraRays(direct.tracing.scene, up, {12, 12}));
+    EXPECT_TRUE(std::count(expected.begin(), expected.end(), false) > 0);
+    EXPECT_EQ(
+        measured_pixels(through.tracing.scene, CameraRays(through.tracing.scene, up, {12, 12})),
+        expected);
+}
+
+TEST(EmitterPixels, SeenInAMirrorCountAsSeenDirectly) {
+    SceneBuilder room = enclosure(0.5F);
+    room.add_quad({0, 0.5F, 0}, {0, 0, 4}, {4, 0, 0}, 1, 1,
+                  add_material(room, smooth_material(1.0F, 0.0F)));
+    const View view(room);
+    const CameraRays rays(view.tracing.scene, vertical_camera(false), {12, 12});
+    // The lamp's image covers the middle quarter: 4 m away, where 4 m are shown.
+    EXPECT_TRUE(pixel_sees_emitter(view.tracing.scene, rays, std::size_t{6} * 12 + 6));
+    EXPECT_FALSE(pixel_is_measured(view.tracing.scene, rays, {6, 6}));
+    EXPECT_FALSE(pixel_sees_emitter(view.tracing.scene, rays, std::size_t{2} * 12 + 6));
+    EXPECT_TRUE(pixel_is_measured(view.tracing.scene, rays, {6, 2}));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -71,21 +72,40 @@ Picture render(ReferenceKind kind, const RayScene& scene, const Camera& camera, 
     return method->picture();
 }
 
-/// Pictures with independent seeds, and their mean over the pixels that count at the end.
+/// Pictures with independent seeds.
 std::vector<Picture> replicates(const MethodCase& method, int iterations, const RayScene& scene,
-                                const Camera& camera, std::uint64_t first_seed,
-                                const std::vector<bool>& counts = all_pixels) {
-    const auto count = static_cast<double>(std::count(counts.begin(), counts.end(), true));
+                                const Camera& camera, std::uint64_t first_seed) {
     std::vector<Picture> pictures;
     for (int i = 0; i < seeds; ++i) {
-        Picture p = render(method.kind, scene, camera, iterations,
-                           first_seed + static_cast<std::uint64_t>(i));
+        pictures.push_back(render(method.kind, scene, camera, iterations,
+                                  first_seed + static_cast<std::uint64_t>(i)));
+    }
+    return pictures;
+}
+
+/// Path traced pictures of a view: made once for all methods that are compared with them.
+const std::vector<Picture>& path_traced(int index) {
+    static std::map<int, std::vector<Picture>> known;
+    const auto [entry, is_new] = known.try_emplace(index);
+    if (is_new) {
+        const View view = agreement_view(index);
+        const RayScene scene(view.builder.scene, view.builder.mesh);
+        entry->second =
+            replicates(path_case, view.effort * path_case.iterations, scene, view.camera, 100);
+    }
+    return entry->second;
+}
+
+/// Each picture with its mean over the pixels that count at its end.
+std::vector<Picture> with_means(std::vector<Picture> pictures,
+                                const std::vector<bool>& counts = all_pixels) {
+    const auto count = static_cast<double>(std::count(counts.begin(), counts.end(), true));
+    for (Picture& p : pictures) {
         glm::dvec3 mean(0.0);
         for (std::size_t pixel = 0; pixel < p.size(); ++pixel) {
             mean += counts[pixel] ? p[pixel] / count : glm::dvec3(0.0);
         }
         p.push_back(mean);
-        pictures.push_back(p);
     }
     return pictures;
 }
@@ -112,10 +132,9 @@ TEST_P(MethodAgreement, WithPathTracingPixelByPixel) {
     const std::vector<bool> counts =
         method.kind == ReferenceKind::light ? without_mirrors(scene, view.camera) : all_pixels;
     EXPECT_GE(std::count(counts.begin(), counts.end(), true), 16);
-    const auto reference =
-        replicates(path_case, view.effort * path_case.iterations, scene, view.camera, 100, counts);
-    const auto pictures =
-        replicates(method, view.effort * method.iterations, scene, view.camera, 200, counts);
+    const auto reference = with_means(path_traced(index), counts);
+    const auto pictures = with_means(
+        replicates(method, view.effort * method.iterations, scene, view.camera, 200), counts);
     const std::size_t pixels = counts.size();
     for (std::size_t pixel = 0; pixel <= pixels; ++pixel) {
         const bool whole = pixel == pixels;
@@ -181,7 +200,8 @@ TEST_P(FullMethod, FurnaceIsAConstantPicture) {
     const SceneBuilder room = furnace_room(0.5F, 100.0F);
     const RayScene scene(room.scene, room.mesh);
     const Camera camera = camera_at({0.5F, 1.5F, 0.5F}, {3.0F, 1.2F, 1.5F}, 0.7F);
-    const auto pictures = replicates(GetParam(), GetParam().iterations, scene, camera, 1);
+    const auto pictures =
+        with_means(replicates(GetParam(), GetParam().iterations, scene, camera, 1));
     for (std::size_t pixel = 0; pixel <= std::size_t{view_size.x} * view_size.y; ++pixel) {
         const bool whole = pixel == std::size_t{view_size.x} * view_size.y;
         const Estimate e = estimate_of(pictures, pixel, 1);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "lit_room.h"
 #include "reference/emitter_pixels.h"
@@ -35,6 +36,19 @@ class MethodErrorBar : public testing::TestWithParam<ReferenceKind> {
     }
     [[nodiscard]] const std::vector<bool>& measured() const { return measured_; }
 
+    struct Truth {
+        std::vector<glm::dvec3> picture;
+        double noise = 0.0;
+    };
+    /// Made once for all methods.
+    [[nodiscard]] const Truth& truth() const {
+        static const Truth made = [this] {
+            const auto paths = run(ReferenceKind::path_reuse, 1000, samples_of_truth);
+            return Truth{paths->picture(), paths->error().relative};
+        }();
+        return made;
+    }
+
   private:
     SceneBuilder builder_ = lit_room(glm::mat4(1.0F), 4);
     RayScene scene_{builder_.scene, builder_.mesh};
@@ -43,16 +57,14 @@ class MethodErrorBar : public testing::TestWithParam<ReferenceKind> {
 };
 
 TEST_P(MethodErrorBar, CoversTheTrueError) {
-    const auto truth = run(ReferenceKind::path_reuse, 1000, samples_of_truth);
-    const double noise = truth->error().relative;
     int covered = 0;
     double ratio = 0.0;
     double width = 0.0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
         const auto method = run(GetParam(), seed, samples_of(GetParam()));
         const double off =
-            compare_images(method->picture(), truth->picture(), measured()).relative_rmse;
-        const double error = std::sqrt(std::max(off * off - noise * noise, 0.0));
+            compare_images(method->picture(), truth().picture, measured()).relative_rmse;
+        const double error = std::sqrt(std::max(off * off - truth().noise * truth().noise, 0.0));
         const ImageError said = method->error();
         covered += said.low <= error && error <= said.high ? 1 : 0;
         ratio += error / said.relative / runs;

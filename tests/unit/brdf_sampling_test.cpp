@@ -17,8 +17,8 @@ namespace raybundle::test {
 namespace {
 
 using std::numbers::pi;
-constexpr int rows = 24;  // of bins over the sphere, even in the cosine
-constexpr int columns = 48;
+constexpr int bin_rows = 24;  // of bins over the sphere, even in the cosine
+constexpr int bin_columns = 48;
 
 struct Case {
     const char* name;
@@ -70,21 +70,21 @@ glm::vec3 tilted(float cosine) {
 }
 
 std::size_t bin(int row, int column) {
-    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * bin_columns + static_cast<std::size_t>(column);
 }
 
 /// Probability of each bin: the density's integral, midpoints.
 std::vector<double> bin_probabilities(const Brdf& brdf, const glm::vec3& w_out) {
     constexpr int fine = 24;
-    std::vector<double> result(std::size_t{rows} * columns);
-    for (int i = 0; i < rows * fine; ++i) {
-        const double z = -1.0 + 2.0 * (i + 0.5) / (rows * fine);
+    std::vector<double> result(std::size_t{bin_rows} * bin_columns);
+    for (int i = 0; i < bin_rows * fine; ++i) {
+        const double z = -1.0 + 2.0 * (i + 0.5) / (bin_rows * fine);
         const double sine = std::sqrt(1.0 - z * z);
-        for (int j = 0; j < columns * fine; ++j) {
-            const double phi = 2.0 * pi * (j + 0.5) / (columns * fine);
+        for (int j = 0; j < bin_columns * fine; ++j) {
+            const double phi = 2.0 * pi * (j + 0.5) / (bin_columns * fine);
             const glm::vec3 w(sine * std::cos(phi), sine * std::sin(phi), z);
             result[bin(i / fine, j / fine)] += static_cast<double>(pdf(brdf, w, w_out)) * 4.0 * pi /
-                                               (double{rows} * columns * fine * fine);
+                                               (double{bin_rows} * bin_columns * fine * fine);
         }
     }
     return result;
@@ -92,15 +92,16 @@ std::vector<double> bin_probabilities(const Brdf& brdf, const glm::vec3& w_out) 
 
 std::vector<int> bin_counts(const Brdf& brdf, const glm::vec3& w_out, int samples) {
     RandomBrdfs random(21);
-    std::vector<int> result(std::size_t{rows} * columns);
+    std::vector<int> result(std::size_t{bin_rows} * bin_columns);
     for (int i = 0; i < samples; ++i) {
         const float u = random.uniform();
         const float v = random.uniform();
         const glm::vec3 w = sample(brdf, w_out, {u, v}, random.uniform()).w_in;
         const float turn = std::atan2(w.y, w.x) / (2.0F * glm::pi<float>());
-        const int row = std::clamp(static_cast<int>((w.z + 1.0F) * 0.5F * rows), 0, rows - 1);
-        const int column =
-            std::clamp(static_cast<int>((turn - std::floor(turn)) * columns), 0, columns - 1);
+        const int row =
+            std::clamp(static_cast<int>((w.z + 1.0F) * 0.5F * bin_rows), 0, bin_rows - 1);
+        const int column = std::clamp(static_cast<int>((turn - std::floor(turn)) * bin_columns), 0,
+                                      bin_columns - 1);
         ++result[bin(row, column)];
     }
     return result;

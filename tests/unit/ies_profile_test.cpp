@@ -144,8 +144,8 @@ TEST(IesProfile, ErrorsNameTheLineAndTheReason) {
               "lamp.ies: line 8: the file ends where a candela value should be");
     EXPECT_EQ(error(head + "1 1 1 2 1 1 1 0 0 0\n1 1 1\n0 90\n0\n0 0\n"),
               "lamp.ies: line 7: the luminaire gives no light");
-    EXPECT_EQ(error(head + "1 1 1 2 1 1 1 0 0 0\n1 1 1\n0 70\n0\n1 1\n"),
-              "lamp.ies: line 6: vertical angles of type C go from 0 or 90 to 90 or 180");
+    EXPECT_EQ(error(head + "1 1 1 2 1 1 1 0 0 0\n1 1 1\n10 90\n0\n1 1\n"),
+              "lamp.ies: line 6: vertical angles of type C begin at 0 or 90 and are at least two");
 }
 
 /// A file whose only light is an IES profile.

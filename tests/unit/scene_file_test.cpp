@@ -73,15 +73,15 @@ TEST(SceneFile, ShowsTheDefaultSceneOrTheFirst) {
 
 TEST(SceneFile, UnitScalesEverything) {
     GltfBuilder builder = one_triangle();
-    builder.json["nodes"][0]["translation"] = {100, 0, 0};
+    builder.json["nodes"][0]["translation"] = {50, 0, 0};
     builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}}}}};
     builder.add_node({{"camera", 0}, {"translation", {0, 0, 200}}});
     SceneSettings settings;
     settings.metres_per_unit = 0.01F;
     const Scene scene = builder.load(settings);
-    EXPECT_NEAR(scene.bounds.min.x, 1.0F, 1e-6F);
-    EXPECT_NEAR(scene.bounds.max.x, 1.01F, 1e-6F);
-    EXPECT_NEAR(scene.objects[0].transform.translation.x, 1.0F, 1e-6F);
+    EXPECT_NEAR(scene.bounds.min.x, 0.5F, 1e-6F);
+    EXPECT_NEAR(scene.bounds.max.x, 0.51F, 1e-6F);
+    EXPECT_NEAR(scene.objects[0].transform.translation.x, 0.5F, 1e-6F);
     EXPECT_NEAR(scene.cameras[0].eye.z, 2.0F, 1e-6F);
 }
 

@@ -75,7 +75,7 @@ TEST(SceneLighting, PunctualLightsAreReadInTheirUnits) {
                      {{"type", "directional"}, {"intensity", 50'000}},
                      {{"type", "point"}, {"intensity", 0}}})
             .load();
-    ASSERT_EQ(scene.punctual_lights.size(), 3U);
+    ASSERT_EQ(scene.punctual_lights.size(), 4U);  // the dark one can be switched on
     EXPECT_EQ(scene.sky_radiance, glm::vec3(0));
     EXPECT_TRUE(scene.notices.empty() || !has_notice(scene, "KHR_lights_punctual"));
     EXPECT_EQ(scene.punctual_lights[0].intensity, glm::vec3(80, 40, 20));
@@ -133,8 +133,8 @@ TEST(SceneLighting, PunctualLightsThatCannotBeAreRejected) {
     EXPECT_NE(reason({{"type", "point"}, {"intensity", -1}}).find(".intensity"), std::string::npos);
     EXPECT_NE(reason({{"type", "point"}, {"color", {1, 1}}}).find(".color"), std::string::npos);
     EXPECT_EQ(
-        reason({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}),
-        lights + ".spot: innerConeAngle 0.5 is not below outerConeAngle 0.5");
+        reason({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.6}, {"outerConeAngle", 0.5}}}}),
+        lights + ".spot: innerConeAngle 0.6 is above outerConeAngle 0.5");
     GltfBuilder builder = with_lights(Json::array({{{"type", "point"}}}));
     builder.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = 3;
     EXPECT_EQ(load_error(builder).reason(), "3 is out of range: the file has 1 lights");

@@ -168,9 +168,9 @@ const SceneFault scene_faults[] = {
          j["nodes"][0]["rotation"] = {0, 0, 0, 0};
      },
      "nodes[0].rotation", "zero"},
-    {"far_away",
+    {"far_too_large",
      [](Json& j) {
-         j["nodes"][0]["translation"] = {1e12, 0, 0};
+         j["nodes"][0]["scale"] = {1e12, 1e12, 1e12};
      },
      "meshes[0].primitives[0].attributes.POSITION", "limit"},
     {"empty_scene", [](Json& j) { j["scenes"][0]["nodes"] = Json::array(); }, "", "no triangles"},

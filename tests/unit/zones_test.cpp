@@ -63,7 +63,7 @@ struct Rooms {
     }
     [[nodiscard]] ExchangeRays rays() const {
         const glm::mat4 world(1.0F);
-        return {scene, mesh, std::span(&world, 1), 1};
+        return {scene, mesh, std::span(&world, 1), 20.0F, 1};
     }
 };
 

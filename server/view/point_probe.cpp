@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/point_probe.h"
+
+#include <cmath>
+
+namespace raybundle {
+
+namespace {
+
+constexpr float distance_share = 1e-3F;  // of the scene's diameter: ten times the near plane's
+
+/// Unit normal of a patch on its own side, world.
+glm::vec3 normal_of(const Scene& scene, const PatchMesh& mesh, std::uint32_t patch) {
+    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::mat4 world = scene.objects[mesh.vertex_object[t.x]].world_from_object();
+    const auto place = [&](unsigned vertex) {
+        return glm::vec3(world * glm::vec4(mesh.positions[vertex], 1.0F));
+    };
+    const glm::vec3 a = place(t.x);
+    const glm::vec3 normal = glm::normalize(glm::cross(place(t.y) - a, place(t.z) - a));
+    return patch >= mesh.triangles.size() ? -normal : normal;
+}
+
+}  // namespace
+
+std::optional<PixelProbe> probe_point(const GpuScene& gpu_scene, const RadianceStore& store,
+                                      const ViewPrograms& programs, const Scene& scene,
+                                      const PatchMesh& mesh, std::uint32_t patch,
+                                      const glm::vec3& point) {
+    const glm::vec3 normal = normal_of(scene, mesh, patch);
+    Camera camera;
+    camera.target = point;
+    camera.eye = point + distance_share * gpu_scene.diameter() * normal;
+    camera.up = std::abs(normal.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    ViewerImage image(gpu_scene, store, programs, glm::uvec2(1));
+    image.set_camera(camera);
+    const std::optional<PixelProbe> probe = image.probe(glm::uvec2(0));
+    return probe && probe->patch == patch ? probe : std::nullopt;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "scene/patch_mesh.h"
+#include "scene/scene.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// What a probe says of a point of a patch that no picture shows: the same as a picture of one
+/// pixel that looks at the point from right in front of it. point: world, m. Nothing where another
+/// surface is there, or the point is not on the patch. Small, synchronous. Throws GpuError.
+std::optional<PixelProbe> probe_point(const GpuScene& gpu_scene, const RadianceStore& store,
+                                      const ViewPrograms& programs, const Scene& scene,
+                                      const PatchMesh& mesh, std::uint32_t patch,
+                                      const glm::vec3& point);
+
+}  // namespace raybundle
