@@ -10,7 +10,16 @@ namespace raybundle {
 
 namespace {
 
-constexpr std::uint32_t rays_per_zone = 64;  // or its level is off by more than an eighth
+/// Rays tell the share of its light that a zone keeps, and with it the level, with at most this
+/// standard error; few are enough for one that is nearly closed.
+constexpr float max_share_error = 1.0F / 128.0F;
+constexpr std::uint32_t min_zone_rays = 64;  // that tell such a share at all
+
+bool well_known(float kept_share, std::uint32_t rays) {
+    const float variance =
+        kept_share * (1.0F - std::min(kept_share, 1.0F)) / static_cast<float>(std::max(rays, 1U));
+    return rays >= min_zone_rays && variance <= max_share_error * max_share_error;
+}
 
 /// Two clusters, or what they have become, that are one from here on.
 struct Join {
@@ -140,8 +149,11 @@ class Cut {
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
             zone[nodes_[i]] = i;
         }
-        for (const std::uint32_t few : too_few_) {
-            zone[few] = zones();
+        for (const auto& [few, sibling] : too_few_) {
+            const auto largest =
+                std::find(nodes_.begin(), nodes_.end(), largest_zone_below(sibling));
+            zone[few] =
+                sibling == unknown ? zones() : static_cast<std::uint32_t>(largest - nodes_.begin());
         }
         for (std::size_t node = rays_.size(); node-- > clusters_;) {
             const Join& join = joins_[node - clusters_];
@@ -172,17 +184,28 @@ class Cut {
         const std::uint32_t large = first_is_small ? join.second : join.first;
         *loosest = large;
         const float kept = first_is_small ? join.first_kept : join.second_kept;
-        if (rays_[small] >= rays_per_zone && kept >= loose_share) {
+        if (well_known(kept, rays_[small]) && kept >= loose_share) {
             nodes_.push_back(small);
         } else {
-            too_few_.push_back(small);
+            // What exchanges any light with the rest goes with most of that.
+            too_few_.emplace_back(small, join.share > 0.0F ? large : unknown);
         }
         return true;
     }
+    [[nodiscard]] std::uint32_t largest_zone_below(std::uint32_t node) const {
+        while (node != unknown && node >= clusters_ &&
+               std::find(nodes_.begin(), nodes_.end(), node) == nodes_.end()) {
+            const Join& join = joins_[node - clusters_];
+            node = rays_[join.first] < rays_[join.second] ? join.second : join.first;
+        }
+        return node;
+    }
+
     const std::vector<Join>& joins_;
     std::size_t clusters_;
     std::vector<std::uint32_t> rays_, nodes_;
-    std::vector<std::uint32_t> too_few_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        too_few_;  // and their siblings, or unknown
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace raybundle {
 namespace {
 
 constexpr std::size_t rays_per_patch = 8;
-constexpr std::size_t min_rays = 8192;
+constexpr std::size_t min_rays = 32768;
 constexpr std::size_t max_rays = 65536;
 constexpr int max_passes = 32;            // surfaces that a ray passes: glass, cut-outs
 constexpr float lift_share = 0x1.0p-20F;  // of the scene's diameter
