@@ -23,7 +23,7 @@ std::optional<glm::dmat3> xyz_from_rgb(const std::array<double, 8>& xy) {
     }
     glm::dmat3 primaries;
     for (int c = 0; c < 3; ++c) {
-        const auto i = static_cast<std::size_t>(2 * c);
+        const std::size_t i = 2 * static_cast<std::size_t>(c);
         primaries[c] = xyz_of(xy[i], xy[i + 1]);
     }
     constexpr double flat = 1e-6;  // primaries on one line
