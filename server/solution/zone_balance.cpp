@@ -178,6 +178,7 @@ double step_at(double iterate_age) {
 }  // namespace
 
 void ZoneBalance::note_step(float iterate_age, float weight) {
+    started_ = true;
     group_weight_ += static_cast<double>(weight);
     const auto age = static_cast<double>(iterate_age);
     for (std::size_t zone = 0; zone < older_share_.size(); ++zone) {
@@ -204,6 +205,10 @@ void ZoneBalance::sum_by_zones(std::size_t first_sum) {
 
 void ZoneBalance::balance(const Means& means) {
     refresh();
+    if (!started_) {  // the first bundles come from what emits, and are noisier otherwise
+        keep();
+        return;
+    }
     constexpr std::size_t first_mean = max_zones * vectors_per_zone;
     constexpr std::size_t first_pair = 2 * first_mean;
     block_sums_.bind_storage(BINDING_FLUX);

@@ -96,6 +96,7 @@ class ZoneBalance {
     double group_weight_ = 0.0;    // of the running group's samples in the mean
     double iterate_age_ = 0.0;     // of those others
     bool stale_ = true;
+    bool started_ = false;  // some bundle has come in
     Buffer zones_buffer_, order_, blocks_, block_sums_, ray_buffer_, segment_buffer_, sums_;
     std::unique_ptr<Readback> readback_;
     ShaderProgram flux_, flux_sum_, exchange_, means_;

@@ -2,9 +2,12 @@
 #include "zones/cluster_joins.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "zones/clearly_more.h"
 
 namespace raybundle {
 
@@ -56,9 +59,10 @@ class Joiner {
             find_best(a);
         }
         while (joins.size() + 1 < count_) {
-            const auto a = static_cast<std::uint32_t>(
-                std::max_element(best_density_.begin(), best_density_.end()) -
-                best_density_.begin());
+            std::uint32_t a = 0;
+            for (std::uint32_t b = 1; b < count_; ++b) {
+                a = gone_[a] || clearly_more(best_density_[b], best_density_[a]) ? b : a;
+            }
             const std::uint32_t kept = std::min(a, best_[a]);
             const std::uint32_t other = std::max(a, best_[a]);
             const float smaller = std::min(sent_[kept], sent_[other]);
@@ -78,7 +82,8 @@ class Joiner {
     [[nodiscard]] float density(std::uint32_t a, std::uint32_t b) const {
         const float both = sent_[a] * sent_[b];
         // What sends nothing goes with anything.
-        return both > 0.0F ? flux_[a * count_ + b] / both : std::numeric_limits<float>::max();
+        return both > 0.0F ? flux_[a * count_ + b] / both
+                           : std::sqrt(std::numeric_limits<float>::max());
     }
     [[nodiscard]] float kept_share(std::uint32_t a) const {
         return sent_[a] > 0.0F ? flux_[a * count_ + a] / sent_[a] : 0.0F;
@@ -87,7 +92,7 @@ class Joiner {
         best_[a] = none;
         best_density_[a] = -1.0F;
         for (std::uint32_t b = 0; b < count_; ++b) {
-            if (b != a && !gone_[b] && density(a, b) > best_density_[a]) {
+            if (b != a && !gone_[b] && clearly_more(density(a, b), best_density_[a])) {
                 best_[a] = b;
                 best_density_[a] = density(a, b);
             }
@@ -111,7 +116,7 @@ class Joiner {
             }
             if (best_[b] == gone || best_[b] == kept) {
                 find_best(b);
-            } else if (density(b, kept) > best_density_[b]) {
+            } else if (clearly_more(density(b, kept), best_density_[b])) {
                 best_[b] = kept;
                 best_density_[b] = density(b, kept);
             }

@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "zones/clearly_more.h"
+
 namespace raybundle {
 
 namespace {
@@ -57,8 +59,27 @@ class Clusters {
         for (int axis = 3; axis < 6; ++axis) {
             variance[axis] *= size;
         }
-        const double* largest = std::max_element(variance, variance + 6);
-        return *largest > 0.0 ? static_cast<int>(largest - variance) : -1;
+        int largest = 0;
+        for (int axis = 1; axis < 6; ++axis) {
+            largest = clearly_more(variance[axis], variance[largest]) ? axis : largest;
+        }
+        return variance[largest] > 0.0 ? largest : -1;
+    }
+
+    /// In steps of the cluster's extent that are coarser than rounding.
+    void sort_along(int axis, std::vector<std::uint32_t>& patches) const {
+        constexpr float steps = 4096.0F;
+        float low = coordinate(patches.front(), axis);
+        float high = low;
+        for (const std::uint32_t patch : patches) {
+            low = std::min(low, coordinate(patch, axis));
+            high = std::max(high, coordinate(patch, axis));
+        }
+        const float scale = high > low ? steps / (high - low) : 0.0F;
+        std::stable_sort(patches.begin(), patches.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::lround((coordinate(a, axis) - low) * scale) <
+                   std::lround((coordinate(b, axis) - low) * scale);
+        });
     }
 
     void split(std::vector<std::uint32_t> patches, std::size_t most) {
@@ -67,9 +88,7 @@ class Clusters {
             add_by_object(patches);
             return;
         }
-        std::stable_sort(patches.begin(), patches.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return coordinate(a, axis) < coordinate(b, axis);
-        });
+        sort_along(axis, patches);
         const std::size_t middle = axis < 3 ? median(patches) : bend(patches, axis);
         double sum = 0.0;
         double first = 0.0;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "zones/clearly_more.h"
 #include "zones/cluster_joins.h"
 #include "zones/patch_clusters.h"
 
@@ -42,10 +43,11 @@ void settle_patches(std::span<const ExchangeRay> traced, ZonePartition& partitio
             }
             // Lines between patches count at both of their ends.
             votes[outside] += 2.0F * lost[i];
-            best = votes[outside] > votes[best] ? outside : best;
+            best = clearly_more(votes[outside], votes[best]) ? outside : best;
             for (const auto& [partner, area] : partners[i]) {
-                best =
-                    votes[partition.zone[partner]] > votes[best] ? partition.zone[partner] : best;
+                best = clearly_more(votes[partition.zone[partner]], votes[best])
+                           ? partition.zone[partner]
+                           : best;
             }
             for (const auto& [partner, area] : partners[i]) {
                 votes[partition.zone[partner]] = 0.0F;
