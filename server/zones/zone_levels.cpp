@@ -226,29 +226,35 @@ double ZoneLevels::noise(unsigned zone) const {
 
 /// What bundles bring beyond the prediction to all zones together is believed only as far as rays
 /// leave unknown what is lost: in a closed scene it is exchange between zones and noise, which the
-/// levels would magnify.
-void ZoneLevels::conserve(std::span<const double> lost_variance, std::span<const glm::dvec3> albedo,
-                          std::span<const ZoneFlux> zones, std::span<const ZoneSky> sky,
-                          std::vector<glm::dvec3>& extra) const {
-    double variance = 0.0;
-    double own = 0.0;
-    glm::dvec3 all(0.0), sum(0.0), size(0.0);
+/// levels would magnify. Each zone gives way by its variance (least squares with a given sum), so
+/// that the noise of a wide outside leaves what is known of a room alone.
+/// variance: of the rays' prediction for each zone.
+void ZoneLevels::conserve(std::span<const double> variance, std::span<const double> lost_variance,
+                          std::span<const glm::dvec3> albedo, std::span<const ZoneFlux> zones,
+                          std::span<const ZoneSky> sky, std::vector<glm::dvec3>& extra) const {
+    double lost = 0.0;
+    double noise_of_all = 0.0;
+    double freedom = 0.0;
+    std::vector<double> unknown(zones_, 0.0);
+    glm::dvec3 all(0.0), sum(0.0);
     for (unsigned t = 0; t < zones_; ++t) {
         const double light = luminance_of(zones[t].emitted + albedo[t] * incident_[t]);
-        variance += light * light * lost_variance[t] + sky[t].squares;
-        own += noise(t) * noise(t);
-        all += known(t) ? beyond_[t].groups.mean : glm::dvec3(0.0);
+        lost += light * light * lost_variance[t] + sky[t].squares;
         sum += extra[t];
-        size += glm::abs(extra[t]);
-    }
-    const glm::dvec3 believed =
-        variance > 0.0 ? all * (variance / (variance + own)) : glm::dvec3(0.0);
-    for (unsigned t = 0; t < zones_; ++t) {
-        for (int c = 0; c < 3; ++c) {
-            if (size[c] > 0.0) {
-                extra[t][c] -= (sum[c] - believed[c]) * std::abs(extra[t][c]) / size[c];
-            }
+        if (known(t)) {
+            const double own = noise(t) * noise(t);
+            noise_of_all += own;
+            all += beyond_[t].groups.mean;
+            unknown[t] = own + variance[t] > 0.0 ? own * variance[t] / (own + variance[t]) : 0.0;
+            freedom += unknown[t];
         }
+    }
+    if (freedom <= 0.0) {
+        return;
+    }
+    const glm::dvec3 believed = lost > 0.0 ? all * (lost / (lost + noise_of_all)) : glm::dvec3(0.0);
+    for (unsigned t = 0; t < zones_; ++t) {
+        extra[t] -= (sum - believed) * (unknown[t] / freedom);
     }
 }
 
@@ -259,6 +265,7 @@ std::vector<ZoneLevel> ZoneLevels::solve(std::span<const ZoneFlux> zones,
     const std::size_t n = zones_;
     std::vector<glm::dvec3> albedo(n);
     std::vector<glm::dvec3> extra(n);
+    std::vector<double> variances(n);
     for (unsigned t = 0; t < n; ++t) {
         albedo[t] = glm::clamp(ratio(zones[t].reflected, zones[t].incident, zones[t].albedo),
                                glm::dvec3(0.0), glm::dvec3(0.9999));
@@ -268,9 +275,10 @@ std::vector<ZoneLevel> ZoneLevels::solve(std::span<const ZoneFlux> zones,
             variance += light * light * shares.variance[t * n + s];
         }
         error_[t] = std::sqrt(variance);
+        variances[t] = variance;
         extra[t] = beyond(t, variance);
     }
-    conserve(shares.lost_variance, albedo, zones, sky, extra);
+    conserve(variances, shares.lost_variance, albedo, zones, sky, extra);
     for (int c = 0; c < 3; ++c) {
         std::vector<double> a(n * (n + 1), 0.0);
         for (std::size_t t = 0; t < n; ++t) {

@@ -103,9 +103,9 @@ class ZoneLevels {
     };
 
     [[nodiscard]] glm::dvec3 beyond(unsigned zone, double variance) const;
-    void conserve(std::span<const double> lost_variance, std::span<const glm::dvec3> albedo,
-                  std::span<const ZoneFlux> zones, std::span<const ZoneSky> sky,
-                  std::vector<glm::dvec3>& extra) const;
+    void conserve(std::span<const double> variance, std::span<const double> lost_variance,
+                  std::span<const glm::dvec3> albedo, std::span<const ZoneFlux> zones,
+                  std::span<const ZoneSky> sky, std::vector<glm::dvec3>& extra) const;
 
     unsigned zones_;
     std::vector<Beyond> beyond_;
