@@ -70,7 +70,7 @@ void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh
 
 void GpuScene::move_objects(std::span<const ObjectMove> moves) {
     settle();
-    for (std::size_t i = 0; i < std::min<std::size_t>(moves.size(), MOST_MOVED); ++i) {
+    for (std::size_t i = 0; i < moves.size(); ++i) {
         const ObjectMove& move = moves[i];
         moved_[static_cast<int>(i)] = move.object;
         placed_[move.object] = glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;

@@ -61,7 +61,8 @@ class Solver {
     /// One iteration, or one slice of a running special phase.
     void step(std::span<BundleReceiver* const> receivers);
 
-    /// Starts one special iteration phase for MOST_MOVED objects at new places, at most; step()
+    /// Starts one special iteration phase for objects at new places, MOST_MOVED at most (throws
+    /// std::invalid_argument for more); step()
     /// carries it through. Requires !correcting().
     void move_objects(std::span<const ObjectMove> moves,
                       std::span<BundleReceiver* const> receivers);

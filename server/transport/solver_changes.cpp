@@ -2,6 +2,7 @@
 // How the solver takes over changes of the scene.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "scene/surface_edit.h"
 #include "transport/solver.h"
@@ -92,6 +93,9 @@ void Solver::move_object(std::uint32_t object, const glm::mat4& world_from_objec
 
 void Solver::move_objects(std::span<const ObjectMove> moves,
                           std::span<BundleReceiver* const> receivers) {
+    if (moves.size() > MOST_MOVED) {
+        throw std::invalid_argument("more objects than one phase moves");
+    }
     begin_change();
     scene_.move_objects(moves);
     zones_.objects_moved();

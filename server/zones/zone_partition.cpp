@@ -7,6 +7,7 @@
 
 #include "zones/clearly_more.h"
 #include "zones/cluster_joins.h"
+#include "zones/cluster_parts.h"
 #include "zones/patch_clusters.h"
 
 namespace raybundle {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t max_clusters = 1024;
 constexpr std::size_t rays_per_cluster = 32;
+constexpr std::size_t most_places = 128;  // that are told apart where rays end
 
 /// Gives each patch to the zone that it exchanges most light with: clusters may have reached under
 /// a wall. What loses its light is loose. Zones of patches without rays stay.
@@ -83,7 +85,9 @@ ZonePartition find_zones(const ExchangeRays& rays, std::span<const ExchangeRay> 
     result.count = 1;
     const std::size_t most =
         std::clamp<std::size_t>(traced.size() / rays_per_cluster, 1, max_clusters);
-    const std::vector<std::vector<std::uint32_t>> leaves = cluster_patches(rays, most);
+    const PatchLists leaves =
+        split_by_sight(cluster_patches(rays, most), cluster_patches(rays, most_places), traced,
+                       result.zone.size(), 2 * most);
     std::vector<std::uint32_t> leaf_of(result.zone.size(), 0);
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
         for (const std::uint32_t patch : leaves[i]) {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
-#include "oracle/scene_builder.h"
 #include "scene/gltf_loader.h"
 #include "scene/surface_edit.h"
 #include "view/viewer_image.h"
@@ -18,26 +18,9 @@ namespace {
 constexpr unsigned picture = 96;  // pixels along an edge
 constexpr unsigned grid = 5;      // points along it
 
-/// Two closed rooms of 4 m side by side, each with a lamp below its ceiling.
-Scene two_rooms() {
-    SceneBuilder b;
-    const auto wall = b.add_material(glm::vec3(0.7F));
-    for (const float x : {0.0F, 10.0F}) {
-        const auto lamp = b.add_material(glm::vec3(0.5F), glm::vec3(1000.0F));
-        b.add_object(x == 0.0F ? "first" : "second");
-        b.add_box({x, 0, 0}, {x + 4, 4, 4}, true, 1, wall);
-        b.add_quad({x + 1.5F, 3.9F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 1, 1, lamp);
-    }
-    return b.loaded_scene();
-}
-
 Scene load(const ChangeCase& c) {
-    if (c.file.empty()) {
-        Scene scene = two_rooms();
-        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-            scene.lights[i].name = "lamp" + std::to_string(i);
-        }
-        return scene;
+    if (c.build != nullptr) {
+        return c.build();
     }
     return load_gltf(std::string(RAYBUNDLE_CASES) + "/changes/" + c.file, SceneSettings{});
 }
@@ -59,6 +42,7 @@ LightEdit light_edit(const Scene& scene, const Edit& edit) {
     if (edit.luminance > 0.0F) {
         light.intensity = edit.luminance;
     }
+    light.colour = edit.colour;
     return light;
 }
 
@@ -66,6 +50,7 @@ MaterialEdit material_edit(const Scene& scene, const Edit& edit) {
     MaterialEdit material;
     material.material = index_of(scene.materials, edit.name) + 1;
     material.base_colour = edit.value;
+    material.metallic = edit.metallic;
     return material;
 }
 
@@ -73,6 +58,7 @@ void place(Scene& scene, const Edit& edit) {
     Object& object = scene.objects[index_of(scene.objects, edit.name)];
     object.transform.translation = edit.value;
     object.transform.scale = glm::vec3(edit.scale);
+    object.transform.rotation = glm::angleAxis(glm::radians(edit.turn), glm::vec3(0, 1, 0));
 }
 
 void make(Scene& scene, const std::vector<Edit>& edits) {
@@ -137,13 +123,14 @@ class Watched {
                 reflecting.push_back(materials.back());
             }
         }
-        if (!moves.empty()) {
-            solver_.move_objects(moves, receivers_);
-        } else {
-            solver_.change_surfaces(scene_, mesh_, materials, reflecting, receivers_);
+        for (std::size_t first = 0; first < moves.size(); first += MOST_MOVED) {
+            const std::size_t count = std::min<std::size_t>(moves.size() - first, MOST_MOVED);
+            solver_.move_objects(std::span(moves).subspan(first, count), receivers_);
+            correct();
         }
-        while (solver_.correcting()) {
-            solver_.step(receivers_);
+        if (!materials.empty()) {
+            solver_.change_surfaces(scene_, mesh_, materials, reflecting, receivers_);
+            correct();
         }
     }
 
@@ -180,6 +167,12 @@ class Watched {
     }
 
   private:
+    void correct() {
+        while (solver_.correcting()) {
+            solver_.step(receivers_);
+        }
+    }
+
     Scene scene_;
     PatchMesh mesh_;
     Solver solver_;
@@ -188,125 +181,7 @@ class Watched {
     BundleReceiver* const receivers_[1] = {&image_};
 };
 
-const glm::vec3 open_room_eye(2.0F, 2.0F, 0.4F);
-const glm::vec3 open_room_target(2.0F, 1.6F, 4.0F);
-
-ChangeCase open_room(const std::string& name, const std::string& file,
-                     std::vector<std::vector<Edit>> changes) {
-    return {.name = name,
-            .file = file,
-            .before = {},
-            .changes = std::move(changes),
-            .eye = open_room_eye,
-            .target = open_room_target};
-}
-
-ChangeCase rooms25(const std::string& name, std::vector<Edit> before,
-                   std::vector<std::vector<Edit>> changes) {
-    return {.name = name,
-            .file = "r25.gltf",
-            .before = std::move(before),
-            .changes = std::move(changes),
-            .eye = {0.3F, 1.6F, 0.3F},
-            .target = {4.0F, 0.8F, 4.0F},
-            .field_of_view = 85.0F};
-}
-
-ChangeCase window(const std::string& name, const std::string& file, const glm::vec3& curtain) {
-    return {.name = name,
-            .file = file,
-            .before = {},
-            .changes = {{move_to("curtain", curtain)}},
-            .eye = {2.5F, 1.6F, 0.4F},
-            .target = {2.5F, 1.0F, 5.0F}};
-}
-
-ChangeCase pair_of_rooms(const std::string& name, bool second, std::vector<Edit> before,
-                         std::vector<std::vector<Edit>> changes) {
-    const float x = second ? 10.0F : 0.0F;
-    return {.name = name,
-            .file = "",
-            .before = std::move(before),
-            .changes = std::move(changes),
-            .eye = {x + 0.3F, 1.6F, 0.3F},
-            .target = {x + 4.0F, 0.8F, 4.0F},
-            .field_of_view = 85.0F};
-}
-
 }  // namespace
-
-Edit move_to(const std::string& object, const glm::vec3& translation, float scale) {
-    return {.kind = Edit::Kind::move, .name = object, .value = translation, .scale = scale};
-}
-
-Edit set_light(const std::string& light, float luminance) {
-    return {.kind = Edit::Kind::light, .name = light, .luminance = luminance};
-}
-
-Edit paint(const std::string& material, float albedo) {
-    return {.kind = Edit::Kind::material, .name = material, .value = glm::vec3(albedo)};
-}
-
-std::vector<ChangeCase> change_cases() {
-    const std::vector<Edit> first_bright = {set_light("lamp0", 5000.0F), set_light("lamp1", 50.0F)};
-    const std::vector<Edit> second_bright = {set_light("lamp0", 50.0F),
-                                             set_light("lamp1", 5000.0F)};
-    const Edit lamp_out = move_to("lamp", {0.0F, 0.0F, -6.0F});
-    const Edit lamp_in = move_to("lamp", {0.0F, 0.0F, 0.0F});
-    const Edit door_away = move_to("door", {0.0F, 0.0F, -12.0F});
-    const Edit door_shut = move_to("door", {0.0F, 0.0F, -0.06F});
-    std::vector<std::vector<Edit>> sliding;
-    for (int step = 1; step <= 40; ++step) {
-        sliding.push_back(
-            {move_to("door", {4.0F - 0.1F * static_cast<float>(step), 0.0F, -0.06F})});
-    }
-    std::vector<ChangeCase> cases = {
-        open_room("lamp_out", "lampin.gltf", {{lamp_out}}),
-        open_room("lamp_in", "lampout.gltf", {{lamp_in}}),
-        open_room("lamp_out_and_in", "lampin.gltf", {{lamp_out}, {lamp_in}}),
-        open_room("door_opens", "door_closed.gltf", {{door_away}}),
-        open_room("door_closes", "door_open.gltf", {{door_shut}}),
-        open_room("door_slides_shut", "door_open.gltf", sliding),
-        window("curtain_closes", "win_open.gltf", {1.45F, 0.7F, -0.26F}),
-        window("curtain_opens", "win_shut.gltf", {-3.0F, 0.7F, -0.26F}),
-        rooms25("lamp_of_25_off", {}, {{set_light("lamp00", 0.0F)}}),
-        rooms25("lamp_of_25_on", {set_light("lamp00", 0.0F)}, {{set_light("lamp00", 1000.0F)}}),
-        rooms25("lamp_of_25_dimmed", {}, {{set_light("lamp00", 100.0F)}}),
-        rooms25("walls_of_25_dark", {}, {{paint("wall00", 0.1F)}}),
-        rooms25("walls_of_25_bright", {paint("wall00", 0.1F)}, {{paint("wall00", 0.7F)}}),
-        pair_of_rooms("swap_gets_dark", false, first_bright,
-                      {{set_light("lamp0", 50.0F), set_light("lamp1", 5000.0F)}}),
-        pair_of_rooms("swap_gets_bright", true, first_bright,
-                      {{set_light("lamp0", 50.0F), set_light("lamp1", 5000.0F)}}),
-        pair_of_rooms("next_door_dimmed", false, second_bright, {{set_light("lamp1", 2000.0F)}}),
-        pair_of_rooms("next_door_off", false, second_bright, {{set_light("lamp1", 0.0F)}}),
-    };
-    for (ChangeCase& c : cases) {
-        if (c.name == "swap_gets_dark" || c.name == "swap_gets_bright") {
-            c.bright = 600.0;
-        }
-        if (c.name == "next_door_dimmed" || c.name == "next_door_off") {
-            c.bright = 6.0;
-        }
-        if (c.name == "lamp_out_and_in") {
-            c.between = 300;
-        }
-        if (c.name == "door_slides_shut") {
-            c.before = {move_to("door", {4.0F, 0.0F, -0.06F})};
-        }
-    }
-    return cases;
-}
-
-const ChangeCase& change_case(const std::string& name) {
-    static const std::vector<ChangeCase> cases = change_cases();
-    for (const ChangeCase& c : cases) {
-        if (c.name == name) {
-            return c;
-        }
-    }
-    throw std::runtime_error("no case " + name);
-}
 
 std::vector<Served> solve_anew(const ChangeCase& c, std::uint64_t seed,
                                std::span<const std::uint64_t> at) {

@@ -20,9 +20,12 @@ struct Edit {
     enum class Kind { move, light, material };
     Kind kind = Kind::move;
     std::string name;
-    glm::vec3 value{0.0F};   ///< m (move) or linear colour (material)
-    float scale = 1.0F;      ///< of a moved object
-    float luminance = 0.0F;  ///< of a light, cd/m²; 0: off
+    glm::vec3 value{0.0F};                 ///< m (move), linear colour (material)
+    float scale = 1.0F;                    ///< of a moved object
+    float turn = 0.0F;                     ///< likewise, degrees about Y
+    float luminance = 0.0F;                ///< of a light, cd/m²; 0: off
+    std::optional<glm::vec3> colour = {};  ///< of a light
+    std::optional<float> metallic = {};    ///< of a material
 };
 
 Edit move_to(const std::string& object, const glm::vec3& translation, float scale = 1.0F);
@@ -32,7 +35,8 @@ Edit paint(const std::string& material, float albedo);
 /// A scene, what changes in it, and where its light is looked at.
 struct ChangeCase {
     std::string name;
-    std::string file;                        ///< in tests/cases/changes; empty: two_rooms()
+    std::string file;                        ///< in tests/cases/changes, where nothing builds it
+    Scene (*build)() = nullptr;              ///< see changed_rooms.h
     std::vector<Edit> before;                ///< makes the first state of what the file has
     std::vector<std::vector<Edit>> changes;  ///< one after another
     std::uint64_t between = 8;               ///< iterations after each change but the last

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 #include <vector>
 
 #include "zones/exchange_rays.h"
@@ -106,6 +107,36 @@ TEST(ExchangeRays, DoNotGoThroughWallsWithoutThickness) {
     for (const ExchangeRay& ray : rooms.rays().trace()) {
         ASSERT_NE(ray.to, ExchangeRay::lost);
         EXPECT_EQ(ray.from < first, ray.to < first);
+    }
+}
+
+/// A lamp a little below a ceiling, in a shade that lets nothing out: what is near each other, and
+/// faces the same way, may see nothing in common.
+TEST(Zones, TellTheInsideOfAClosedShadeFromTheRoom) {
+    Rooms rooms;
+    const auto shade = [&rooms](float margin) {
+        const glm::vec3 low = glm::vec3(1.3F, 3.6F, 1.3F) - margin;
+        const glm::vec3 high = glm::vec3(2.7F, 3.98F, 2.7F) + glm::min(margin, 0.01F);
+        return std::pair(low, high);
+    };
+    const std::size_t first_inside = rooms.mesh.patch_count();
+    rooms.room(shade(0.0F).first, shade(0.0F).second, false, 5);
+    rooms.quad({1.5F, 3.9F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 4);  // the lamp
+    const std::size_t first_outside = rooms.mesh.patch_count();
+    rooms.room({0, 0, 0}, {4, 4, 4}, false, 14);
+    rooms.room({10, 0, 0}, {14, 4, 4}, false, 14);
+    const auto [low, high] = shade(0.05F);
+    const glm::vec3 e = high - low;
+    rooms.quad(low, {e.x, 0, 0}, {0, 0, e.z}, 6);  // the shade from below, and from its sides
+    rooms.quad(low, {0, e.y, 0}, {e.x, 0, 0}, 6);
+    rooms.quad(low, {0, 0, e.z}, {0, e.y, 0}, 6);
+    rooms.quad(low + glm::vec3(0, 0, e.z), {e.x, 0, 0}, {0, e.y, 0}, 6);
+    rooms.quad(low + glm::vec3(e.x, 0, 0), {0, e.y, 0}, {0, 0, e.z}, 6);
+    const ExchangeRays rays = rooms.rays();
+    const ZonePartition zones = find_zones(rays, rays.trace());
+    const unsigned room = zones.zone[first_outside];
+    for (std::size_t patch = first_inside; patch < first_outside; ++patch) {
+        EXPECT_NE(zones.zone[patch], room) << patch;
     }
 }
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zones/cluster_parts.h"
+
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace raybundle {
+
+namespace {
+
+/// Sets that are joined step by step; each is known by its least member.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) {
+            parent_[i] = parent_[parent_[i]];
+            i = parent_[i];
+        }
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[a < b ? b : a] = a < b ? a : b;
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Patches of a cluster by what their rays see; in the order of their first patches.
+PatchLists parts_of(const std::vector<std::uint32_t>& cluster,
+                    const std::vector<std::vector<std::uint32_t>>& seen, DisjointSets& connected) {
+    DisjointSets sets(cluster.size());
+    std::map<std::uint32_t, std::uint32_t> first_at;  // place -> the first patch that sees it
+    for (std::uint32_t i = 0; i < cluster.size(); ++i) {
+        for (const std::uint32_t place : seen[cluster[i]]) {
+            sets.join(first_at.emplace(place, i).first->second, i);
+        }
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> part_of;
+    PatchLists parts;
+    for (std::uint32_t i = 0; i < cluster.size(); ++i) {
+        const auto key = std::pair(sets.find(i), connected.find(cluster[i]));
+        const auto [part, is_new] = part_of.emplace(key, static_cast<std::uint32_t>(parts.size()));
+        if (is_new) {
+            parts.emplace_back();
+        }
+        parts[part->second].push_back(cluster[i]);
+    }
+    return parts;
+}
+
+}  // namespace
+
+PatchLists split_by_sight(const PatchLists& clusters, const PatchLists& places,
+                          std::span<const ExchangeRay> traced, std::size_t patches,
+                          std::size_t most) {
+    std::vector<std::uint32_t> place_of(patches, 0);
+    for (std::uint32_t place = 0; place < places.size(); ++place) {
+        for (const std::uint32_t patch : places[place]) {
+            place_of[patch] = place;
+        }
+    }
+    DisjointSets connected(patches);
+    std::vector<std::vector<std::uint32_t>> seen(patches);
+    for (const ExchangeRay& ray : traced) {
+        if (ray.to != ExchangeRay::lost) {
+            connected.join(ray.from, ray.to);
+            seen[ray.from].push_back(place_of[ray.to]);
+            seen[ray.to].push_back(place_of[ray.from]);
+        }
+    }
+    PatchLists result;
+    std::size_t left = clusters.size();
+    for (const std::vector<std::uint32_t>& cluster : clusters) {
+        --left;
+        PatchLists parts = parts_of(cluster, seen, connected);
+        if (result.size() + parts.size() + left > most) {
+            result.push_back(cluster);
+            continue;
+        }
+        for (std::vector<std::uint32_t>& part : parts) {
+            result.push_back(std::move(part));
+        }
+    }
+    return result;
+}
+
+}  // namespace raybundle
