@@ -32,20 +32,27 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
+constexpr std::uint32_t nothing = 0xffffffffU;  // is what a patch sees whose rays are all lost
+
 /// Patches of a cluster by what their rays see; in the order of their first patches.
 PatchLists parts_of(const std::vector<std::uint32_t>& cluster,
                     const std::vector<std::vector<std::uint32_t>>& seen, DisjointSets& connected) {
     DisjointSets sets(cluster.size());
     std::map<std::uint32_t, std::uint32_t> first_at;  // place -> the first patch that sees it
     for (std::uint32_t i = 0; i < cluster.size(); ++i) {
-        for (const std::uint32_t place : seen[cluster[i]]) {
+        const std::vector<std::uint32_t>& places = seen[cluster[i]];
+        if (places.empty()) {
+            sets.join(first_at.emplace(nothing, i).first->second, i);
+        }
+        for (const std::uint32_t place : places) {
             sets.join(first_at.emplace(place, i).first->second, i);
         }
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> part_of;
     PatchLists parts;
     for (std::uint32_t i = 0; i < cluster.size(); ++i) {
-        const auto key = std::pair(sets.find(i), connected.find(cluster[i]));
+        const bool sees = !seen[cluster[i]].empty();
+        const auto key = std::pair(sets.find(i), sees ? connected.find(cluster[i]) : nothing);
         const auto [part, is_new] = part_of.emplace(key, static_cast<std::uint32_t>(parts.size()));
         if (is_new) {
             parts.emplace_back();
