@@ -190,7 +190,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
     RARELY((p.facet & PIXEL_GLOSSY) != 0u) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);
-        vec3 gloss = own.rgb / max(weight + view.display.z, 1e-6);
+        vec3 gloss = own.rgb / max(weight, 1e-6);
 #ifdef FIRST_SHOT
         gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
 #endif

@@ -99,5 +99,63 @@ TEST(Highlight, OfTheSunIsItsDisc) {
     EXPECT_LT(brightest(true), 1.0F);
 }
 
+/// Radiance that a lamp of 0.5 m by 0.5 m, 1.5 m above and 1 m beside the origin, has in a floor there, cd/m².
+double exact_highlight(const Material& floor, const glm::vec3& eye, float luminance) {
+    const Brdf brdf = make_brdf(floor, floor.base_colour);
+    const auto local = [](const glm::vec3& w) { return glm::vec3(w.x, w.z, w.y); };
+    constexpr int steps = 32;
+    double sum = 0.0;
+    for (int i = 0; i < steps * steps; ++i) {
+        const glm::vec2 at =
+            (glm::vec2(i % steps, i / steps) + 0.5F) / static_cast<float>(steps) * 0.5F - 0.25F;
+        const glm::vec3 to(at.x, 1.5F, 1.0F + at.y);
+        const float square = glm::dot(to, to);
+        const glm::vec3 w = to / std::sqrt(square);
+        const float area = 0.25F / static_cast<float>(steps * steps);
+        sum += static_cast<double>(luminance * area * w.y * w.y / square *
+                                   evaluate(brdf, local(w), local(glm::normalize(eye))).g);
+    }
+    return sum;
+}
+
+/// A highlight of a broad lobe comes from bundles. It is right in the mean from the first ones on:
+/// what is not known yet is not taken for dark.
+TEST(Highlight, OfABroadLobeIsNotDimmedAtFirst) {
+    Material floor = polished();
+    floor.roughness = 0.4F;
+    constexpr float luminance = 1000.0F;
+    constexpr int seeds = 24;
+    Camera camera;
+    camera.eye = {0.0F, 1.5F, -1.0F};
+    camera.target = glm::vec3(0.0F);
+    camera.vertical_fov = 0.02F;
+    SceneBuilder b;
+    b.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 12, 12, b.add_material(floor));
+    const auto lamp_material = b.add_material(glm::vec3(0.0F), glm::vec3(luminance));
+    b.add_quad({-0.25F, 1.5F, 0.75F}, {0.5F, 0, 0}, {0, 0, 0.5F}, 1, 1, lamp_material);
+    double mean = 0.0;
+    double square = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        SolverSettings settings;
+        settings.seed = static_cast<std::uint64_t>(seed);
+        Solver solver(b.scene, b.mesh, settings);
+        const ViewPrograms programs(solver.scene());
+        ViewerImage image(solver.scene(), solver.store(), programs, glm::uvec2(4, 4));
+        image.set_camera(camera);
+        BundleReceiver* const receivers[] = {&image};
+        for (int i = 0; i < 24; ++i) {
+            solver.step(receivers);
+        }
+        const double shown = static_cast<double>(image.read_radiance()[5].g);
+        mean += shown / seeds;
+        square += shown * shown / seeds;
+    }
+    const double error = std::sqrt((square - mean * mean) / (seeds - 1));
+    const double exact = exact_highlight(floor, camera.eye, luminance);
+    EXPECT_LT(error, 0.1 * exact);  // the test can tell 30 %
+    EXPECT_NEAR(mean, exact, 3.0 * error);
+    std::printf("%g %g +- %g\n", exact, mean, error);
+}
+
 }  // namespace
 }  // namespace raybundle
