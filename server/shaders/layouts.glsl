@@ -77,7 +77,7 @@
 #define BINDING_KEPT 50               // vec4[]: mean irradiance that was kept over the last change, w = weight
 #define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
-#define BINDING_ZONE_RAYS 60          // ZoneRay[]
+#define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use
 #define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/zone_balance.cpp
 #define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
@@ -234,11 +234,12 @@ struct FluxSums {
 
 // How the iterate of a zone's patches is changed: irradiance = scale * irradiance + offset (radiance units).
 struct ZoneLevelData {
-    vec4 scale;
+    vec4 scale;   // w: usual squared relative deviation of samples from their mean, see believed_weight()
     vec4 offset;  // w: samples that the zone's iterate is younger than that of others
     vec4 kept;  // rgb: factor of the mean that was kept over the last change; w: samples that it is worth at most
 };
 #define MAX_ZONES 64
+#define DIFFERENCE_UNIT 0.16  // squared relative deviation of a sample, as in corrected_weight.glsl
 #define ITERATE_EXPONENT 0.8  // the iterate's step is its age in samples, plus 1, to the power of minus this
 
 // A line of light that leaves a patch, which stands for so many m^2 of its zone.

@@ -15,9 +15,8 @@ void main() {
     if (i >= patch_count) {
         return;
     }
-    vec4 level = zone_levels[zones[i]].kept;
     vec4 recent = since[i];
-    vec3 old_mean = level.rgb * kept[i].rgb;
-    float weight = min(kept[i].w, level.w) + recent.w;
+    vec3 old_mean = zone_levels[zones[i]].kept.rgb * kept[i].rgb;
+    float weight = believed_weight(i, old_mean, kept[i].w, recent.rgb, recent.w) + recent.w;
     irradiance[i] = vec4(weight > 0.0 ? old_mean + (recent.rgb - old_mean) * (recent.w / weight) : old_mean, weight);
 }

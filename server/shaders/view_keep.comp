@@ -22,18 +22,19 @@ void main() {
     }
     uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
     vec4 sum = pixel_irradiance[index];
-    if (!split) {
-        if (patch_id != NO_PATCH) {
-            pixel_irradiance[index] = sum + believed_sum(patch_id, pixel_kept[index]);
-        }
-        pixel_kept[index] = vec4(0.0);
-        return;
-    }
     vec3 constant = vec3(0.0);
 #ifdef CONSTANT_RADIANCE
     uvec2 surface = texelFetch(pixel_texels, int(2u * index + 1u)).xw;
     constant = constant_share(surface.x, surface.y) * view.constant.rgb;
 #endif
+    if (!split) {
+        if (patch_id != NO_PATCH) {
+            vec4 recent = vec4(sum.rgb + constant, pixel_weight(sum, view.weights.x));
+            pixel_irradiance[index] = sum + believed_sum(patch_id, pixel_kept[index], recent);
+        }
+        pixel_kept[index] = vec4(0.0);
+        return;
+    }
     pixel_kept[index] = vec4(sum.rgb + constant, max(pixel_weight(sum, view.weights.x), 0.0));
     pixel_irradiance[index] = vec4(-constant, -view.weights.x);
 }

@@ -77,7 +77,7 @@ vec4 shown_sum(uint index, PixelSurface p) {
 #endif
     own.w = pixel_weight(own, view.weights.x);
     vec4 kept = texelFetch(pixel_kept_texels, int(index));
-    return kept.w > 0.0 ? own + believed_sum(p.patch_id, kept) : own;
+    return kept.w > 0.0 ? own + believed_sum(p.patch_id, kept, own) : own;
 }
 
 vec3 blended_irradiance(uint index, PixelSurface p) {

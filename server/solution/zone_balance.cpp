@@ -219,7 +219,10 @@ void ZoneBalance::balance(const Means& means) {
         means.kept->bind_storage(BINDING_KEPT);
         means.since->bind_storage(BINDING_SINCE);
         order_.bind_storage(BINDING_ZONE_ORDER);
+        bind();
+        block_sums_.bind_storage(BINDING_ZONE_RAYS);
         means_.dispatch_groups(first_block_.back(), 1);
+        block_sums_.bind_storage(BINDING_FLUX);
         sum_by_zones(first_mean);
     }
     ray_buffer_.bind_storage(BINDING_ZONE_RAYS);
@@ -244,8 +247,15 @@ void ZoneBalance::balance(const Means& means) {
     if (means.kept != nullptr) {
         std::vector<ZoneMeans> light;
         for (const ZoneFlux& zone : read_fluxes(sums.subspan(first_mean))) {
-            light.push_back({zone.incident, zone.reflected,
-                             zone.emitted.x / std::max(zone.area, 1e-30), zone.area});
+            ZoneMeans means_of_zone;
+            means_of_zone.kept = zone.incident;
+            means_of_zone.since = zone.reflected;
+            means_of_zone.since_weight = zone.emitted.x / std::max(zone.area, 1e-30);
+            means_of_zone.area = zone.area;
+            if (zone.emitted.y > 0.0) {
+                means_of_zone.bounded_difference = zone.emitted.z / zone.emitted.y;
+            }
+            light.push_back(means_of_zone);
         }
         const bool first = !kept_.judged();
         kept = kept_.judge(light, levels_);
@@ -264,7 +274,7 @@ void ZoneBalance::upload(std::span<const ZoneLevel> levels, std::span<const Kept
     std::vector<layout::ZoneLevelData> data;
     for (std::size_t zone = 0; zone < levels.size(); ++zone) {
         data.push_back(
-            {glm::vec4(levels[zone].scale, 1.0),
+            {glm::vec4(levels[zone].scale, kept[zone].sample_variance),
              glm::vec4(levels[zone].offset, zone < younger_.size() ? younger_[zone] : 0.0),
              glm::vec4(kept[zone].scale, kept[zone].limit)});
     }

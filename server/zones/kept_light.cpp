@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace raybundle {
 
@@ -45,6 +46,25 @@ KeptLevel first_level(const glm::dvec3& kept, const glm::dvec3& wanted, double w
 
 }  // namespace
 
+double variance_of_samples(double bounded_difference, double unit) {
+    // With x the variance in units, the mean is 1 - E[1 / (1 + x chi²)], and that expectation is
+    // sqrt(pi a) exp(a) erfc(sqrt(a)) with a = 1 / (2 x). It falls with x.
+    const auto mean_at = [](double x) {
+        const double a = 0.5 / x;
+        // exp(a) erfc(sqrt(a)) by its asymptotic form where both leave the range of doubles
+        const double scaled = a < 100.0 ? std::exp(a) * std::erfc(std::sqrt(a))
+                                        : 1.0 / std::sqrt(std::numbers::pi * a) * (1.0 - 0.5 / a);
+        return 1.0 - std::sqrt(std::numbers::pi * a) * scaled;
+    };
+    double low = 1e-3;
+    double high = 1e3;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = std::sqrt(low * high);
+        (mean_at(middle) < bounded_difference ? low : high) = middle;
+    }
+    return unit * std::sqrt(low * high);
+}
+
 const std::vector<KeptLevel>& KeptLight::judge(std::span<const ZoneMeans> means,
                                                const ZoneLevels& levels) {
     const bool first = levels_.size() != means.size();
@@ -59,6 +79,10 @@ const std::vector<KeptLevel>& KeptLight::judge(std::span<const ZoneMeans> means,
         return levels_;
     }
     for (std::size_t t = 0; t < means.size(); ++t) {
+        if (means[t].bounded_difference >= 0.0) {
+            levels_[t].sample_variance = variance_of_samples(means[t].bounded_difference,
+                                                             sample_deviation * sample_deviation);
+        }
         const double kept = luminance_of(levels_[t].scale * means[t].kept);
         const double since = luminance_of(means[t].since);
         const double noise = levels.noise(static_cast<unsigned>(t));

@@ -16,6 +16,9 @@ struct ZoneMeans {
     glm::dvec3 since{0.0};
     double since_weight = 0.0;  ///< samples that the latter is worth
     double area = 0.0;          ///< m²
+    /// Mean of q / (q + DIFFERENCE_UNIT) over patches with both means, q: squared difference of them
+    /// over the variance that samples of a relative deviation of 1 give it. Negative: none has.
+    double bounded_difference = -1.0;
     bool loose = false;         ///< has no level of its own
 };
 
@@ -23,7 +26,14 @@ struct ZoneMeans {
 struct KeptLevel {
     glm::dvec3 scale{1.0};  ///< factor of it
     double limit = 1e30;    ///< samples that it is worth at most
+    /// Squared relative deviation of samples of its patches from their means, by what both means
+    /// differ in most places.
+    double sample_variance = 0.16;
 };
+
+/// Squared relative deviation of samples whose normally distributed differences have this mean of
+/// q / (q + unit), see ZoneMeans::bounded_difference.
+double variance_of_samples(double bounded_difference, double unit);
 
 /// Judges what has been kept over a change. Both means estimate the same light, so what their
 /// difference, summed over a zone, is beyond its noise is an error of the kept one: it keeps no

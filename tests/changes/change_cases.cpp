@@ -98,6 +98,7 @@ std::vector<ChangeCase> cases_of_furniture() {
     return {furnished("thirty_move", {thirty}),
             furnished("thirty_move_and_back", {thirty, back}),
             grows,
+            furnished("thing_moves", {{move_to("thing", here + glm::vec3(0.3F, 0.0F, 0.2F))}}),
             furnished("thing_shrinks", {{move_to("thing", here, 1e-3F)}}),
             furnished("thing_goes_far", {{move_to("thing", {500.0F, 0.8F, 2.5F})}}),
             furnished("thing_comes_back",

@@ -202,6 +202,21 @@ TEST(ZoneLevels, BringNothingWhereNothingEnters) {
 
 /// What has been kept is ten times too bright: it is brought to what enters the zone, and is worth
 /// next to nothing. What is right keeps its weight.
+/// E[x / (x + 1)] of chi² with one degree of freedom is 1 - sqrt(pi/2) exp(1/2) erfc(sqrt(1/2)).
+TEST(KeptLight, NoiseOfSamplesFollowsFromWhatMostPatchesDifferBy) {
+    EXPECT_NEAR(variance_of_samples(0.34432, 0.16), 0.16, 1e-4);
+    EXPECT_NEAR(variance_of_samples(1e-3, 0.16), 1e-3 * 0.16, 2e-5);  // the mean itself where small
+    double chance = 0.0;
+    constexpr int steps = 20000;  // of the distribution of a normal variable, variance 0.5
+    for (int i = 0; i < steps; ++i) {
+        const double z = 12.0 * (i + 0.5) / steps - 6.0;
+        const double q = 0.5 * z * z;
+        chance +=
+            12.0 / steps * std::exp(-0.5 * z * z) / std::sqrt(2.0 * 3.14159265) * q / (q + 0.16);
+    }
+    EXPECT_NEAR(variance_of_samples(chance, 0.16), 0.5, 1e-3);
+}
+
 TEST(KeptLight, IsBelievedAsFarAsTheLevelsBearItOut) {
     ZoneLevels levels(1);
     std::vector<ZoneFlux> zones(1);
