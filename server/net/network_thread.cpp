@@ -88,6 +88,7 @@ void NetworkThread::run() {
             spdlog::error("the network service has failed");
             break;
         }
+        mask_check_.between_rounds();
         if (stopping_ && !said_goodbye_) {
             said_goodbye_ = true;
             end = Clock::now() + kGoodbye;
@@ -99,6 +100,15 @@ void NetworkThread::run() {
     const std::lock_guard lock(context_mutex_);
     lws_context_destroy(context_);
     context_ = nullptr;
+}
+
+/// Closes a viewer's connection that breaks RFC 6455.
+void NetworkThread::refuse_frames(lws* connection, std::string_view reason) {
+    const auto viewer = viewers_.find(connection);
+    if (viewer != viewers_.end()) {
+        spdlog::warn("closed a connection of {}: {}", viewer->second->peer(), reason);
+        viewer->second->close(CloseCode::protocol_error, reason);
+    }
 }
 
 void NetworkThread::recheck_passes() {
@@ -176,6 +186,7 @@ std::optional<v1::Role> NetworkThread::role_of(lws* connection, std::string_view
 void NetworkThread::remove_connection(lws* connection) {
     uploads_.forget(connection);
     transfers_.erase(connection);
+    mask_check_.forget(connection);
     viewers_.erase(connection);
     const auto found = connections_.find(connection);
     if (found != connections_.end()) {
@@ -215,8 +226,15 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
         case LWS_CALLBACK_ESTABLISHED:
             viewers_[connection] =
                 std::make_unique<ViewerConnection>(connection, state_, peer_of(connection));
+            mask_check_.add(connection);
             return 0;
+        case LWS_CALLBACK_RAW_RX_FILE:
+            return mask_check_.on_watch(connection) ? 0 : -1;
+        case LWS_CALLBACK_RECEIVE:
+            mask_check_.on_receive(connection);
+            break;
         case LWS_CALLBACK_CLOSED:
+            mask_check_.forget(connection);
             viewers_.erase(connection);
             return 0;
         default:

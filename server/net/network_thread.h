@@ -16,6 +16,7 @@
 #include "net/encoded_files.h"
 #include "net/http_transfer.h"
 #include "net/http_uploads.h"
+#include "net/mask_check.h"
 #include "net/network_state.h"
 #include "net/tls_certificate.h"
 #include "net/viewer_connection.h"
@@ -71,6 +72,7 @@ class NetworkThread {
     int on_http_writable(lws* connection);
     int on_viewer_event(ViewerConnection& viewer, int reason, void* in, std::size_t size);
     int end_transfer(lws* connection);
+    void refuse_frames(lws* connection, std::string_view reason);
 
     NetworkState& state_;
     const EncodedFiles encoded_files_{client_files()};
@@ -91,6 +93,8 @@ class NetworkThread {
     std::map<lws*, std::unique_ptr<ViewerConnection>> viewers_;
     std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
     HttpUploads uploads_;
+    MaskCheck mask_check_{
+        [this](lws* connection, std::string_view reason) { refuse_frames(connection, reason); }};
     bool said_goodbye_ = false;
 };
 

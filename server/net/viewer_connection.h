@@ -46,6 +46,8 @@ class ViewerConnection {
     /// Closes once what waits is written.
     void close(CloseCode code, std::string_view reason);
 
+    [[nodiscard]] const std::string& peer() const { return peer_; }
+
   private:
     bool write_piece();
     void set_timer();

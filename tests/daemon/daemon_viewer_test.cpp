@@ -227,6 +227,17 @@ TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
     }
 }
 
+TEST_F(ViewersTest, WhoDoesNotMaskHisFramesIsSentAway) {
+    RawClient client(daemon_->port());
+    ASSERT_TRUE(has(client.upgrade(), " 101 "));
+    const std::string hello = R"({"id":1,"hello":{"protocol":"1.0"}})";
+    client.send("\x81" + std::string(1, static_cast<char>(hello.size())) + hello);
+    const auto answer = client.read_frame();
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(answer->close_code(), 1002) << answer->payload;
+    EXPECT_TRUE(client.closed());
+}
+
 TEST_F(ViewersTest, DepthsGoToWhoAsksForThemAndToNobodyElse) {
     JsonViewer asks(daemon_->port());
     JsonViewer other(daemon_->port());

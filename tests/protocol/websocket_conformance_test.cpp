@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cases of RFC 6455 over a raw socket: what must be understood, and what must end the connection.
-// Two rules are libwebsockets' to keep and 4.1 does not: it accepts frames without a mask (5.1),
-// and of pings that come at once answers the first, not the last (5.5.3).
+// One rule is libwebsockets' to keep and 4.1 does not: of pings that come at once it answers the
+// first, not the last (5.5.3). Frames without a mask are in mask_check_test.cpp.
 #include <gtest/gtest.h>
 
 #include <string>
