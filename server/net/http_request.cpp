@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "net/address_count.h"
 #include "net/network_context.h"
+#include "net/peer_name.h"
 
 namespace raybundle {
 namespace {
@@ -45,6 +47,11 @@ bool has_large_headers(lws* connection) {
         bytes += static_cast<std::size_t>(std::max(length, 0));
     }
     return bytes > kMaxHeaderBytes;
+}
+
+std::string request_peer(lws* connection, const std::vector<std::string>& trusted_proxies) {
+    return peer_name(peer_address(lws_get_socket_fd(connection)).text,
+                     request_header(connection, WSI_TOKEN_X_FORWARDED_FOR), trusted_proxies);
 }
 
 HttpResponse large_headers_response() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "net/http_response.h"
 
@@ -23,6 +24,9 @@ std::string request_header(lws* connection, int token);
 /// Whether the headers that libwebsockets knows by name, the cookie among them, have more than
 /// kMaxHeaderBytes.
 bool has_large_headers(lws* connection);
+
+/// Who sent a request, see peer_name().
+std::string request_peer(lws* connection, const std::vector<std::string>& trusted_proxies);
 
 /// 431, which says so.
 HttpResponse large_headers_response();

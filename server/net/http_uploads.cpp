@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/http_uploads.h"
 
+#include <fmt/core.h>
+#include <libwebsockets.h>
+
 #include <string>
 
 #include "net/scene_name.h"
@@ -18,6 +21,7 @@ std::optional<HttpResponse> HttpUploads::begin(lws* connection, const UploadRequ
         return text_response({507, "The server cannot store it"});
     }
     running_[connection] = {std::move(upload), *request.length};
+    lws_set_timer_usecs(connection, static_cast<lws_usec_t>(1e6 * state_.settings.max_upload_s));
     return std::nullopt;
 }
 
@@ -33,6 +37,18 @@ std::optional<HttpResponse> HttpUploads::write(lws* connection, std::string_view
     }
     running_.erase(found);
     return text_response({507, "The server cannot store it"});
+}
+
+std::optional<HttpResponse> HttpUploads::expire(lws* connection) {
+    const auto found = running_.find(connection);
+    if (found == running_.end() || found->second.missing == 0) {
+        return std::nullopt;
+    }
+    const std::uint64_t missing = found->second.missing;
+    running_.erase(found);
+    return text_response({408, fmt::format("The upload took longer than {} s (maxUploadSeconds); "
+                                           "{} bytes were missing",
+                                           state_.settings.max_upload_s, missing)});
 }
 
 void HttpUploads::complete(lws* connection) {

@@ -32,6 +32,9 @@ class HttpUploads {
     /// stored, the answer that says so.
     std::optional<HttpResponse> write(lws* connection, std::string_view bytes);
 
+    /// The time for the body is over: the answer that says so, or nothing where it is complete.
+    std::optional<HttpResponse> expire(lws* connection);
+
     /// The body is complete.
     void complete(lws* connection);
 

@@ -7,23 +7,14 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
-#include <optional>
 #include <string_view>
 
-#include "net/clock.h"
 #include "net/http_request.h"
 #include "net/network_context.h"
 #include "net/peer_name.h"
-#include "net/upgrade_check.h"
 
 namespace raybundle {
 namespace {
-
-bool is_http_event(int reason) {
-    return reason == LWS_CALLBACK_HTTP || reason == LWS_CALLBACK_HTTP_BODY ||
-           reason == LWS_CALLBACK_HTTP_BODY_COMPLETION || reason == LWS_CALLBACK_HTTP_WRITEABLE ||
-           reason == LWS_CALLBACK_CLOSED_HTTP || reason == LWS_CALLBACK_HTTP_CONFIRM_UPGRADE;
-}
 
 bool is_viewer_event(int reason) {
     return reason == LWS_CALLBACK_RECEIVE || reason == LWS_CALLBACK_RECEIVE_PONG ||
@@ -138,7 +129,7 @@ void NetworkThread::install_certificate() {
 
 void NetworkThread::on_woken() {
     install_certificate();
-    answer_uploads();
+    http_.answer_uploads();
     const bool recheck = recheck_passes_.exchange(false);
     for (const auto& [connection, viewer] : viewers_) {
         viewer->next_slice();
@@ -167,25 +158,8 @@ void NetworkThread::add_connection(lws* connection) {
     connections_.emplace(connection, std::move(key));
 }
 
-std::string NetworkThread::peer_of(lws* connection) const {
-    return peer_name(peer_address(lws_get_socket_fd(connection)).text,
-                     request_header(connection, WSI_TOKEN_X_FORWARDED_FOR),
-                     state_.settings.trusted_proxies);
-}
-
-/// Role of the request's token; a wrong one is noted.
-std::optional<v1::Role> NetworkThread::role_of(lws* connection, std::string_view where) {
-    const std::string token = request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION);
-    const auto role = state_.gate.role_of(token);
-    if (!role && !token.empty()) {
-        state_.gate.note_wrong_token(peer_of(connection), where, server_time_ms());
-    }
-    return role;
-}
-
 void NetworkThread::remove_connection(lws* connection) {
-    uploads_.forget(connection);
-    transfers_.erase(connection);
+    http_.forget(connection);
     mask_check_.forget(connection);
     viewers_.erase(connection);
     const auto found = connections_.find(connection);
@@ -219,13 +193,13 @@ int NetworkThread::on_network_event(lws* connection, int reason, void* in) {
 }
 
 int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t size) {
-    if (is_http_event(reason)) {
-        return on_http_event(connection, reason, in, size);
+    if (HttpService::is_event(reason)) {
+        return http_.on_event(connection, reason, in, size);
     }
     switch (reason) {
         case LWS_CALLBACK_ESTABLISHED:
-            viewers_[connection] =
-                std::make_unique<ViewerConnection>(connection, state_, peer_of(connection));
+            viewers_[connection] = std::make_unique<ViewerConnection>(
+                connection, state_, request_peer(connection, state_.settings.trusted_proxies));
             mask_check_.add(connection);
             return 0;
         case LWS_CALLBACK_RAW_RX_FILE:
@@ -241,32 +215,11 @@ int NetworkThread::on_event(lws* connection, int reason, void* in, std::size_t s
             break;
     }
     const auto viewer = viewers_.find(connection);
-    return viewer != viewers_.end() && is_viewer_event(reason)
-               ? on_viewer_event(*viewer->second, reason, in, size)
-               : on_network_event(connection, reason, in);
-}
-
-int NetworkThread::on_http_event(lws* connection, int reason, void* in, std::size_t size) {
-    switch (reason) {
-        case LWS_CALLBACK_HTTP:
-            return on_http_request(connection);
-        case LWS_CALLBACK_HTTP_WRITEABLE:
-            return on_http_writable(connection);
-        case LWS_CALLBACK_HTTP_BODY:
-            if (auto problem = uploads_.write(connection, {static_cast<const char*>(in), size})) {
-                return answer(connection, std::move(*problem));
-            }
-            return 0;
-        case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-            uploads_.complete(connection);
-            return 0;
-        case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-            return confirm_upgrade(connection) ? 0 : -1;
-        default:
-            uploads_.forget(connection);
-            transfers_.erase(connection);
-            return 0;
+    if (viewer != viewers_.end() && is_viewer_event(reason)) {
+        return on_viewer_event(*viewer->second, reason, in, size);
     }
+    return reason == LWS_CALLBACK_TIMER ? http_.on_timer(connection)
+                                        : on_network_event(connection, reason, in);
 }
 
 int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* in,
@@ -285,98 +238,6 @@ int NetworkThread::on_viewer_event(ViewerConnection& viewer, int reason, void* i
         default:
             return 0;
     }
-}
-
-/// Refuses with an HTTP answer where the handshake is not for us.
-bool NetworkThread::confirm_upgrade(lws* connection) {
-    const UpgradeRequest request{request_header(connection, WSI_TOKEN_GET_URI),
-                                 request_header(connection, WSI_TOKEN_ORIGIN),
-                                 request_header(connection, WSI_TOKEN_HOST),
-                                 request_header(connection, WSI_TOKEN_VERSION),
-                                 request_header(connection, WSI_TOKEN_KEY),
-                                 request_header(connection, WSI_TOKEN_PROTOCOL)};
-    auto refusal = has_large_headers(connection)
-                       ? std::optional(large_headers_response())
-                       : refuse_upgrade(request, state_.gate.access()->origins);
-    if (!refusal) {
-        return true;
-    }
-    ++state_.counters.connections_refused;
-    spdlog::warn("refused a WebSocket connection of {} to {} from origin {}: {}",
-                 peer_of(connection), request.path, request.origin, refusal->status);
-    write_refusal(connection, *refusal);
-    return false;
-}
-
-int NetworkThread::on_http_request(lws* connection) {
-    const auto [method, path] = request_line(connection);
-    if (has_large_headers(connection)) {
-        return answer(connection, large_headers_response());
-    }
-    if (method == HttpMethod::put) {
-        return on_upload(connection, path);
-    }
-    HttpContent content{client_files(), state_.ready, {}, true, &state_.snapshots};
-    content.encoded = &encoded_files_;
-    content.editable = state_.editable();
-    content.accept_encoding = request_header(connection, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
-    content.if_none_match = request_header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);
-    if (path == "/metrics") {
-        content.metrics_allowed = role_of(connection, path).has_value();
-    }
-    if (path == "/metrics" && content.metrics_allowed) {
-        content.metrics = state_.metrics();
-    }
-    return answer(connection, http_response(method, path, content));
-}
-
-int NetworkThread::answer(lws* connection, HttpResponse response) {
-    auto& transfer = transfers_[connection];
-    transfer = std::make_unique<HttpTransfer>(std::move(response));
-    if (!transfer->begin(connection)) {
-        return -1;
-    }
-    return transfer->done() ? end_transfer(connection) : 0;
-}
-
-int NetworkThread::on_upload(lws* connection, const std::string& path) {
-    const UploadRequest request{
-        path, request_header(connection, WSI_TOKEN_ORIGIN),
-        request_header(connection, WSI_TOKEN_HOST), role_of(connection, path),
-        parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
-    auto refusal = uploads_.begin(connection, request);
-    return refusal ? answer(connection, std::move(*refusal)) : 0;
-}
-
-void NetworkThread::answer_uploads() {
-    for (auto& [connection, response] : uploads_.finished()) {
-        if (answer(connection, std::move(response)) != 0) {
-            lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
-        }
-    }
-}
-
-int NetworkThread::on_http_writable(lws* connection) {
-    const auto transfer = transfers_.find(connection);
-    if (transfer == transfers_.end()) {
-        return 0;
-    }
-    if (!transfer->second->write(connection)) {
-        return -1;
-    }
-    return transfer->second->done() ? end_transfer(connection) : 0;
-}
-
-/// The connection stays open for the next request where the client wants that, unless more is on
-/// its way than anybody wants to read.
-int NetworkThread::end_transfer(lws* connection) {
-    constexpr int kTooLarge = 413;
-    const bool close = transfers_.at(connection)->status() == kTooLarge;
-    transfers_.erase(connection);
-    if (close) {
-        return -1;
-    }
-    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
 }
 
 }  // namespace raybundle

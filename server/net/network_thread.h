@@ -6,16 +6,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 
-#include "embedded_file.h"
 #include "net/address_count.h"
-#include "net/encoded_files.h"
-#include "net/http_transfer.h"
-#include "net/http_uploads.h"
+#include "net/http_service.h"
 #include "net/mask_check.h"
 #include "net/network_state.h"
 #include "net/tls_certificate.h"
@@ -30,8 +26,7 @@ namespace raybundle {
 /// Owns the libwebsockets context and the only thread that touches it.
 class NetworkThread {
   public:
-    explicit NetworkThread(NetworkState& state)
-        : state_(state), uploads_(state, [this] { wake(); }) {}
+    explicit NetworkThread(NetworkState& state) : state_(state), http_(state, [this] { wake(); }) {}
     ~NetworkThread() { stop(); }
     NetworkThread(const NetworkThread&) = delete;
     NetworkThread& operator=(const NetworkThread&) = delete;
@@ -61,21 +56,10 @@ class NetworkThread {
     [[nodiscard]] bool accepts(int socket);
     void add_connection(lws* connection);
     void remove_connection(lws* connection);
-    [[nodiscard]] std::string peer_of(lws* connection) const;
-    std::optional<v1::Role> role_of(lws* connection, std::string_view where);
-    bool confirm_upgrade(lws* connection);
-    int on_http_request(lws* connection);
-    int on_http_event(lws* connection, int reason, void* in, std::size_t size);
-    int on_upload(lws* connection, const std::string& path);
-    int answer(lws* connection, HttpResponse response);
-    void answer_uploads();
-    int on_http_writable(lws* connection);
     int on_viewer_event(ViewerConnection& viewer, int reason, void* in, std::size_t size);
-    int end_transfer(lws* connection);
     void refuse_frames(lws* connection, std::string_view reason);
 
     NetworkState& state_;
-    const EncodedFiles encoded_files_{client_files()};
     std::thread thread_;
     std::mutex context_mutex_;  ///< guards context_ against wake() while it is destroyed
     lws_context* context_ = nullptr;
@@ -91,8 +75,7 @@ class NetworkThread {
     std::map<lws*, std::string> connections_;  ///< and the address each one counts for
     AddressCount addresses_;
     std::map<lws*, std::unique_ptr<ViewerConnection>> viewers_;
-    std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
-    HttpUploads uploads_;
+    HttpService http_;
     MaskCheck mask_check_{
         [this](lws* connection, std::string_view reason) { refuse_frames(connection, reason); }};
     bool said_goodbye_ = false;

@@ -26,6 +26,7 @@ struct ServerSettings {
     std::size_t max_queued_bytes = 4U << 20U;  ///< messages waiting for one viewer, frames excepted
     double max_messages_per_second = 1000.0;   ///< of one viewer, on average
     std::uint32_t max_upload_bytes = 0;        ///< of PUT /scenes/NAME.glb; 0: no uploads
+    double max_upload_s = 600.0;               ///< for the body of one
     std::size_t max_snapshot_bytes = 1U << 30U;  ///< of all snapshots that are kept
     std::vector<std::string> trusted_proxies;    ///< addresses whose X-Forwarded-For is believed
     Access access;

@@ -85,6 +85,7 @@ struct Options {
     bool watch = false;
     std::string scenes;  // folder
     int max_upload_megabytes = 256;
+    double max_upload_seconds = 600.0;
 
     // token
     std::string token_name;

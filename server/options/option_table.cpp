@@ -107,6 +107,8 @@ constexpr std::array serve_table{
     ServeOption{"scenes", "Folder of .gltf and .glb files that editors may open", &Options::scenes},
     ServeOption{"maxUploadMegabytes", "Of one scene that an editor adds to it (0: none may be)",
                 &Options::max_upload_megabytes, 0, 4000},
+    ServeOption{"maxUploadSeconds", "Until all bytes of an upload have come",
+                &Options::max_upload_seconds, 0.1, 86400},
     ServeOption{"logFormat", "Log lines as text or as one JSON object each", &Options::log_format,
                 0, 0, log_format_problem},
     ServeOption{"patchSize", "Target edge of the patches, m (0: about 25 000 patches)",

@@ -53,6 +53,7 @@ ServerSettings server_settings(const Options& options) {
         settings.max_upload_bytes =
             static_cast<std::uint32_t>(options.max_upload_megabytes) * bytes_per_megabyte;
     }
+    settings.max_upload_s = options.max_upload_seconds;
     // Without tokens, who reaches the server may do everything: on this machine a browser can be
     // made to by any page.
     const bool no_foreign_names = options.tokens.empty() && is_loopback(host);

@@ -66,8 +66,12 @@ void RawClient::send(std::string_view bytes) {
 }
 
 bool RawClient::fill() {
+    return fill(kTimeoutMs);
+}
+
+bool RawClient::fill(int timeout_ms) {
     pollfd ready{socket_, POLLIN, 0};
-    if (poll(&ready, 1, kTimeoutMs) <= 0) {
+    if (poll(&ready, 1, timeout_ms) <= 0) {
         return false;
     }
     std::array<char, 65536> bytes{};
@@ -103,6 +107,11 @@ std::string RawClient::read_until(std::string_view end) {
 std::string RawClient::read_all() {
     while (fill()) {
     }
+    return *take(buffer_.size());
+}
+
+std::string RawClient::read_for(std::chrono::milliseconds time) {
+    fill(static_cast<int>(time.count()));
     return *take(buffer_.size());
 }
 

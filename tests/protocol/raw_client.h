@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ class RawClient {
     /// Everything until the server closes.
     std::string read_all();
 
+    /// What comes within a time; empty where nothing does.
+    std::string read_for(std::chrono::milliseconds time);
+
     /// WebSocket handshake; returns the answer's head. `headers` are added to it.
     std::string upgrade(std::string_view path = "/ws",
                         std::string_view headers = "Sec-WebSocket-Protocol: raybundle.v1\r\n");
@@ -62,6 +66,7 @@ class RawClient {
 
   private:
     bool fill();  ///< reads more into buffer_; false: closed or time is up
+    bool fill(int timeout_ms);
     std::optional<std::string> take(std::size_t size);
 
     int socket_ = -1;

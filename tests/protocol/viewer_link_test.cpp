@@ -8,7 +8,7 @@
 namespace raybundle {
 namespace {
 
-constexpr FrameDemand kDemand{true, false, 640.0 * 360.0};
+constexpr FrameDemand kLinkDemand{true, false, 640.0 * 360.0};
 
 v1::ServerMessage ok(std::uint32_t id) {
     v1::ServerMessage message;
@@ -55,16 +55,16 @@ TEST(ViewerLink, TheNewestFrameWins) {
 
 TEST(ViewerLink, ASilentViewerGetsOneFrame) {
     ViewerLink link(1, 1000, {});
-    EXPECT_TRUE(link.advise(kDemand, 0).send);
+    EXPECT_TRUE(link.advise(kLinkDemand, 0).send);
     link.send_frame(frame(1), {1});
-    EXPECT_FALSE(link.advise(kDemand, 1).send);  // it still waits
-    link.take(2);                                // ping
+    EXPECT_FALSE(link.advise(kLinkDemand, 1).send);  // it still waits
+    link.take(2);                                    // ping
     link.take(2);
-    EXPECT_FALSE(link.advise(kDemand, 1e6).send);  // it has not been acknowledged
+    EXPECT_FALSE(link.advise(kLinkDemand, 1e6).send);  // it has not been acknowledged
     v1::Ack ack;
     ack.set_frame(1);
     link.on_ack(ack, 1e6);
-    EXPECT_TRUE(link.advise(kDemand, 1e6).send);
+    EXPECT_TRUE(link.advise(kLinkDemand, 1e6).send);
 }
 
 TEST(ViewerLink, APingAfterTheWelcomeTellsWhetherAnybodyIsThere) {
@@ -95,7 +95,7 @@ TEST(ViewerLink, OverflowClosesInsteadOfGrowing) {
     EXPECT_TRUE(link.closing());
     EXPECT_FALSE(link.take(0).has_value());
     EXPECT_EQ(link.close_due()->code, CloseCode::policy_violation);
-    EXPECT_FALSE(link.advise(kDemand, 0).send);
+    EXPECT_FALSE(link.advise(kLinkDemand, 0).send);
 }
 
 TEST(ViewerLink, ClosesAfterWhatWaitsIsWritten) {
