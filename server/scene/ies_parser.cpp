@@ -47,12 +47,18 @@ std::string other_format(const std::string& file, const std::string& text) {
     if (compact(text.substr(0, 200)).starts_with("<")) {
         return "this is XML or HTML, not the text of LM-63";
     }
-    // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance.
+    // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance,
+    // angles in a plane.
     IesReader reader(file, text);
-    reader.next_line();
-    for (int i = 0; i < 6; ++i) {
+    while (!reader.at_end() && compact(reader.next_line()).empty()) {
+    }
+    for (int numbers = 0; numbers < 5;) {
         const std::string line = compact(reader.next_line());
-        if (line.empty() || line.find_first_not_of("0123456789.,") != std::string::npos) {
+        if (!line.empty() && line.find_first_not_of("0123456789.,+-E") != std::string::npos) {
+            return "";
+        }
+        numbers += line.empty() ? 0 : 1;
+        if (reader.at_end()) {
             return "";
         }
     }

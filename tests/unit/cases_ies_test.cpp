@@ -223,6 +223,14 @@ TEST(CasesIes, AnglesOfFloodlightsMayEndWithTheBeam) {
 TEST(CasesIes, OtherFormatsAreNamed) {
     EXPECT_EQ(error_of("Maker\r\n1\r\n0\r\n24\r\n15\r\n19\r\n5,0\r\nreport\r\n"),
               "line 1: this is EULUMDAT, not LM-63");
+    // Latin-1, blanks, signs, exponents, CR alone, lines ended twice, lines left empty.
+    for (const char* eulumdat :
+         {"H\xe4user GmbH \xb0\n 1 \n0\n24\n15\n37\n2.5\nr\n",
+          "Maker\r\r\n+1\r\r\n 0\r\r\n24,0\r\r\n1,5E+01\r\r\n37\r\r\n2.5\r\r\nr\r\r\n",
+          "\n\nMaker\r3\r4\r1\r0\r19\r\rreport 5\r", "\xEF\xBB\xBFMaker\n2\n1\n36\n0\n91\n1\n"}) {
+        EXPECT_EQ(error_of(eulumdat), "line 1: this is EULUMDAT, not LM-63") << eulumdat;
+    }
+    EXPECT_EQ(error_of("Maker\n1\n2\n3\n"), "line 5: there is no line that begins with TILT=");
     EXPECT_EQ(error_of("<!DOCTYPE html><title>404</title>"),
               "line 1: this is XML or HTML, not the text of LM-63");
     EXPECT_EQ(error_of("\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<IESTM33-18/>"),
