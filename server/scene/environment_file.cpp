@@ -9,6 +9,7 @@
 
 #include "scene/environment_map.h"
 #include "scene/gltf_loader.h"
+#include "scene/other_file.h"
 #include "scene/picture_file.h"
 
 namespace raybundle {
@@ -146,7 +147,9 @@ PictureFile read_picture(const std::string& file, std::span<const std::uint8_t> 
     if (has_magic(bytes, "\x76\x2f\x31\x01")) {
         return read_openexr_picture(file, bytes);
     }
-    fail(file, "is neither a Radiance HDR nor an OpenEXR image");
+    const std::string kind = other_file_kind(bytes);
+    fail(file,
+         "is neither a Radiance HDR nor an OpenEXR image" + (kind.empty() ? "" : ": " + kind));
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <unordered_set>
 
 #include "scene/gltf_loader.h"
+#include "scene/other_file.h"
 
 namespace raybundle {
 namespace {
@@ -38,7 +40,8 @@ std::string without_exception_id(const std::string& what) {
     return end == std::string::npos ? what : what.substr(end + 2);
 }
 
-/// Bounds depth and tokens before a tree is built. The parser's own callback cannot serve for this:
+/// Bounds depth and tokens before a tree is built, and refuses keys that are given twice, of which
+/// the tree would have the last. The parser's own callback cannot serve for this:
 /// with one it looks through the whole array at the end of each of its objects.
 class JsonBounds : public nlohmann::json_sax<Json> {
   public:
@@ -53,8 +56,17 @@ class JsonBounds : public nlohmann::json_sax<Json> {
     }
     bool string(string_t& /*value*/) override { return token(); }
     bool binary(binary_t& /*value*/) override { return token(); }
-    bool key(string_t& /*key*/) override { return token(); }
-    bool start_object(std::size_t /*elements*/) override { return open(); }
+    bool key(string_t& key) override {
+        if (!keys_[static_cast<std::size_t>(depth_)].insert(key).second) {
+            throw SceneError(path_, plain_message(key), "is given twice in one object of the JSON");
+        }
+        return token();
+    }
+    bool start_object(std::size_t /*elements*/) override {
+        open();
+        keys_[static_cast<std::size_t>(depth_)].clear();
+        return true;
+    }
     bool start_array(std::size_t /*elements*/) override { return open(); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
@@ -80,6 +92,7 @@ class JsonBounds : public nlohmann::json_sax<Json> {
     bool open() {
         token();
         ++depth_;
+        keys_.resize(std::max(keys_.size(), static_cast<std::size_t>(depth_) + 1));
         return true;
     }
 
@@ -91,9 +104,13 @@ class JsonBounds : public nlohmann::json_sax<Json> {
     const std::string& path_;
     std::size_t tokens_ = 0;
     int depth_ = 0;
+    std::vector<std::unordered_set<std::string>> keys_;  ///< so far, of the object at each depth
 };
 
 Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
+    if (const std::string kind = other_file_kind(text); !kind.empty()) {
+        throw SceneError(path, "", "not glTF: " + kind);
+    }
     JsonBounds bounds(path);
     static_cast<void>(Json::sax_parse(text.begin(), text.end(), &bounds));
     try {
@@ -103,7 +120,8 @@ Json parse_json(const std::string& path, std::span<const std::uint8_t> text) {
         }
         return json;
     } catch (const Json::exception& error) {
-        throw SceneError(path, "", "not glTF: " + without_exception_id(error.what()));
+        throw SceneError(path, "",
+                         "not glTF: " + plain_message(without_exception_id(error.what())));
     }
 }
 

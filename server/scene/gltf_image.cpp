@@ -13,6 +13,7 @@
 
 #include "scene/gltf_loader.h"
 #include "scene/gltf_uri.h"
+#include "scene/other_file.h"
 
 namespace raybundle {
 namespace {
@@ -43,7 +44,8 @@ const char* format_of(std::span<const std::uint8_t> bytes) {
     if (starts_with(bytes, "\xabKTX 2")) {
         document.fail(path, "KTX2 images (KHR_texture_basisu) are not supported");
     }
-    document.fail(path, "is not a PNG, JPEG or WebP image");
+    const std::string kind = other_file_kind(bytes);
+    document.fail(path, "is not a PNG, JPEG or WebP image" + (kind.empty() ? "" : ": " + kind));
 }
 
 /// Grey, grey and alpha, RGB or RGBA to RGBA.
@@ -100,7 +102,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const GltfDocument& document, const
     hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&reader));
     auto input = OIIO::ImageInput::open(std::string("image.") + format, &hints);
     if (!input) {
-        document.fail(path, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+        document.fail(path, fmt::format("cannot be decoded: {}", plain_message(OIIO::geterror())));
     }
     check_spec(document, path, input->spec());
     return input;
@@ -194,7 +196,7 @@ DecodedImage decode_image(const GltfDocument& document, int image) {
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(spec.width) *
                                      static_cast<std::size_t>(spec.height) * channels);
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data())) {
-        document.fail(path, fmt::format("cannot be decoded: {}", input->geterror()));
+        document.fail(path, fmt::format("cannot be decoded: {}", plain_message(input->geterror())));
     }
     return {spec.width, spec.height, expand_to_rgba(pixels, channels)};
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -30,16 +31,25 @@ constexpr std::array<std::uint8_t, 256> base64_values() {
     return values;
 }
 
-/// False if the text is not base64.
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
+}
+
+/// False if the text is not base64. Lines may be wrapped, as in mail.
 bool decode_base64(std::string_view text, std::vector<std::uint8_t>& bytes) {
     static constexpr std::array<std::uint8_t, 256> values = base64_values();
-    while (!text.empty() && text.back() == '=') {
+    while (!text.empty() && (text.back() == '=' || is_blank(text.back()))) {
         text.remove_suffix(1);
     }
+    std::size_t digits = 0;
     bytes.reserve(text.size() / 4 * 3 + 3);
     std::uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
+        if (is_blank(c)) {
+            continue;
+        }
+        ++digits;
         const std::uint8_t value = values[static_cast<std::uint8_t>(c)];
         if (value == not_base64) {
             return false;
@@ -51,7 +61,25 @@ bool decode_base64(std::string_view text, std::vector<std::uint8_t>& bytes) {
             bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(count)));
         }
     }
-    return text.size() % 4 != 1;
+    return digits % 4 != 1;
+}
+
+/// Whether "data:image/png;base64" names the encoding, in any case, which a browser reads too.
+bool names_base64(std::string_view header) {
+    while (!header.empty()) {
+        const std::size_t end = std::min(header.find(';'), header.size());
+        std::string name;
+        for (const char c : header.substr(0, end)) {
+            if (!is_blank(c)) {
+                name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            }
+        }
+        if (name == "base64") {
+            return true;
+        }
+        header.remove_prefix(std::min(end + 1, header.size()));
+    }
+    return false;
 }
 
 std::vector<std::uint8_t> decode_data_uri(const std::string& scene_file,
@@ -62,7 +90,7 @@ std::vector<std::uint8_t> decode_data_uri(const std::string& scene_file,
     }
     const std::string_view header = uri.substr(0, comma);
     const std::string_view body = uri.substr(comma + 1);
-    if (!header.ends_with(";base64")) {
+    if (!names_base64(header)) {
         const std::string plain = percent_decoded(body);
         return {plain.begin(), plain.end()};
     }

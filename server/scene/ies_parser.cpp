@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "scene/gltf_loader.h"
 #include "scene/ies_profile.h"
 #include "scene/ies_text.h"
+#include "scene/other_file.h"
 
 namespace raybundle {
 namespace {
@@ -46,6 +48,11 @@ int year_of(std::string_view line) {
 std::string other_format(const std::string& file, const std::string& text) {
     if (compact(text.substr(0, 200)).starts_with("<")) {
         return "this is XML or HTML, not the text of LM-63";
+    }
+    const std::string kind =
+        other_file_kind({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    if (!kind.empty()) {
+        return kind;
     }
     // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance,
     // angles in a plane.

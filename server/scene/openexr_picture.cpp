@@ -12,6 +12,7 @@
 
 #include "scene/colour_space.h"
 #include "scene/gltf_loader.h"
+#include "scene/other_file.h"
 #include "scene/picture_file.h"
 
 namespace raybundle {
@@ -124,7 +125,7 @@ PictureFile read_openexr_picture(const std::string& file, std::span<const std::u
     hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
     const auto input = OIIO::ImageInput::open("image.openexr", &hints);
     if (!input) {
-        fail_picture(file, fmt::format("cannot be decoded: {}", OIIO::geterror()));
+        fail_picture(file, fmt::format("cannot be decoded: {}", plain_message(OIIO::geterror())));
     }
     const OIIO::ImageSpec& spec = input->spec();
     check_openexr(file, spec);
@@ -136,7 +137,7 @@ PictureFile read_openexr_picture(const std::string& file, std::span<const std::u
                               static_cast<std::size_t>(spec.height) *
                               static_cast<std::size_t>(channels));
     if (!input->read_image(0, 0, first, first + channels, OIIO::TypeDesc::FLOAT, values.data())) {
-        fail_picture(file, fmt::format("cannot be decoded: {}", input->geterror()));
+        fail_picture(file, fmt::format("cannot be decoded: {}", plain_message(input->geterror())));
     }
     PictureFile image = placed(spec, values, first, channels, colours);
     image.largest = spec.channelformat(first) == OIIO::TypeDesc::HALF ? largest_half : 0.0F;
