@@ -62,10 +62,12 @@ int run_inspect(const Options& options) {
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
     EffectsPlan plan =
         plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
-    try {
-        measure_effects(options, loaded.scene, loaded.mesh, plan);
-    } catch (const GpuError& error) {
-        spdlog::warn("the costs of the effects are not measured: {}", error.what());
+    if (options.costs) {
+        try {
+            measure_effects(options, loaded.scene, loaded.mesh, plan);
+        } catch (const GpuError& error) {
+            spdlog::warn("the costs of the effects are not measured: {}", error.what());
+        }
     }
     if (options.json_to_stdout) {
         nlohmann::json json = scene_report_json(loaded.scene, report);

@@ -273,6 +273,8 @@ void define_options(CLI::App& app, Options& options) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.json_to_stdout, "Print JSON");
+            command->add_flag("--costs", options.costs,
+                              "Measure what each effect costs on this machine, in some seconds");
             command
                 ->add_option("--error", options.error,
                              "Plan for pictures of this relative error: effects that cannot be a "

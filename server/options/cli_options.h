@@ -116,6 +116,7 @@ struct Options {
     bool knobs = false;
 
     // inspect
+    bool costs = false;
     std::string contact_sheet;  // file
     std::string effect;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What effects cost, measured for a viewer while the scene is served.
+// What effects cost, measured for a viewer while the scene is served, and by `inspect --costs`.
 #include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
 
 #include "daemon.h"
 #include "json_viewer.h"
@@ -45,6 +48,31 @@ TEST(EffectCosts, DoNotHoldUpTheEnd) {
     viewer.send({{"id", 6}, {"measureEffects", Json::object()}});
     EXPECT_EQ(viewer.answer_to(6).at("error").at("code"), "RESOURCE_EXHAUSTED");
     EXPECT_EQ(daemon.end(), 0);
+}
+
+Json inspected(const std::string& arguments) {
+    const std::string command = std::string(RAYBUNDLE_EXECUTABLE) +
+                                " inspect --json --log-level off '" +
+                                scene_file("effects/overcast_sky.gltf") + "' " + arguments;
+    std::FILE* const pipe = popen(command.c_str(), "r");
+    std::string text;
+    std::array<char, 4096> part{};
+    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe)) {
+        text.append(part.data(), count);
+    }
+    EXPECT_EQ(pclose(pipe), 0);
+    return Json::parse(text, nullptr, false);
+}
+
+TEST(EffectCosts, AreMeasuredByInspectOnlyWhenAskedFor) {
+    for (const bool asked : {false, true}) {
+        const Json report = inspected(asked ? "--costs" : "");
+        ASSERT_TRUE(report.is_object());
+        for (const Json& effect : report.at("effects")) {
+            const bool measured = asked && effect.at("active").get<bool>();
+            EXPECT_EQ(effect.at("msPerIteration").is_null(), !measured) << effect;
+        }
+    }
 }
 
 }  // namespace
