@@ -148,6 +148,21 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
     describe_figures(loaded_figures(light), out);
 }
 
+/// Comes after all others.
+void describe_light(const SkyLight& light, v1::Scene* message) {
+    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
+    v1::Light* out = message->add_lights();
+    out->set_id(id);
+    out->set_name(light.image ? "surroundings" : "sky");
+    out->set_kind(light.image ? v1::Light::ENVIRONMENT : v1::Light::SKY);
+    out->set_intensity(luminance(light.intensity));
+    out->set_unit(light.in_lux ? v1::Light::LX : v1::Light::CD_PER_M2);
+    to_message(light.colour, out->mutable_colour());
+    out->set_on(light.on);
+    out->set_loaded_intensity(luminance(light.loaded));
+    to_message(light.loaded / luminance(light.loaded), out->mutable_loaded_colour());
+}
+
 void describe_effects(const Scene& scene, v1::Scene* message) {
     for (const Effect& effect : plan_effects(scene, 0).effects) {
         to_message(effect, message->add_effects());
@@ -163,6 +178,12 @@ v1::SetLight state_of_light(const Scene& scene, std::uint32_t id) {
         state.set_intensity(intensity_unit(light) * luminance(setting.intensity));
         state.set_on(setting.on);
         to_message(setting.colour, state.mutable_colour());
+        return state;
+    }
+    if (is_sky_light(scene, id)) {
+        state.set_intensity(luminance(scene.sky_light->intensity));
+        state.set_on(scene.sky_light->on);
+        to_message(scene.sky_light->colour, state.mutable_colour());
         return state;
     }
     const Light& light = scene.lights[id - 1];
@@ -198,8 +219,7 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
     const bool light = change.has_set_light();
     const std::string problem = light ? problem_of(scene, from_message(change.set_light()))
                                       : problem_of(scene, from_message(change.set_material()));
-    const std::size_t count =
-        light ? scene.lights.size() + scene.punctual_lights.size() : scene.materials.size();
+    const std::size_t count = light ? light_count(scene) : scene.materials.size();
     const bool known = id >= 1 && id <= count;
     return problem.empty()
                ? v1::Error()
@@ -272,6 +292,9 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
     }
     for (const PunctualLight& light : scene.punctual_lights) {
         describe_light(light, message);
+    }
+    if (scene.sky_light) {
+        describe_light(*scene.sky_light, message);
     }
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();

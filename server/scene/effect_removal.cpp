@@ -83,6 +83,7 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
     } else if (name == "sky" || name == "environment") {
         scene.sky_radiance = glm::vec3(0.0F);
         scene.environment.reset();
+        scene.sky_light.reset();
     } else {
         return false;
     }

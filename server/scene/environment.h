@@ -3,6 +3,8 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,12 +36,30 @@ class Environment {
     [[nodiscard]] virtual bool is_image() const = 0;
     /// Sources are drawn as discs in the picture; else shown() has them at its own resolution.
     [[nodiscard]] virtual bool draws_sources() const = 0;
+    /// Of an unobstructed horizontal plane by the sky without sources, lx; 0: not stated.
+    [[nodiscard]] virtual double illuminance() const { return 0.0; }
+    /// A copy with its sky and each source multiplied, relative to what it was made with; the
+    /// ground that both light follows.
+    [[nodiscard]] virtual std::shared_ptr<const Environment> dimmed(
+        const glm::dvec3& sky, std::span<const glm::dvec3> sources) const = 0;
 
   protected:
     Environment() = default;
     Environment(const Environment&) = default;
     Environment& operator=(const Environment&) = default;
 };
+
+/// What lines see that leave a scene, without what is a light of its own.
+struct Sky {
+    glm::vec3 uniform{0.0F};  ///< cd/m²
+    std::shared_ptr<const Environment> environment;
+
+    /// Radiance, cd/m².
+    [[nodiscard]] glm::dvec3 towards(const glm::dvec3& direction) const;
+    /// Over all directions, cd/m².
+    [[nodiscard]] glm::dvec3 mean() const;
+};
+Sky sky_of(const Scene& scene);
 
 /// Radiance of lines that leave the scene, cd/m²: the uniform sky and the environment, without what
 /// is a light of its own.
@@ -48,7 +68,12 @@ glm::dvec3 sky_towards(const Scene& scene, const glm::dvec3& direction);
 glm::dvec3 background_towards(const Scene& scene, const glm::dvec3& direction);
 /// Mean of sky_towards() over all directions.
 glm::dvec3 mean_sky(const Scene& scene);
+/// Whether there is one, be it switched off.
 bool has_sky(const Scene& scene);
+/// The scene's sky as a light, as loaded; nothing where it has none that shines.
+std::optional<SkyLight> find_sky_light(const Scene& scene);
+/// Gives the sky the light that Scene::sky_light and the suns among the scene's lights have now.
+void refresh_sky(Scene& scene);
 /// Makes it the scene's, its sources lights of the scene.
 void set_environment(std::shared_ptr<const Environment> environment, Scene& scene);
 /// Takes it out again, and the lights that it brought.

@@ -45,6 +45,8 @@ class EnvironmentMap final : public Environment {
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] bool is_image() const override { return true; }
     [[nodiscard]] bool draws_sources() const override { return false; }
+    [[nodiscard]] std::shared_ptr<const Environment> dimmed(
+        const glm::dvec3& sky, std::span<const glm::dvec3> sources) const override;
 
   private:
     [[nodiscard]] glm::dvec3 look_up(const std::vector<glm::vec3>& pixels,
@@ -55,10 +57,23 @@ class EnvironmentMap final : public Environment {
     void take_sources();
     void take_source(std::span<const int> spot, const glm::vec3& limit);
 
-    EquirectangularImage image_;
+    [[nodiscard]] glm::dvec3 source_share(const glm::dvec3& direction) const;
+
+    /// Shared by dimmed copies.
+    struct Pixels {
+        EquirectangularImage image;
+        std::vector<glm::vec3> sourceless;  // empty where there are no sources
+        std::vector<SkySource> sources;
+        glm::dvec3 mean{0.0};
+
+        [[nodiscard]] const std::vector<glm::vec3>& sky() const {
+            return sourceless.empty() ? image.pixels : sourceless;
+        }
+    };
+    std::shared_ptr<Pixels> pixels_;
     EnvironmentMapSettings settings_;
-    std::vector<glm::vec3> dimmed_;  // the image without its sources; empty where there are none
-    glm::dvec3 mean_{0.0};
+    glm::dvec3 sky_{1.0}, mean_{0.0};
+    std::vector<glm::dvec3> source_factors_;  // empty: 1
     std::vector<SkySource> sources_;
 };
 

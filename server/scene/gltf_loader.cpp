@@ -147,6 +147,7 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     measure_lights(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
+    scene.sky_light = find_sky_light(scene);
     scene.notices.insert(scene.notices.begin(), document.notices().begin(),
                          document.notices().end());
     return scene;

@@ -157,6 +157,17 @@ struct Light {
     double area = 0.0;       ///< that emits, of both sides where both do, as loaded, m²
 };
 
+/// The sky without its suns, seen as a luminaire.
+struct SkyLight {
+    bool image = false;   ///< an image of the surroundings, else a uniform or standard sky
+    bool in_lux = false;  ///< intensity: illuminance of an open horizontal plane; else mean, cd/m²
+    glm::vec3 intensity{0.0F};  ///< RGB, while it is on
+    glm::vec3 colour{1.0F};     ///< of luminance 1, kept while intensity is 0
+    bool on = true;
+    glm::vec3 loaded{0.0F};   ///< intensity as the file has it
+    glm::vec3 uniform{0.0F};  ///< Scene::sky_radiance as the file has it
+};
+
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
 struct Triangle {
     std::uint32_t vertex[3] = {0, 0, 0};
@@ -195,8 +206,9 @@ struct Scene {
     glm::vec3 sky_radiance{0.0F};  ///< cd/m²; uniform sky seen by lines that meet nothing
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
-    Bounds bounds;           ///< world space
-    glm::dvec3 origin{0.0};  ///< m, where the file has this scene's zero
+    std::optional<SkyLight> sky_light;  ///< none where no sky shines
+    Bounds bounds;                      ///< world space
+    glm::dvec3 origin{0.0};             ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

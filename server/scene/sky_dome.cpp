@@ -37,20 +37,34 @@ SkyDome::SkyDome(const SkyDomeSettings& settings)
     : settings_(settings),
       sun_(sky_direction(settings.sun_elevation, settings.sun_azimuth)),
       sky_illuminance_(settings.zenith_luminance * settings.sky.relative_illuminance(sun_)),
-      ground_luminance_(settings.ground_albedo / pi *
-                        (sky_illuminance_ + settings.sun_illuminance * sun_.y)),
-      mean_(0.5 * (settings.zenith_luminance * mean_relative_luminance(settings.sky, sun_) +
-                   ground_luminance_)) {
+      mean_luminance_(settings.zenith_luminance * mean_relative_luminance(settings.sky, sun_)) {
     if (settings.sun_illuminance > 0.0) {
-        sources_.push_back({sun_, glm::vec3(static_cast<float>(settings.sun_illuminance)),
-                            static_cast<float>(settings.sun_radius)});
+        sources_.push_back({sun_, glm::vec3(0.0F), static_cast<float>(settings.sun_radius)});
     }
+    set_light(glm::dvec3(1.0), glm::dvec3(1.0));
+}
+
+void SkyDome::set_light(const glm::dvec3& sky, const glm::dvec3& sun) {
+    sky_ = sky;
+    for (SkySource& source : sources_) {
+        source.illuminance = glm::vec3(settings_.sun_illuminance * sun);
+    }
+    ground_ = settings_.ground_albedo / pi *
+              (sky * sky_illuminance_ + sun * settings_.sun_illuminance * sun_.y);
+    mean_ = 0.5 * (sky * mean_luminance_ + ground_);
+}
+
+std::shared_ptr<const Environment> SkyDome::dimmed(const glm::dvec3& sky,
+                                                   std::span<const glm::dvec3> sources) const {
+    auto copy = std::make_shared<SkyDome>(*this);
+    copy->set_light(sky, sources.empty() ? glm::dvec3(1.0) : sources.front());
+    return copy;
 }
 
 glm::dvec3 SkyDome::radiance(const glm::dvec3& direction) const {
-    return glm::dvec3(direction.y < 0.0 ? ground_luminance_
-                                        : settings_.zenith_luminance *
-                                              settings_.sky.relative_luminance(direction, sun_));
+    return direction.y < 0.0 ? ground_
+                             : sky_ * (settings_.zenith_luminance *
+                                       settings_.sky.relative_luminance(direction, sun_));
 }
 
 glm::dvec3 SkyDome::shown(const glm::dvec3& direction) const {

@@ -26,22 +26,31 @@ class SkyDome final : public Environment {
 
     [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& direction) const override;
     [[nodiscard]] glm::dvec3 shown(const glm::dvec3& direction) const override;
-    [[nodiscard]] glm::dvec3 mean() const override { return glm::dvec3(mean_); }
+    [[nodiscard]] glm::dvec3 mean() const override { return mean_; }
     [[nodiscard]] const std::vector<SkySource>& sources() const override { return sources_; }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] bool is_image() const override { return false; }
     [[nodiscard]] bool draws_sources() const override { return true; }
+    [[nodiscard]] double illuminance() const override { return sky_illuminance_; }
+    [[nodiscard]] std::shared_ptr<const Environment> dimmed(
+        const glm::dvec3& sky, std::span<const glm::dvec3> sources) const override;
 
-    /// Of an unobstructed horizontal plane, lx, by the sky without the sun.
+    /// Of an unobstructed horizontal plane, lx, by the sky without the sun, as made.
     [[nodiscard]] double sky_illuminance() const { return sky_illuminance_; }
     /// Of the ground, cd/m².
-    [[nodiscard]] double ground_luminance() const { return ground_luminance_; }
+    [[nodiscard]] double ground_luminance() const {
+        return static_cast<double>(luminance(glm::vec3(ground_)));
+    }
     [[nodiscard]] const SkyDomeSettings& settings() const { return settings_; }
 
   private:
+    void set_light(const glm::dvec3& sky, const glm::dvec3& sun);
+
     SkyDomeSettings settings_;
     glm::dvec3 sun_;
-    double sky_illuminance_, ground_luminance_, mean_;
+    double sky_illuminance_, mean_luminance_;  // as made, of the upper half
+    glm::dvec3 sky_{1.0};                      // factor of both
+    glm::dvec3 ground_{0.0}, mean_{0.0};       // cd/m²
     std::vector<SkySource> sources_;
 };
 

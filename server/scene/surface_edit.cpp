@@ -5,6 +5,7 @@
 #include <array>
 
 #include "scene/base_colour.h"
+#include "scene/environment.h"
 #include "scene/patch_colour.h"
 
 namespace raybundle {
@@ -51,7 +52,25 @@ void apply(PunctualLight& light, const LightEdit& edit) {
     light.setting = setting;
 }
 
+void apply(SkyLight& light, const LightEdit& edit) {
+    if (edit.colour) {
+        light.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        light.intensity = edit.intensity.value_or(luminance(light.intensity)) * light.colour;
+    }
+    light.on = edit.on.value_or(light.on);
+}
+
 }  // namespace
+
+std::size_t light_count(const Scene& scene) {
+    return scene.lights.size() + scene.punctual_lights.size() + (scene.sky_light ? 1 : 0);
+}
+
+bool is_sky_light(const Scene& scene, std::uint32_t light) {
+    return scene.sky_light && light == light_count(scene);
+}
 
 std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light) {
     const std::size_t first = scene.lights.size() + 1;
@@ -60,13 +79,13 @@ std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t ligh
 }
 
 std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
-    return light <= scene.lights.size()
+    return light >= 1 && light <= scene.lights.size()
                ? static_cast<std::uint32_t>(scene.lights[light - 1].material)
                : no_material;
 }
 
 std::string problem_of(const Scene& scene, const LightEdit& edit) {
-    if (punctual_index(scene, edit.light)) {
+    if (punctual_index(scene, edit.light) || is_sky_light(scene, edit.light)) {
         return {};
     }
     if (edit.light < 1 || edit.light > scene.lights.size()) {
@@ -95,6 +114,14 @@ std::string problem_of(const Scene& scene, const MaterialEdit& edit) {
 std::uint32_t apply(Scene& scene, const LightEdit& edit) {
     if (const auto punctual = punctual_index(scene, edit.light)) {
         apply(scene.punctual_lights[*punctual], edit);
+        if (scene.punctual_lights[*punctual].of_sky) {
+            refresh_sky(scene);
+        }
+        return no_material;
+    }
+    if (is_sky_light(scene, edit.light)) {
+        apply(*scene.sky_light, edit);
+        refresh_sky(scene);
         return no_material;
     }
     Light& light = scene.lights[edit.light - 1];

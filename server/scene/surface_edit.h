@@ -15,9 +15,10 @@ namespace raybundle {
 
 /// A light as it shall be; what is absent stays.
 struct LightEdit {
-    /// Light::id; punctual lights are numbered after the others.
+    /// Light::id; punctual lights are numbered after the others, and the sky after these.
     std::uint32_t light = 0;
-    std::optional<float> intensity;  ///< >= 0: cd/m², or times intensity_unit() of a punctual light
+    /// >= 0: cd/m², or times intensity_unit() of a punctual light, or as SkyLight has it.
+    std::optional<float> intensity;
     std::optional<glm::vec3> colour;  ///< linear, >= 0, not black; scaled to luminance 1
     std::optional<bool> on;
 };
@@ -37,6 +38,11 @@ std::string problem_of(const Scene& scene, const MaterialEdit& edit);
 
 /// Index of a punctual light by its number; nothing for other numbers.
 std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light);
+
+/// How many lights have numbers, from 1 on.
+std::size_t light_count(const Scene& scene);
+/// Whether a number is the sky's.
+bool is_sky_light(const Scene& scene, std::uint32_t light);
 
 /// Of a light that is no surface.
 constexpr std::uint32_t no_material = 0xffffffff;

@@ -73,8 +73,8 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       trace_caustics_(caustics),
       constant_radiance_(constant_radiance),
       has_sky_(raybundle::has_sky(scene)),
-      uniform_sky_(scene.sky_radiance),
-      environment_(scene.environment),
+      sky_(sky_of(scene)),
+      sky_before_(sky_),
       punctual_lights_(without_discs(scene.punctual_lights)),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
@@ -221,7 +221,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                           [](const PunctualLight& light) { return light.profile != nullptr; }),
               "IES");
-    define_if(environment_ != nullptr, "ENVIRONMENT");
+    define_if(sky_.environment != nullptr, "ENVIRONMENT");
     thin_walls_ = has_thin_walls(scene, mesh);
     constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy();
     define_if(constant_radiance_, "CONSTANT_RADIANCE");
@@ -322,7 +322,7 @@ void GpuScene::bind() const {
     if (details_.bytes() > 0) {
         glBindTextureUnit(UNIT_MATERIAL_DETAILS, details_texture_.get());
     }
-    if (environment_) {
+    if (sky_.environment) {
         glBindTextureUnit(UNIT_ENVIRONMENT, environment_texture_.get());
     }
     if (reflectance_.any_glossy()) {

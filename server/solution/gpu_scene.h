@@ -98,8 +98,17 @@ class GpuScene {
     [[nodiscard]] glm::vec3 sky_towards(const glm::vec3& direction) const;
     /// What a view shows beyond the scene; its environment is bound with bind().
     void set_background(layout::ViewParameters& view) const;
-    /// The lights that the scene was made with, of other intensities.
-    void update_punctual_lights(const Scene& scene);
+    [[nodiscard]] const Sky& sky() const { return sky_; }
+    /// A sky was another before, and what has been transferred of it has been multiplied since.
+    void set_sky_before(const Sky& sky, const glm::vec3& factor) {
+        sky_before_ = sky;
+        sky_factor_ = factor;
+    }
+    /// What the sky sends in a direction now, less what has been transferred of the one before;
+    /// radiance units.
+    [[nodiscard]] glm::vec3 sky_change_towards(const glm::vec3& direction) const;
+    /// The lights without extent and the sky that the scene was made with, of other intensities.
+    void update_lights(const Scene& scene);
     /// A light with a disc is several without.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return punctual_lights_;
@@ -163,8 +172,8 @@ class GpuScene {
     bool trace_caustics_;
     bool constant_radiance_;
     bool has_sky_ = false;
-    glm::vec3 uniform_sky_{0.0F};  // cd/m²
-    std::shared_ptr<const Environment> environment_;
+    Sky sky_, sky_before_;
+    glm::vec3 sky_factor_{1.0F};     // of what has been transferred of sky_before_
     Texture2D environment_texture_;  // only where there is one
     std::size_t environment_bytes_ = 0;
     std::vector<PunctualLight> punctual_lights_;

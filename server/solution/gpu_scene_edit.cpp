@@ -43,8 +43,13 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
     upload_reflectors(mesh);
 }
 
-void GpuScene::update_punctual_lights(const Scene& scene) {
+void GpuScene::update_lights(const Scene& scene) {
     punctual_lights_ = without_discs(scene.punctual_lights);
+    const bool other = scene.environment != sky_.environment;
+    sky_ = sky_of(scene);
+    if (other) {
+        upload_environment();
+    }
 }
 
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {

@@ -68,11 +68,16 @@ glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, const Emission
             emitters.emplace_back(i, world_area(scene, mesh, i));
         }
     }
+    const glm::dvec3 sky_before = before.sky.mean();
+    const glm::dvec3 sky_after = after.sky.mean();
     glm::vec3 scale(1.0F);
     std::vector<Share> shares;
     for (int c = 0; c < 3; ++c) {
         shares.clear();
-        shares.push_back({1.0, mean_sky(scene)[c] * box_area(scene.bounds)});
+        if (sky_before[c] > 0.0) {
+            shares.push_back(
+                {sky_after[c] / sky_before[c], sky_before[c] * box_area(scene.bounds)});
+        }
         for (const auto& [patch, area] : emitters) {
             const auto old = static_cast<double>(before.patches[patch][c]);
             if (old > 0.0) {
@@ -92,6 +97,18 @@ glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, const Emission
     return scale;
 }
 
+bool sky_left(const Sky& before, const Sky& after, const glm::vec3& scale) {
+    constexpr double rounding = 1e-6;  // of a product of two floats, relative
+    const auto differ = [&](const glm::dvec3& old, const glm::dvec3& next) {
+        return glm::any(
+            glm::greaterThan(glm::abs(next - glm::dvec3(scale) * old), rounding * next));
+    };
+    // Skies and grounds keep their shape, and images: two directions and the mean tell all.
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    return differ(before.mean(), after.mean()) || differ(before.towards(up), after.towards(up)) ||
+           differ(before.towards(-up), after.towards(-up));
+}
+
 bool anything_left(const Emission& before, const Emission& after, const glm::vec3& scale) {
     constexpr float rounding = 1e-6F;  // of a product of two floats, relative
     const auto differ = [&scale](const glm::vec3& old, const glm::vec3& next) {
@@ -107,7 +124,7 @@ bool anything_left(const Emission& before, const Emission& after, const glm::vec
             return true;
         }
     }
-    return false;
+    return sky_left(before.sky, after.sky, scale);
 }
 
 }  // namespace raybundle

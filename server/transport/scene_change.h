@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "scene/environment.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 
@@ -36,15 +37,18 @@ constexpr SpecialSettings interactive_special() {
 struct Emission {
     std::span<const glm::vec3> patches;
     std::span<const PunctualLight> punctual;
+    Sky sky{};
 };
 
 /// By which colour the solution is best multiplied when what is emitted changes: the weighted
 /// median of the ratios, so that the least flux is left to be transferred (1 in doubt). Where all
 /// emission changes alike nothing is left, and where the brightest light goes out nothing remains
-/// of it, noise included. The scene's sky is the same before and after, with the area of its
-/// bounds.
+/// of it, noise included. The sky counts with the area of the scene's bounds.
 glm::vec3 common_scale(const Scene& scene, const PatchMesh& mesh, const Emission& before,
                        const Emission& after);
+
+/// Whether some of the sky is to be transferred once the solution has been multiplied.
+bool sky_left(const Sky& before, const Sky& after, const glm::vec3& scale);
 
 /// Whether there is something to transfer once the solution has been multiplied.
 bool anything_left(const Emission& before, const Emission& after, const glm::vec3& scale);

@@ -144,12 +144,13 @@ class Solver {
         bool transfer = true;  ///< the factor is not all
         bool redraw = true;
         bool glossy = false;  ///< some of the reflecting are, or were
+        bool sky = false;     ///< some of the sky is to be transferred
     };
     void work_in(const SurfaceChange& change, std::span<BundleReceiver* const> receivers);
     void begin_change();
     void note_change();
     [[nodiscard]] bool unsettled() const;
-    void start_phase(bool moving, float most_weight);
+    void start_phase(PhaseKind kind, float most_weight);
     [[nodiscard]] bool any_glossy(std::span<const std::uint32_t> materials) const;
     void adapt_unit(const Scene& scene, const PatchMesh& mesh, glm::vec3& scale);
     ChangeStore& change_store();

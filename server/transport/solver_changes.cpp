@@ -74,14 +74,14 @@ void Solver::note_change() {
     ++changes_;
 }
 
-void Solver::start_phase(bool moving, float most_weight) {
+void Solver::start_phase(PhaseKind kind, float most_weight) {
     SpecialSettings special = settings_.special;
-    if (moving) {  // each further object half as many more bundles
+    if (kind == PhaseKind::moves) {  // each further object half as many more bundles
         const auto objects = static_cast<unsigned>(scene_.moved_bounds().size() / 2);
         special.bundles += special.bundles * (std::max(objects, 1U) - 1) / 2;
     }
     special.most_weight = std::min(special.most_weight, most_weight);
-    phase_.emplace(scene_, store_, change_store(), *coarse_, special, moving,
+    phase_.emplace(scene_, store_, change_store(), *coarse_, special, kind,
                    mix_bits(settings_.seed) + changes_);
 }
 
@@ -110,7 +110,7 @@ void Solver::move_objects(std::span<const ObjectMove> moves,
     }
     note_change();
     const float share = carried_light_.moved_share(moves, scene_.moved_bounds(), scene_.diameter());
-    start_phase(true, share > 0.0F ? carried_light_weight / (share * share) : no_limit);
+    start_phase(PhaseKind::moves, share > 0.0F ? carried_light_weight / (share * share) : no_limit);
 }
 
 /// Lamps, or what they shine through, have changed.
@@ -170,7 +170,8 @@ void Solver::work_in(const SurfaceChange& change, std::span<BundleReceiver* cons
     }
     note_change();
     if (change.transfer) {
-        start_phase(false, change.glossy ? glossy_weight : no_limit);
+        start_phase(change.sky ? PhaseKind::surfaces_and_sky : PhaseKind::surfaces,
+                    change.glossy ? glossy_weight : no_limit);
         return;
     }
     for (BundleReceiver* receiver : receivers) {
@@ -187,15 +188,18 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
                              std::span<BundleReceiver* const> receivers) {
     const std::vector<glm::vec3> emitted = mesh.emission;
     const std::vector<PunctualLight> punctual = scene_.punctual_lights();
+    const Sky sky = scene_.sky();
     refresh_surfaces(scene, materials, mesh);
     begin_change();
     store_.remember_first_shot(store_);
     change_store().remember_surfaces(scene_);
-    scene_.update_punctual_lights(scene);
-    const Emission before{emitted, punctual};
-    const Emission after{mesh.emission, scene_.punctual_lights()};
+    scene_.update_lights(scene);
+    const Emission before{emitted, punctual, sky};
+    const Emission after{mesh.emission, scene_.punctual_lights(), scene_.sky()};
     SurfaceChange change;
     change.scale = common_scale(scene, mesh, before, after);
+    change.sky = sky_left(sky, scene_.sky(), change.scale);
+    scene_.set_sky_before(sky, change.scale);
     change.reflecting = reflecting;
     change.transfer = !reflecting.empty() || anything_left(before, after, change.scale);
     change.redraw = !reflecting.empty() || emitters_differ(emitted, mesh.emission);
@@ -227,6 +231,8 @@ void Solver::take_over(const Solver& other, std::span<const std::uint32_t> refle
     store_.remember_first_shot(other.store_);
     SurfaceChange change;
     change.scale = glm::vec3(other.scene_.radiance_unit() / scene_.radiance_unit());
+    change.sky = sky_left(other.scene_.sky(), scene_.sky(), glm::vec3(1.0F));
+    scene_.set_sky_before(other.scene_.sky(), glm::vec3(1.0F));
     change.reflecting = reflecting;
     change.glossy = any_glossy(reflecting);
     work_in(change, receivers);

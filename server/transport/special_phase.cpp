@@ -33,18 +33,6 @@ constexpr float visible_share = 0.05F;    // of all light: a level that is off b
 constexpr float mostly_changed = 0.5F;    // a smaller share mostly cancels: shadows go and come
 constexpr float sample_deviation = 0.4F;  // as in corrected_weight.glsl
 
-/// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
-/// heuristic.
-unsigned layered_of(unsigned bundles) {
-    return bundles / 4;
-}
-
-/// Whether a bundle is a parallel one; they are spread evenly.
-bool is_layered(unsigned index, unsigned bundles) {
-    const unsigned i = index % bundles;
-    return (i + 1) * layered_of(bundles) / bundles > i * layered_of(bundles) / bundles;
-}
-
 /// A shooter that moves with its object.
 layout::Shooter shooter_at(const layout::Shooter& shooter, Place place) {
     layout::Shooter placed = shooter;
@@ -59,14 +47,15 @@ layout::Shooter shooter_at(const layout::Shooter& shooter, Place place) {
 }  // namespace
 
 SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
-                           Transfer& transfer, const SpecialSettings& settings, bool moving,
+                           Transfer& transfer, const SpecialSettings& settings, PhaseKind kind,
                            std::uint64_t seed)
     : scene_(scene),
       store_(store),
       change_(change),
       transfer_(transfer),
       settings_(settings),
-      moving_(moving),
+      moving_(kind == PhaseKind::moves),
+      sky_changes_(kind == PhaseKind::surfaces_and_sky),
       numbers_(seed),
       bundles_(std::max(settings.bundles, 1U)) {
     settings_.bundles = bundles_;
@@ -81,6 +70,18 @@ SpecialPhase::SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeSt
     } else {
         change_.send();
     }
+}
+
+/// Parallel bundles among so many: drawn in fixed numbers, the deterministic mixture of the balance
+/// heuristic. They alone bring light of the sky.
+unsigned SpecialPhase::layered_of(unsigned bundles) const {
+    return sky_changes_ && !bouncing_ ? bundles - bundles / 4 : bundles / 4;
+}
+
+/// Whether a bundle is a parallel one; they are spread evenly.
+bool SpecialPhase::is_layered(unsigned index, unsigned bundles) const {
+    const unsigned i = index % bundles;
+    return (i + 1) * layered_of(bundles) / bundles > i * layered_of(bundles) / bundles;
 }
 
 std::vector<glm::vec4> SpecialPhase::shooter_numbers(unsigned first, unsigned count) const {
@@ -135,6 +136,10 @@ TransferSettings SpecialPhase::transfer_settings(Place place) const {
     const float sign = place == Place::now ? 1.0F : -1.0F;
     settings.weight = sign / static_cast<float>(bouncing_ ? settings_.bounces : bundles_);
     settings.coloured = true;
+    // What is carried on comes from surfaces.
+    settings.sky = bouncing_ ? SkyTransfer::none
+                   : moving_ ? SkyTransfer::whole
+                             : SkyTransfer::change;
     settings.context.place = place;
     settings.context.sample_weight = 0.0F;
     settings.context.special = true;
@@ -282,6 +287,9 @@ void SpecialPhase::move_perspective(const layout::Shooter& shooter, unsigned ind
 /// What is sent with the objects where they are now.
 void SpecialPhase::perspective(const layout::Shooter& shooter, unsigned index,
                                std::span<BundleReceiver* const> receivers) {
+    if (shooter.density <= 0.0F) {
+        return;  // nothing but the sky has changed
+    }
     const unsigned n = first_number_ + index + 1;
     const float angle = static_cast<float>(numbers_.sample(turn, n)) * glm::two_pi<float>();
     BundleFrame frame = make_frame(shooter.position, shooter.normal, angle);

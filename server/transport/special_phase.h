@@ -15,6 +15,9 @@
 
 namespace raybundle {
 
+/// What a special phase works in.
+enum class PhaseKind { moves, surfaces, surfaces_and_sky };
+
 /// The special iteration phase (ch. 7.4),  dL = (Le_new - Le + T_new L - T L) + T_new dL,  in two
 /// stages. The first transfers the source term: of a move, -L with the objects at their old places
 /// and +L with them at their new places through one and the same bundle, where lines that meet
@@ -23,10 +26,11 @@ namespace raybundle {
 /// has come in by then. The averaged increments join the solution at the end.
 class SpecialPhase {
   public:
-    /// moving: objects are at their new places already (GpuScene::move_objects); otherwise surfaces
-    /// have changed (ChangeStore::set_source). seed: any number, different for every change.
+    /// Objects are at their new places already (GpuScene::move_objects), or surfaces have changed
+    /// (ChangeStore::set_source) and the sky (GpuScene::set_sky_before). seed: any number,
+    /// different for every change.
     SpecialPhase(const GpuScene& scene, RadianceStore& store, ChangeStore& change,
-                 Transfer& transfer, const SpecialSettings& settings, bool moving,
+                 Transfer& transfer, const SpecialSettings& settings, PhaseKind kind,
                  std::uint64_t seed);
 
     /// One special iteration. The last one also applies the increments.
@@ -42,6 +46,8 @@ class SpecialPhase {
     [[nodiscard]] unsigned bundles() const { return bundles_; }
 
   private:
+    [[nodiscard]] unsigned layered_of(unsigned bundles) const;
+    [[nodiscard]] bool is_layered(unsigned index, unsigned bundles) const;
     void choose_source_shooters();
     void plan_differences(std::span<BundleReceiver* const> receivers) const;
     void step_source(std::span<BundleReceiver* const> receivers);
@@ -67,6 +73,7 @@ class SpecialPhase {
     Transfer& transfer_;
     SpecialSettings settings_;
     bool moving_;
+    bool sky_changes_;
     RandomisedHalton numbers_;
     std::vector<Bounds> boxes_;  // of the moved objects, now and before, shifted world
     std::vector<layout::Shooter> shooters_;

@@ -120,9 +120,14 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
                    settings.probabilities.plane / (two_pi * parallel_depth(scene_.diameter())),
                    settings.probabilities.perspective, 0.0F};
     p.densities *= settings.density_error;
-    p.sky = glm::vec4(scene_.sky_towards(frame.z) - settings.constant,
+    const auto sky = [&](const glm::vec3& direction) {
+        return settings.sky == SkyTransfer::whole    ? scene_.sky_towards(direction)
+               : settings.sky == SkyTransfer::change ? scene_.sky_change_towards(direction)
+                                                     : glm::vec3(0.0F);
+    };
+    p.sky = glm::vec4(sky(frame.z) - settings.constant,
                       static_cast<float>(TIE_SHARE) * scene_.diameter());
-    p.sky_behind = glm::vec4(scene_.sky_towards(-frame.z) - settings.constant, 0.0F);
+    p.sky_behind = glm::vec4(sky(-frame.z) - settings.constant, 0.0F);
     p.constant = glm::vec4(settings.constant, settings.face_weights[0]);
     p.side_weights = {settings.face_weights[1], settings.face_weights[2], settings.face_weights[3],
                       settings.face_weights[4]};

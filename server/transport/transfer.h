@@ -22,6 +22,9 @@ struct BundleResolution {
     int window = 800;
 };
 
+/// What lines carry that meet nothing.
+enum class SkyTransfer { whole, change, none };
+
 /// One transfer of a bundle: its sign and weight, what receives it, at which place of the objects.
 struct TransferSettings {
     StrategyProbabilities probabilities;
@@ -35,6 +38,7 @@ struct TransferSettings {
     bool coloured = false;  ///< patch sums carry the shooter's radiance (special phase)
     FaceWeights face_weights = all_faces;  ///< of a glossy shooter
     glm::vec3 constant{0.0F};              ///< constant radiance term, radiance units
+    SkyTransfer sky = SkyTransfer::whole;
     BundleReceiver::Context context;
 };
 

@@ -3,15 +3,10 @@
 // linearity and fresh solves of the changed scene.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
-#include <vector>
 
 #include "../reference/lit_room.h"
-#include "oracle/scene_builder.h"
-#include "scene/surface_edit.h"
-#include "transport/solver.h"
-#include "view/viewer_image.h"
+#include "changed_room.h"
 
 namespace raybundle {
 namespace {
@@ -65,89 +60,6 @@ SceneBuilder room_with(Kind kind, bool glossy) {
     add_punctual_light(b, glm::mat4(1.0F), PunctualKind::point, {4.8F, 2.0F, 2.0F}, down,
                        {20.0F, 40.0F, 30.0F});
     return b;
-}
-
-SolverSettings quick(std::uint64_t seed) {
-    SolverSettings settings;
-    settings.seed = seed;
-    settings.coarse = {96, 150};
-    settings.coarse_iterations = 1'000'000;
-    return settings;
-}
-
-Camera into_the_room() {
-    Camera camera;
-    camera.eye = {3.0F, 1.5F, 0.2F};
-    camera.target = {2.5F, 1.0F, 4.0F};
-    camera.vertical_fov = 1.3F;
-    return camera;
-}
-
-/// A solver with a picture.
-struct Solved {
-    explicit Solved(SceneBuilder scene, std::uint64_t seed = 1)
-        : b(std::move(scene)),
-          solver(b.scene, b.mesh, quick(seed)),
-          programs(solver.scene()),
-          image(solver.scene(), solver.store(), programs, {40, 30}) {
-        image.set_camera(into_the_room());
-    }
-
-    void iterate(std::uint64_t count) {
-        BundleReceiver* const receivers[] = {&image};
-        for (const std::uint64_t end = solver.iterations() + count; solver.iterations() < end;) {
-            solver.step(receivers);
-        }
-    }
-
-    void change(const LightEdit& edit) {
-        BundleReceiver* const receivers[] = {&image};
-        ASSERT_EQ(problem_of(b.scene, edit), "");
-        const std::uint32_t material = apply(b.scene, edit);
-        ASSERT_EQ(material, no_material);
-        solver.change_surfaces(b.scene, b.mesh, {}, {}, receivers);
-        while (solver.correcting()) {
-            solver.step(receivers);
-        }
-    }
-
-    SceneBuilder b;
-    Solver solver;
-    ViewPrograms programs;
-    ViewerImage image;
-};
-
-/// Sum and root mean square difference, green, relative to those of the truth.
-template <typename Vector>
-std::pair<double, double> compared(const std::vector<Vector>& found,
-                                   const std::vector<Vector>& truth) {
-    double sum = 0.0;
-    double exact = 0.0;
-    double square = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        const auto a = static_cast<double>(found[i].g);
-        const auto e = static_cast<double>(truth[i].g);
-        sum += a;
-        exact += e;
-        square += (a - e) * (a - e);
-        size += e * e;
-    }
-    return {sum / exact, std::sqrt(square / size)};
-}
-
-/// The solution and the picture are those of a fresh solve of the scene as it is now.
-void expect_fresh(Solved& changed, std::uint64_t iterations, const char* what) {
-    Solved fresh(changed.b, 77);
-    fresh.iterate(iterations);
-    const auto [level, difference] =
-        compared(changed.solver.store().read_irradiance(), fresh.solver.store().read_irradiance());
-    EXPECT_NEAR(level, 1.0, 0.012) << what;
-    EXPECT_LT(difference, 0.05) << what;
-    const auto [shown, apart] =
-        compared(changed.image.read_radiance(), fresh.image.read_radiance());
-    EXPECT_NEAR(shown, 1.0, 0.015) << what;
-    EXPECT_LT(apart, 0.08) << what;
 }
 
 struct Case {
