@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "scene/scene.h"
 
 namespace raybundle {
 
-/// A camera for a scene that has none. Seen from the middle of the scene, rays that meet front
-/// sides on nearly every side tell an interior: the camera stands inside, looking along the longest
-/// free line. If only one side is open (a stage), the camera looks in from there. Otherwise the
-/// scene is an object, seen from in front and a little above. `scene.bounds` must not be empty.
-Camera default_camera(const Scene& scene);
+/// Cameras for a scene that has none, the best first. If only one side is open (a stage), a camera
+/// looks in from there. In rooms with floors cameras stand (standing_views.h); in others, which
+/// rays tell that meet front sides on nearly every side, one looks along the longest free line. The
+/// last one sees all from outside, in front and a little above. `scene.bounds` must not be empty.
+std::vector<Camera> default_cameras(const Scene& scene);
 
 }  // namespace raybundle

@@ -75,6 +75,8 @@ class Baker {
         object_.id = static_cast<std::uint32_t>(scene_.objects.size() + 1);
         object_.name = plan.name;
         object_.movable = plan.movable;
+        object_.kind = plan.kind;
+        object_.path = plan.path;
         object_.transform = node(plan.node).transform;
         const int parent = node(plan.node).parent;
         if (parent >= 0) {

@@ -22,6 +22,7 @@
 #include "scene/gltf_place.h"
 #include "scene/gltf_primitive.h"
 #include "scene/lights.h"
+#include "scene/lone_object.h"
 #include "scene/solid_shells.h"
 #include "scene/specular_surface.h"
 
@@ -138,16 +139,20 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     drop_unused_default_material(scene, default_material);
     scene.lights = find_lights(scene);
     name_materials(scene);
-    scene.cameras = read_cameras(document, tree, scene.bounds);
-    if (scene.cameras.empty()) {
-        scene.cameras.push_back(default_camera(scene));
-        document.note("the file has no usable camera: a default one is used");
+    if (split_lone_object(scene) > 1 && plans.size() == 1) {
+        document.note(fmt::format("the only object is divided into {} connected parts",
+                                  scene.objects.size()));
     }
+    scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);
     measure_lights(scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
     scene.sky_light = find_sky_light(scene);
+    if (scene.cameras.empty()) {
+        scene.cameras = default_cameras(scene);
+        document.note("the file has no usable camera: default ones are used");
+    }
     scene.notices.insert(scene.notices.begin(), document.notices().begin(),
                          document.notices().end());
     return scene;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/object_kind.h"
+
 namespace raybundle {
 namespace {
 
@@ -160,10 +162,57 @@ class Planner {
         }
         ObjectPlan plan;
         plan.node = node;
-        plan.name = name_of(node, geometries.front());
+        plan.path = path_of(node);
+        plan.name = readable_name(name_of(node, geometries.front()),
+                                  other_names(node, geometries.front()), plan.path);
+        plan.kind = kind_of_names(names_below(node));
         plan.movable = at(node).movable.value_or(!is_shell(bounds, scene_bounds_));
         plan.geometries = std::move(geometries);
         plans_.push_back(std::move(plan));
+    }
+
+    [[nodiscard]] std::vector<std::string> path_of(int node) const {
+        std::vector<std::string> path;
+        for (int at = tree_.nodes[index(node)].parent; at >= 0;
+             at = tree_.nodes[index(at)].parent) {
+            if (!tree_.nodes[index(at)].name.empty()) {
+                path.insert(path.begin(), tree_.nodes[index(at)].name);
+            }
+        }
+        return path;
+    }
+
+    /// What else tells what a node is: its extras, as exporters of IFC write them, and its mesh.
+    [[nodiscard]] std::vector<std::string> other_names(int node, std::size_t geometry) const {
+        std::vector<std::string> names;
+        const tinygltf::Value& extras = item(document_.model().nodes, node).extras;
+        for (const char* key :
+             {"name", "Name", "ifcClass", "IfcClass", "ifc_class", "type", "Type", "class"}) {
+            if (extras.Has(key) && extras.Get(key).IsString()) {
+                names.push_back(extras.Get(key).Get<std::string>());
+            }
+        }
+        names.push_back(item(document_.model().meshes, geometries_[geometry].mesh).name);
+        return names;
+    }
+
+    /// Of a node, its mesh and what is below it, as far as one looks.
+    std::vector<std::string> names_below(int root) {
+        std::vector<std::string> names;
+        std::vector<int> pending{root};
+        constexpr std::size_t most = 64;
+        while (!pending.empty() && names.size() < most) {
+            const int node = pending.back();
+            pending.pop_back();
+            names.push_back(tree_.nodes[index(node)].name);
+            if (at(node).geometry) {
+                const int mesh = geometries_[*at(node).geometry].mesh;
+                names.push_back(item(document_.model().meshes, mesh).name);
+            }
+            const std::vector<int>& children = tree_.nodes[index(node)].children;
+            pending.insert(pending.end(), children.rbegin(), children.rend());
+        }
+        return names;
     }
 
     std::string name_of(int node, std::size_t first_geometry) {

@@ -14,6 +14,8 @@ struct ObjectPlan {
     int node = -1;
     std::string name;
     bool movable = false;
+    ObjectKind kind = ObjectKind::thing;
+    std::vector<std::string> path;        ///< names of the nodes above, the outermost first
     std::vector<std::size_t> geometries;  ///< indices into the geometry list
 };
 

@@ -118,11 +118,16 @@ struct Transform {
     [[nodiscard]] glm::mat4 matrix() const;
 };
 
+/// What an object is, as its names tell.
+enum class ObjectKind { thing, structure, door };
+
 /// A glTF node subtree that is moved as a whole. Objects are not nested in one another.
 struct Object {
     std::uint32_t id = 0;  ///< 1-based and equal to its index in Scene::objects plus one
     std::string name;
     bool movable = false;
+    ObjectKind kind = ObjectKind::thing;
+    std::vector<std::string> path;      ///< names of the nodes above, the outermost first
     Transform transform;                ///< local, relative to world_from_parent
     glm::mat4 world_from_parent{1.0F};  ///< fixed: product of the ancestors' matrices
     Bounds bounds;                      ///< object space, of its triangles
@@ -142,6 +147,11 @@ struct Camera {
     /// Part of its picture that is drawn: x and y of the part's centre from the picture's, upwards,
     /// then the part's width and height, in units of the picture's half and whole edges.
     glm::vec4 part{0.0F, 0.0F, 1.0F, 1.0F};
+    float near = 0.0F;                  ///< what is nearer along the line of sight is not drawn, m
+    std::vector<std::uint32_t> hidden;  ///< indices of objects that are not drawn
+
+    /// Whether it shows less than there is: a section, or what is left of an isolated object.
+    [[nodiscard]] bool cut() const { return near > 0.0F || !hidden.empty(); }
 };
 
 /// An emitting material seen as a luminaire: what the protocol lists under `lights`.

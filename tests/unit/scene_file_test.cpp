@@ -150,6 +150,7 @@ TEST(SceneFile, DefaultCameraStandsInsideOfARoomAndOutsideOfAThing) {
     thing.add_node({{"mesh", thing.add_box_mesh({0, 0, 0}, {1, 1, 1})}});
     const Scene outside = thing.load();
     ASSERT_EQ(outside.cameras.size(), 1U);
+    EXPECT_EQ(outside.cameras[0].name, "from outside");
     EXPECT_GT(glm::distance(outside.cameras[0].eye, glm::vec3(0.5F)), 1.0F);
 
     GltfBuilder room;
