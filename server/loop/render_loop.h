@@ -97,6 +97,8 @@ class RenderLoop {
     void begin_phase(Solver& solver);
     void draw_for_drag();
     void note_phase_end();
+    bool set_hidden(ViewerSession& session, const ClientEvent& event);
+    void answer_walk_map(const ClientEvent& event);
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void cancel_snapshot(const ClientEvent& event);
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);

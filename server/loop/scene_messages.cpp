@@ -6,6 +6,7 @@
 #include "journal/change_sum.h"
 #include "scene/effects_plan.h"
 #include "scene/light_figures.h"
+#include "scene/object_kind.h"
 #include "scene/object_limits.h"
 
 namespace raybundle {
@@ -268,6 +269,13 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_id(object.id);
         out->set_name(object.name);
         out->set_movable(object.movable);
+        out->set_kind(object.kind == ObjectKind::door        ? v1::Object::DOOR
+                      : object.kind == ObjectKind::structure ? v1::Object::STRUCTURE
+                                                             : v1::Object::THING);
+        for (const std::string& name : object.path) {
+            out->add_path(name);
+        }
+        out->set_storey(storey_of(object.path));
         to_message(world_bounds(object), out->mutable_bounds());
         to_message(object.transform, out->mutable_transform());
         for (int i = 0; i < 16; ++i) {

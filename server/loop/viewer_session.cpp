@@ -66,10 +66,17 @@ void ViewerSession::set_camera(const v1::SetCamera& message, std::uint32_t reque
     if (message.has_vertical_fov()) {
         camera_.vertical_fov = message.vertical_fov();
     }
+    camera_.near = message.has_near() ? message.near() : 0.0F;
     view_waits_ = true;
     camera_id_ = request_id;
     note_change();
     last_motion_ = last_change_;
+}
+
+void ViewerSession::set_hidden(std::vector<std::uint32_t> objects) {
+    camera_.hidden = std::move(objects);
+    view_waits_ = true;
+    note_change();
 }
 
 void ViewerSession::adopt_camera(const Camera& camera) {

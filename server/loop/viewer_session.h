@@ -34,6 +34,8 @@ class ViewerSession {
     /// every viewer gets his share.
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void set_viewport(glm::uvec2 size);
+    /// objects: indices of those that its pictures do not show.
+    void set_hidden(std::vector<std::uint32_t> objects);
     void apply_view();
     /// Next frame's picture has so much of its full width and height while the camera moves or
     /// objects are dragged. Between special phases only.

@@ -32,9 +32,10 @@ ImageStatistics ViewerSession::measured_statistics() {
 }
 
 bool ViewerSession::wants_check(Clock::time_point now) {
-    return image_ && acknowledged_ && !paused_ && !view_waits_ && image_->smoothed() &&
-           since_change_s(now) >= check_after_s && image_->statistics().known &&
-           image_->statistics().samples > 0 &&
+    // Paths would meet what the picture leaves out.
+    return image_ && !camera_.cut() && acknowledged_ && !paused_ && !view_waits_ &&
+           image_->smoothed() && since_change_s(now) >= check_after_s &&
+           image_->statistics().known && image_->statistics().samples > 0 &&
            static_cast<double>(image_->samples()) >=
                next_check_factor * static_cast<double>(samples_at_check_);
 }

@@ -19,6 +19,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
 constexpr double kMaxNumber = 1e9;     ///< metres, seconds, photometric units: keeps squares finite
+constexpr float kMaxNear = 1e9F;       // m, as the coordinates of a Vec3
 constexpr double kMinLength = 1e-6;    ///< of a direction, an axis, a distance
 constexpr float kMinFov = 0.001F;      ///< radians
 constexpr float kMaxFov = 3.14F;       ///< radians
@@ -143,6 +144,14 @@ void check_body(const v1::SetCamera& camera, Checker& check) {
     if (camera.has_vertical_fov()) {
         check_fov(camera.vertical_fov(), "setCamera.verticalFov", check);
     }
+    if (camera.has_near()) {
+        check.require(camera.near() >= 0.0F && camera.near() <= kMaxNear, "setCamera.near",
+                      "must be 0..1e9 m");
+    }
+}
+
+void check_body(const v1::GetWalkMap& map, Checker& check) {
+    check.require(map.has_eye(), "getWalkMap.eye", "is missing");
 }
 
 void check_body(const v1::SetViewport& viewport, Checker& check) {
@@ -334,6 +343,9 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
             return check_body(message.open_scene(), check);
         case Body::kSetDepths:
             return check_body(message.set_depths(), check);
+        case Body::kGetWalkMap:
+            return check_body(message.get_walk_map(), check);
+        case Body::kSetHidden:
         case Body::kFollow:
         case Body::kPing:
         case Body::kUndo:

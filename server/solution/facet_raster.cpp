@@ -132,7 +132,7 @@ void FacetRaster::bind() const {
 
 void FacetRaster::draw(unsigned place, std::span<const glm::mat4> world_from_object,
                        const glm::mat4& clip_from_world, bool fronts_first,
-                       const ShaderProgram& program) const {
+                       const ShaderProgram& program, std::span<const std::uint32_t> hidden) const {
     const auto planes = frustum_planes(clip_from_world);
     const auto visible = [&](const Cluster& cluster) {
         const glm::mat4& matrix = world_from_object[cluster.object];
@@ -144,7 +144,8 @@ void FacetRaster::draw(unsigned place, std::span<const glm::mat4> world_from_obj
     };
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  // first facet, count
     for (const Cluster& cluster : clusters_) {
-        if (!visible(cluster)) {
+        if (std::find(hidden.begin(), hidden.end(), cluster.object) != hidden.end() ||
+            !visible(cluster)) {
             continue;
         }
         if (!ranges.empty() && ranges.back().first + ranges.back().second == cluster.first) {

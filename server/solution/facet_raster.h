@@ -28,8 +28,8 @@ class FacetRaster {
     /// `first_facet` to gl_PrimitiveID. world_from_object: of this place. fronts_first: front faces
     /// win over back faces of equal depth.
     void draw(unsigned place, std::span<const glm::mat4> world_from_object,
-              const glm::mat4& clip_from_world, bool fronts_first,
-              const ShaderProgram& program) const;
+              const glm::mat4& clip_from_world, bool fronts_first, const ShaderProgram& program,
+              std::span<const std::uint32_t> hidden = {}) const;
 
     [[nodiscard]] std::uint32_t count() const { return count_; }
     [[nodiscard]] std::size_t bytes() const;

@@ -288,11 +288,11 @@ void GpuScene::measure() {
 }
 
 void GpuScene::draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
-                    const ShaderProgram& program) const {
+                    const ShaderProgram& program, std::span<const std::uint32_t> hidden) const {
     const auto first = static_cast<std::size_t>(place) * object_count_;
     facets_.draw(static_cast<unsigned>(place),
                  std::span(world_from_object_).subspan(first, object_count_), clip_from_world,
-                 nearest_only && thin_walls_, program);
+                 nearest_only && thin_walls_, program, hidden);
 }
 
 void GpuScene::bind() const {

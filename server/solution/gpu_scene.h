@@ -68,7 +68,7 @@ class GpuScene {
     /// Draws the facets that a view can see, see FacetRaster::draw(). Where nearest_only, front
     /// faces win over back faces of equal depth.
     void draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
-              const ShaderProgram& program) const;
+              const ShaderProgram& program, std::span<const std::uint32_t> hidden = {}) const;
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,

@@ -225,7 +225,8 @@ void ViewerImage::raster_shifted(const ShaderProgram& program, const glm::vec2& 
         glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world;
     program.use();
     program.set("clip_from_world", clip_from_world);
-    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true, program);
+    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true, program,
+                camera_.hidden);
 }
 
 /// Draws the scene as the pixels of a rectangle are looked at.

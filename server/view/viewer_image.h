@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -236,7 +237,9 @@ class ViewerImage : public BundleReceiver {
     void evaluate(const StatisticsSums& sums);
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
-    [[nodiscard]] float near_distance() const { return near_share * scene_.diameter(); }
+    [[nodiscard]] float near_distance() const {
+        return std::max(near_share * scene_.diameter(), camera_.near);
+    }
     [[nodiscard]] PixelProbe from_pick(const layout::PickResult& pick) const;
 
     const GpuScene& scene_;
