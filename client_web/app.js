@@ -376,7 +376,7 @@ export class RaybundleApp extends EventTarget {
 
     #resized() {
         const verticalFov = framedFov(this.#authorFov, this.picture.aspect);
-        if (verticalFov !== this.view.verticalFov && !this.link.led) {
+        if (verticalFov !== this.view.verticalFov && !this.link.led && !this.view.near) {
             this.camera.set({...this.view, verticalFov});
         }
         this.drawOverlay();

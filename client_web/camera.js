@@ -391,5 +391,5 @@ export function between(from, to, time) {
 export function sameView(a, b) {
     const parts = /** @type {const} */ (['eye', 'target', 'up']);
     const moved = parts.some((part) => length(sub(a[part], b[part])) > 0);
-    return !moved && a.verticalFov === b.verticalFov;
+    return !moved && a.verticalFov === b.verticalFov && (a.near ?? 0) === (b.near ?? 0);
 }

@@ -6,13 +6,17 @@
 // circles there too, as far as the walls let him.
 
 import {between, dolly, look, orbit, orbitIn, pan, roomAround, sameView, spaceIn, walk} from './camera.js';
+import {isCameraKey, motionOf, noMotion, strength} from './motion.js';
 import {clamp, diagonal, length, sub} from './vector.js';
+
+export {motionOf, noMotion};
 
 /**
  * @typedef {import('./protocol.js').View} View
  * @typedef {import('./protocol.js').Bounds} Bounds
  * @typedef {import('./protocol.js').Vec3} Vec3
- * @typedef {'orbit' | 'walk'} Mode
+ * @typedef {import('./motion.js').Mode} Mode
+ * @typedef {import('./motion.js').Motion} Motion
  */
 
 /** Of turning with keys, radians per second. */
@@ -24,70 +28,10 @@ const EASING_S = 0.07;
 const STANDING = 0.004;
 /** Targets nearer to one another are the same, metres. */
 const SAME_TARGET = 1e-6;
+/** The wheel shows less or more of a plan, by its field of view, radians; the server knows none below the first. */
+const PLAN_FOVS = /** @type {const} */ ([0.001, 0.1]);
 /** Motion that a key press is worth at once, seconds. */
 const FIRST_STEP_S = 0.05;
-
-/** Keys by their place on the keyboard, and what they add to the motion. */
-const WALK_KEYS = new Map([
-    ['KeyW', {forwards: 1}],
-    ['KeyS', {forwards: -1}],
-    ['KeyA', {rightwards: -1}],
-    ['KeyD', {rightwards: 1}],
-    ['KeyQ', {upwards: -1}],
-    ['KeyE', {upwards: 1}],
-    ['PageUp', {upwards: 1}],
-    ['PageDown', {upwards: -1}],
-]);
-const ARROW_KEYS = {
-    walk: new Map([
-        ['ArrowUp', {forwards: 1}],
-        ['ArrowDown', {forwards: -1}],
-        ['ArrowLeft', {left: 1}],
-        ['ArrowRight', {left: -1}],
-    ]),
-    orbit: new Map([
-        ['ArrowUp', {tilt: -1}],
-        ['ArrowDown', {tilt: 1}],
-        ['ArrowLeft', {left: -1}],
-        ['ArrowRight', {left: 1}],
-    ]),
-    look: new Map([
-        ['ArrowUp', {tilt: 1}],
-        ['ArrowDown', {tilt: -1}],
-        ['ArrowLeft', {left: 1}],
-        ['ArrowRight', {left: -1}],
-    ]),
-};
-
-/**
- * What moves the camera, each -1..1.
- *
- * @typedef {{forwards: number, rightwards: number, upwards: number, left: number, tilt: number}} Motion
- */
-
-/** @type {() => Motion} */
-export const noMotion = () => ({forwards: 0, rightwards: 0, upwards: 0, left: 0, tilt: 0});
-
-/** @type {(motion: Motion) => number} */
-const strength = (motion) => Math.max(...Object.values(motion).map(Math.abs));
-
-/**
- * Sum of what held keys ask for, each -1..1.
- *
- * @param {Iterable<string>} codes  KeyboardEvent.code
- * @param {Mode | 'look'} mode  look: to orbit from inside, where that is to look around
- */
-export function motionOf(codes, mode) {
-    const motion = noMotion();
-    for (const code of codes) {
-        const part = WALK_KEYS.get(code) ?? ARROW_KEYS[mode].get(code) ?? {};
-        for (const [name, amount] of Object.entries(part)) {
-            const key = /** @type {keyof typeof motion} */ (name);
-            motion[key] = clamp(motion[key] + amount, -1, 1);
-        }
-    }
-    return motion;
-}
 
 /**
  * Walking speed that suits a scene: a stroll in a building, slower around a small object.
@@ -121,6 +65,10 @@ export class CameraControl extends EventTarget {
     #circle = null;
     /** Where an eye may circle. @type {(eye: Vec3) => Bounds | null} */
     #space = () => null;
+    /** What stops who walks, and the wheel; null: nothing. @type {import('./collisions.js').Collisions | null} */
+    obstacles = null;
+    /** How often somebody has been flown to a view that was chosen. */
+    flights = 0;
     /** What moves now, on its way to what is asked for. */
     #motion = noMotion();
 
@@ -137,6 +85,11 @@ export class CameraControl extends EventTarget {
     /** Whether the camera is on its way. */
     get moving() {
         return this.#ticking !== 0;
+    }
+
+    /** Whether it is being flown to a view that was chosen. */
+    get flying() {
+        return this.#flight !== null;
     }
 
     /**
@@ -171,7 +124,9 @@ export class CameraControl extends EventTarget {
      * @param {View} view
      */
     flyTo(view) {
-        if (matchMedia('(prefers-reduced-motion: reduce)').matches) {
+        ++this.flights;
+        // A plan is so far away that nothing is seen on the way.
+        if (matchMedia('(prefers-reduced-motion: reduce)').matches || this.view.near || view.near) {
             this.set(view);
             return;
         }
@@ -182,6 +137,11 @@ export class CameraControl extends EventTarget {
     /** Where the eye may circle, with walls around it; null: it looks at the scene from outside. */
     get space() {
         return this.#space(this.view.eye);
+    }
+
+    /** Whether walls stop the eye: not of those who look at a model from outside. */
+    get #collides() {
+        return this.mode === 'walk' || this.space !== null;
     }
 
     /** Whether turning goes around what is looked at; otherwise the head turns. */
@@ -234,7 +194,9 @@ export class CameraControl extends EventTarget {
      */
     turn(x, y) {
         const angle = Math.PI;
-        if (this.circles) {
+        if (this.view.near) {
+            this.pan(x, y);
+        } else if (this.circles) {
             this.set(this.#orbit(this.view, -x * angle, -y * angle));
         } else {
             const scale = this.view.verticalFov;
@@ -282,13 +244,18 @@ export class CameraControl extends EventTarget {
      * @param {number} factor  below 1 comes nearer
      */
     zoom(factor) {
-        if (this.mode === 'orbit') {
-            this.set(dolly(this.view, factor, this.farthest));
+        if (this.view.near) {
+            const verticalFov = clamp(this.view.verticalFov * factor, ...PLAN_FOVS);
+            this.set({...this.view, verticalFov});
+        } else if (this.mode === 'orbit') {
+            const nearer = dolly(this.view, factor, this.farthest);
+            this.set(this.obstacles?.flown(nearer, this.view) ?? nearer);
             if (this.#circle?.space === null && this.space) {
                 this.#circle = null;  // who has come in looks around
             }
         } else {
-            this.set(walk(this.view, -Math.log(factor) * 2 * this.speed, 0, 0));
+            const nearer = walk(this.view, -Math.log(factor) * 2 * this.speed, 0, 0);
+            this.set(this.obstacles?.walked(nearer, this.view) ?? nearer);
         }
     }
 
@@ -298,7 +265,7 @@ export class CameraControl extends EventTarget {
      * @returns {boolean} whether the key means anything here
      */
     keyDown(code, hurry) {
-        if (!WALK_KEYS.has(code) && !ARROW_KEYS[this.mode].has(code)) {
+        if (!isCameraKey(code, this.mode)) {
             return false;
         }
         this.#hurry = hurry;
@@ -391,7 +358,10 @@ export class CameraControl extends EventTarget {
             motion.rightwards * metres,
             motion.upwards * metres,
         );
-        if (motion.left || motion.tilt) {
+        if (this.obstacles && this.#collides && !sameView(view, this.view)) {
+            view = this.obstacles.walked(view, this.view);
+        }
+        if (!this.view.near && (motion.left || motion.tilt)) {
             const left = motion.left * TURN_SPEED * seconds;
             const upwards = motion.tilt * TURN_SPEED * seconds;
             view = this.circles ? this.#orbit(view, left, upwards) : look(view, left, upwards);

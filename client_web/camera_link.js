@@ -102,8 +102,8 @@ export class CameraLink {
         }
         this.#sent = view;
         this.led = false;
-        const {eye, target, up, verticalFov} = view;
-        const {id, answer} = this.client.request({setCamera: {eye, target, up, verticalFov}});
+        const {eye, target, up, verticalFov, near} = view;
+        const {id, answer} = this.client.request({setCamera: {eye, target, up, verticalFov, ...(near && {near})}});
         this.#pending.set(id, {view, sent: performance.now()});
         if (this.#pending.size > MAX_PENDING) {
             this.#pending.delete(this.#pending.keys().next().value ?? 0);

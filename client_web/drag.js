@@ -134,7 +134,7 @@ export class ObjectMover extends EventTarget {
      * @returns {boolean} whether the object has been taken hold of
      */
     begin(object, ray) {
-        const held = object.movable ? grip(object.bounds, ray) : null;
+        const held = object.loose ? grip(object.bounds, ray) : null;
         if (held) {
             this.#drag = {object, grip: held, from: object.transform, bounds: object.bounds};
         }

@@ -199,3 +199,30 @@ export function saveFile(blob, name) {
 
 /** @type {(text: string) => string} */
 export const fileName = (text) => text.replaceAll(/[^\p{L}\p{N}]+/gu, '_').replaceAll(/^_|_$/g, '');
+
+/**
+ * @param {string} kind  of the element
+ * @param {Record<string, string>} attributes
+ * @returns {HTMLInputElement}
+ */
+export function input(kind, attributes) {
+    const element = document.createElement('input');
+    element.type = kind;
+    for (const [name, value] of Object.entries(attributes)) {
+        element.setAttribute(name, value);
+    }
+    return element;
+}
+
+/**
+ * @param {string} text
+ * @param {...HTMLElement} parts
+ */
+export function field(text, ...parts) {
+    const label = document.createElement('label');
+    label.className = 'field';
+    const name = document.createElement('span');
+    name.textContent = text;
+    label.append(name, ...parts);
+    return label;
+}

@@ -56,7 +56,7 @@ export class Gizmo {
     constructor(app) {
         this.app = app;
         this.group = app.overlay.group('gizmo');
-        for (const name of ['x', 'y', 'z', 'turn', 'size']) {
+        for (const name of ['x', 'y', 'z', 'turn', 'pivot', 'size']) {
             this.#addHandle(name);
         }
         app.overlay.add((frame) => this.#draw(frame));
@@ -89,7 +89,7 @@ export class Gizmo {
     /** The selected object, if it can be placed. */
     get #object() {
         const {selected, mayEdit, tool} = this.app;
-        return selected?.movable && mayEdit && tool === 'select' ? selected : null;
+        return selected?.loose && mayEdit && tool === 'select' ? selected : null;
     }
 
     /** @param {string} name */
@@ -130,7 +130,8 @@ export class Gizmo {
         element.setPointerCapture(event.pointerId);
         const at = {x: event.clientX, y: event.clientY};
         const from = object.transform;
-        this.#drag = {handle, start: at, at, object, from, pivot: basePoint(object.bounds)};
+        const pivot = handle === 'turn' || handle === 'pivot' ? object.pivot : basePoint(object.bounds);
+        this.#drag = {handle, start: at, at, object, from, pivot};
         this.app.mover.hold(object);
     }
 
@@ -141,7 +142,26 @@ export class Gizmo {
         }
         event.stopPropagation();
         this.#drag.at = {x: event.clientX, y: event.clientY};
+        if (this.#drag.handle === 'pivot') {
+            this.#movePivot(this.#drag);
+            return;
+        }
         this.app.mover.place(this.#wanted(this.#drag, this.#snap.checked !== event.ctrlKey));
+    }
+
+    /**
+     * Shifts what the object turns about, over the floor.
+     *
+     * @param {HandleDrag} drag
+     */
+    #movePivot({object, at, pivot}) {
+        const box = this.app.picture.element.getBoundingClientRect();
+        const {origin, direction} = this.app.rayAt({x: at.x - box.left, y: at.y - box.top});
+        const t = (pivot.y - origin.y) / direction.y;
+        if (t > 0 && Number.isFinite(t)) {
+            object.pivot = add(origin, scale(direction, t));
+            this.app.drawOverlay();
+        }
     }
 
     /**
@@ -204,11 +224,13 @@ export class Gizmo {
             return `${x.toFixed(1)} ${y.toFixed(1)}`;
         };
         if (this.#mode === 'turn') {
+            const {pivot} = object;
             const points = Array.from({length: RING_POINTS}, (_, i) => {
                 const angle = (2 * Math.PI * i) / RING_POINTS;
-                return at(add(base, vec3(metres * Math.sin(angle), 0, metres * Math.cos(angle))));
+                return at(add(pivot, vec3(metres * Math.sin(angle), 0, metres * Math.cos(angle))));
             });
-            return {turn: `M${points.join('L')}Z`};
+            const {x, y} = place(pivot);
+            return {turn: `M${points.join('L')}Z`, pivot: `M${x - 6} ${y}a6 6 0 1 0 12 0a6 6 0 1 0 -12 0Z`};
         }
         if (this.#mode === 'size') {
             const top = vec3(base.x, object.bounds.max.y, base.z);

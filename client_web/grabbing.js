@@ -39,7 +39,7 @@ export class Grabbing {
      * @param {number} forwards  steps of 10 cm
      */
     nudge(right, forwards) {
-        if (this.app.selected?.movable && this.app.mayEdit && this.app.scene) {
+        if (this.app.selected?.loose && this.app.mayEdit && this.app.scene) {
             const step = [right * NUDGE_M, forwards * NUDGE_M];
             this.app.mover.nudge(this.app.selected, this.app.view, step[0], step[1], this.app.scene.bounds);
         }
@@ -52,7 +52,7 @@ export class Grabbing {
      */
     canGrab(at) {
         const object = this.app.selected;
-        const movable = object?.movable && this.app.mayEdit && this.app.tool === 'select';
+        const movable = object?.loose && this.app.mayEdit && this.app.tool === 'select';
         return movable ? intersectBounds(this.app.rayAt(at), object.bounds) !== null : false;
     }
 
@@ -109,7 +109,7 @@ export class Grabbing {
     async #restOn(at) {
         if (this.app.client.state === 'connected' && !this.app.camera.moving) {
             const object = await this.app.pickAt(at.x, at.y);
-            this.#markHovered(object?.movable ? object : null);
+            this.#markHovered(object?.loose ? object : null);
         }
     }
 

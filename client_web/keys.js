@@ -9,6 +9,7 @@ import {byId} from './elements.js';
  * @typedef {object} KeyTargets
  * @property {RaybundleApp} app
  * @property {import('./walking.js').Walking} walking
+ * @property {import('./collisions.js').Collisions} collisions
  * @property {import('./gizmo.js').Gizmo} gizmo
  * @property {import('./grabbing.js').Grabbing} grabbing
  * @property {import('./display_panel.js').DisplayPanel} display
@@ -41,6 +42,7 @@ const COMMANDS = new Map([
     ['KeyL', ({walking}) => walking.lookWithMouse()],
     ['KeyH', ({walking}) => walking.stand()],
     ['KeyF', ({app}) => app.frameSelected()],
+    ['KeyC', ({collisions}) => collisions.toggle()],
     ['KeyV', ({display}) => display.nextMode()],
     ['KeyG', ({gizmo}) => gizmo.setMode('move')],
     ['KeyR', ({gizmo}) => gizmo.setMode('turn')],
@@ -82,7 +84,7 @@ function addAim(app) {
  */
 function press(targets, event) {
     const {app} = targets;
-    const nudge = event.shiftKey && app.selected?.movable ? NUDGE_KEYS.get(event.code) : undefined;
+    const nudge = event.shiftKey && app.selected?.loose ? NUDGE_KEYS.get(event.code) : undefined;
     if (nudge) {
         targets.grabbing.nudge(nudge[0], nudge[1]);
         return true;

@@ -2,9 +2,10 @@
 // Lights and materials: what each is set to, and how to set it. While a slider moves, one change at a
 // time is on its way, and the newest follows it.
 
-import {blackBody, fromHex, temperatureOf, toHex} from './colour.js';
-import {LiveField, byId, fieldNote} from './elements.js';
+import {blackBody, temperatureOf} from './colour.js';
+import {LiveField, byId, field, fieldNote, input} from './elements.js';
 import {subjectOf} from './history.js';
+import {byName, materialCard} from './material_card.js';
 import {ServerError} from './protocol.js';
 import {sentence} from './status.js';
 import {threeDigits} from './units.js';
@@ -133,33 +134,6 @@ export class NewestOnly {
     }
 }
 
-/**
- * @param {string} kind  of the element
- * @param {Record<string, string>} attributes
- * @returns {HTMLInputElement}
- */
-function input(kind, attributes) {
-    const element = document.createElement('input');
-    element.type = kind;
-    for (const [name, value] of Object.entries(attributes)) {
-        element.setAttribute(name, value);
-    }
-    return element;
-}
-
-/**
- * @param {string} text
- * @param {...HTMLElement} parts
- */
-function field(text, ...parts) {
-    const label = document.createElement('label');
-    label.className = 'field';
-    const name = document.createElement('span');
-    name.textContent = text;
-    label.append(name, ...parts);
-    return label;
-}
-
 export class LightPanel {
     /** Lights as the file has them, or as this page was told first, by id. @type {Map<number, LoadedLight>} */
     #loaded = new Map();
@@ -170,10 +144,15 @@ export class LightPanel {
     /**
      * @param {RaybundleApp} app
      * @param {History} history
+     * @param {() => void} open  shows this panel
      */
-    constructor(app, history) {
+    constructor(app, history, open) {
         this.app = app;
         this.history = history;
+        byId('picked-material', HTMLButtonElement).addEventListener('click', () => {
+            open();
+            this.#showPicked();
+        });
         app.on('anew', () => {
             this.#scene = '';
         });
@@ -201,7 +180,7 @@ export class LightPanel {
         byId('materials-note', HTMLElement).hidden = true;
         const lights = scene.lights.map((light) => this.#lightCard(light));
         byId('lights', HTMLElement).replaceChildren(...lights);
-        const materials = scene.materials.map((material) => this.#materialCard(material));
+        const materials = byName(scene.materials).map((group) => this.#addMaterial(group));
         byId('materials', HTMLElement).replaceChildren(...materials);
         this.#allow(document.body, this.app.mayEdit);
         this.#refresh.forEach((show) => show());
@@ -298,51 +277,39 @@ export class LightPanel {
         return card;
     }
 
-    /** @param {Material} material */
-    #materialCard(material) {
+    /**
+     * Marks the card of a material, as that of what has been clicked.
+     *
+     * @param {number | null} id
+     */
+    pick(id) {
+        const material = this.app.scene?.materials.find((one) => one.id === id);
+        byId('picked', HTMLElement).hidden = !material;
+        byId('picked-material', HTMLElement).textContent = material ? material.name || `Material ${material.id}` : '';
+        for (const card of byId('materials', HTMLElement).children) {
+            const ids = (/** @type {HTMLElement} */ (card).dataset.materials ?? '').split(' ');
+            card.classList.toggle('picked', material !== undefined && ids.includes(String(id)));
+        }
+        this.#showPicked();
+    }
+
+    #showPicked() {
+        const card = document.querySelector('#materials .picked');
+        if (card instanceof HTMLElement && card.checkVisibility()) {
+            card.scrollIntoView({block: 'nearest'});
+        }
+    }
+
+    /** @param {Material[]} group  of one name, of which all change together */
+    #addMaterial(group) {
+        const [material] = group;
         const name = material.name || `Material ${material.id}`;
-        const colour = input('color', {'aria-label': `${name}, colour`});
-        const attributes = {min: '0', max: '1', step: '0.01', 'aria-label': `${name}, roughness`};
-        const roughness = input('range', attributes);
-        const roughnessField = new LiveField(roughness);
-        const known = document.createElement('output');
-        const metallic = input('range', {...attributes, 'aria-label': `${name}, metallic`});
-        const metallicField = new LiveField(metallic);
-        const metallicKnown = document.createElement('output');
-        const change = this.#changes('setMaterial', {material: material.id}, name, () => {
-            const {baseColour, roughness: rough, metallic: metal} = material;
-            return {baseColour, roughness: rough, metallic: metal};
+        const change = this.#changes('setMaterial', group.map(({id}) => ({material: id})), name, () => {
+            const {baseColour, roughness, metallic} = material;
+            return {baseColour, roughness, metallic};
         });
-        const metal = () => ({metallic: Number(metallic.value)});
-        metallic.addEventListener('input', () => change.going(metal()));
-        metallic.addEventListener('change', () => change.done(metal()));
-        const painted = () => ({baseColour: fromHex(colour.value)});
-        colour.addEventListener('input', () => change.going(painted()));
-        colour.addEventListener('change', () => change.done(painted()));
-        const rough = () => ({roughness: Number(roughness.value)});
-        roughness.addEventListener('input', () => change.going(rough()));
-        roughness.addEventListener('change', () => change.done(rough()));
-        this.#refresh.push(() => {
-            colour.value = toHex(material.baseColour ?? {x: 0.5, y: 0.5, z: 0.5});
-            roughnessField.show(String(material.roughness ?? 1));
-            known.textContent = material.roughness?.toFixed(2) ?? '–';
-            // What is not told cannot be changed with sense.
-            colour.hidden = material.baseColour === undefined;
-            // Nor can what has no effect.
-            const matt = material.matt === true && !((material.metallic ?? 0) > 0);
-            roughness.disabled = !this.app.mayEdit || material.roughness === undefined || matt;
-            roughness.title = matt ? 'The file makes this material matt: without metallic it has no gloss' : '';
-            metallicField.show(String(material.metallic ?? 0));
-            metallicKnown.textContent = material.metallic?.toFixed(2) ?? '–';
-            metallic.disabled = !this.app.mayEdit || material.metallic === undefined;
-        });
-        const title = document.createElement('b');
-        title.textContent = name;
-        const head = document.createElement('div');
-        head.className = 'card-head';
-        head.append(title, colour);
-        const card = document.createElement('li');
-        card.append(head, field('Roughness', roughness, known), field('Metallic', metallic, metallicKnown));
+        const {card, show} = materialCard(group, name, change, () => this.app.mayEdit);
+        this.#refresh.push(show);
         return card;
     }
 
@@ -350,11 +317,12 @@ export class LightPanel {
      * Changes to one light or material.
      *
      * @param {'setLight' | 'setMaterial'} kind
-     * @param {object} subject
+     * @param {object | object[]} subject  or several, which change together
      * @param {string} name
      * @param {() => Record<string, unknown>} state  what it is set to now
      */
     #changes(kind, subject, name, state) {
+        const subjects = [subject].flat();
         /** What it was when the user took hold of it. @type {Record<string, unknown> | null} */
         let before = null;
         /**
@@ -363,7 +331,8 @@ export class LightPanel {
          */
         const send = async (values, refused) => {
             try {
-                await this.app.client.request({[kind]: {...subject, ...values}}).answer;
+                const {client} = this.app;
+                await Promise.all(subjects.map((one) => client.request({[kind]: {...one, ...values}}).answer));
                 return true;
             } catch (error) {
                 this.#refused(kind, error, refused);
@@ -391,7 +360,7 @@ export class LightPanel {
                     const touched = Object.keys(values).map((key) => [key, from[key]]);
                     this.history.add({
                         label: `set ${name}`,
-                        subject: subjectOf({[kind]: subject}),
+                        subject: subjectOf({[kind]: subjects[0]}),
                         undo: () => send(Object.fromEntries(touched)),
                         redo: () => send(values),
                     });

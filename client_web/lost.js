@@ -14,7 +14,7 @@ const FEWEST_ITERATIONS = 4;
 
 /** What is to be told of each picture that comes to rest. */
 export class DarkViews {
-    /** The newest view that showed something. @type {View | null} */
+    /** The newest view that showed something, from this side of all walls. @type {View | null} */
     good = null;
     /** The dark one that has been told of. @type {View | null} */
     #told = null;
@@ -22,15 +22,16 @@ export class DarkViews {
     /**
      * @param {View} view
      * @param {boolean} dark
+     * @param {boolean} [right]  whether the eye has come there past walls, not through them
      * @returns {'tell' | 'take back' | 'nothing'}
      */
-    seen(view, dark) {
-        if (!dark) {
+    seen(view, dark, right = true) {
+        if (!dark && right) {
             this.good = view;
             this.#told = null;
             return 'take back';
         }
-        if (this.#told && sameView(this.#told, view)) {
+        if (!dark || (this.#told && sameView(this.#told, view))) {
             return 'nothing';
         }
         this.#told = view;
@@ -46,18 +47,15 @@ export class Lost {
     /**
      * @param {import('./app.js').RaybundleApp} app
      * @param {import('./display_panel.js').DisplayPanel} display
+     * @param {import('./collisions.js').Collisions} collisions
      */
-    constructor(app, display) {
+    constructor(app, display, collisions) {
         this.app = app;
         this.display = display;
+        this.collisions = collisions;
         app.on('anew', () => {
             this.#views = new DarkViews();
             this.#takeBack();
-        });
-        app.on('picture', () => {
-            if (this.#notice && app.picture.brightness >= DARK) {
-                this.#takeBack();
-            }
         });
         setInterval(() => this.#look(), LOOK_MS);
     }
@@ -70,7 +68,8 @@ export class Lost {
         }
         // Who has chosen an exposure knows why it is dark.
         const exposed = this.display.mode === 'PHOTO' && this.display.autoExposure;
-        const what = this.#views.seen(view, exposed && picture.brightness < DARK);
+        const dark = exposed && picture.brightness < DARK;
+        const what = this.#views.seen(view, dark, this.collisions.honest);
         if (what === 'tell') {
             this.#tell();
         } else if (what === 'take back') {

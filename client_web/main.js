@@ -2,8 +2,10 @@
 // Starts the page: the application, its tools and panels, its keys, buttons and gestures.
 
 import {RaybundleApp} from './app.js';
+import {Collisions} from './collisions.js';
 import {Compare} from './compare.js';
 import {DisplayPanel} from './display_panel.js';
+import {swung} from './doors.js';
 import {addEffects} from './effects.js';
 import {announce, byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
@@ -19,6 +21,7 @@ import {MeasuredStrip} from './measured_strip.js';
 import {People} from './people.js';
 import {PICTURE_SIZES} from './picture.js';
 import {Pins} from './pins.js';
+import {Plans} from './plans.js';
 import {PointerControl} from './pointer_control.js';
 import {reportHtml} from './report.js';
 import {SceneFiles} from './scene_files.js';
@@ -53,6 +56,7 @@ const history = new History();
 const marks = new Marks(app);
 const display = new DisplayPanel(app);
 const walking = new Walking(app);
+const collisions = new Collisions(app);
 const gizmo = new Gizmo(app);
 const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
@@ -78,13 +82,17 @@ new MeasuredStrip(app, measuring, () => {
     byId('tab-measure', HTMLElement).focus({preventScroll: true});
 });
 new ScenePanel(app, grabbing, history);
+const plans = new Plans(app);
 new SceneFiles(app);
 new SnapshotPanel(app);
-new LightPanel(app, history);
+const lightPanel = new LightPanel(app, history, () => {
+    setPanel(true);
+    showTab('tab-light');
+});
 new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);
-new Lost(app, display);
+new Lost(app, display, collisions);
 addHistory(app, history);
 addEffects(app);
 
@@ -108,19 +116,26 @@ async function clickAt(at) {
         const click = ++clicks;
         const object = await app.pickAt(at.x, at.y);
         if (click === clicks) {
-            app.select(object?.movable ? object.id : null);
+            app.select(object?.movable || object?.kind === 'STRUCTURE' ? object.id : null);
+            lightPanel.pick(app.picker.material);
         }
     }
 }
 
 /**
- * A double click goes there; what its two clicks have selected is as it was.
+ * A double click opens or closes a door, or else goes there; what its two clicks have selected is as it was.
  *
  * @param {import('./pointer_control.js').Point} at
  */
-function doubleClickAt(at) {
+async function doubleClickAt(at) {
     if (app.tool === 'select') {
         ++clicks;
+        const door = await app.pickAt(at.x, at.y);
+        if (door?.kind === 'DOOR' && door.loose && app.mayEdit) {
+            app.select(door.id);
+            app.mover.move(door, swung(door, app.view.eye));
+            return;
+        }
         if (selectedBefore.length > 0 && (app.selected?.id ?? null) !== selectedBefore[0]) {
             app.select(selectedBefore[0]);
         }
@@ -298,6 +313,7 @@ addButtons();
 addKeys({
     app,
     walking,
+    collisions,
     gizmo,
     grabbing,
     display,
@@ -315,5 +331,5 @@ restoreShared();
 document.addEventListener('visibilitychange', () => {
     app.client.paused = document.hidden;
 });
-Object.assign(window, {raybundle: app, raybundleParts: {display, walking, measuring, gridPanel, people, pins, compare, history}});
+Object.assign(window, {raybundle: app, raybundleParts: {collisions, display, plans, walking, measuring, gridPanel, people, pins, compare, history}});
 app.start();

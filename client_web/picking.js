@@ -40,6 +40,8 @@ export class Picker {
     constructor(client) {
         this.client = client;
         this.probes = true;
+        /** Of what has been picked last; null: not known. @type {number | null} */
+        this.material = null;
         client.addEventListener('welcome', () => {
             this.probes = true;
         });
@@ -55,6 +57,7 @@ export class Picker {
         if (this.probes) {
             try {
                 const {probeResult} = await this.client.request({probe: {pixel}}).answer;
+                this.material = probeResult?.material ?? null;
                 return scene.object(probeResult?.object);
             } catch (error) {
                 this.probes = !(error instanceof ServerError && error.code === 'UNIMPLEMENTED');

@@ -45,6 +45,28 @@ export function basePoint(bounds) {
     return vec3(x, bounds.min.y, z);
 }
 
+/** From the middle to the edge, what lies further out than this share is at the edge. */
+const AT_EDGE = 0.8;
+/** And it may be outside of the bounds by so much, metres. */
+const BESIDE = 0.1;
+
+/**
+ * Whether an object's own origin is at its edge, as that of a door at its hinge is.
+ *
+ * @param {Bounds} bounds
+ * @param {Vec3} origin
+ */
+export function isHinge(bounds, origin) {
+    const middle = centre(bounds);
+    const shares = /** @type {const} */ (['x', 'z']).map((axis) => {
+        const half = (bounds.max[axis] - bounds.min[axis]) / 2;
+        const off = Math.abs(origin[axis] - middle[axis]);
+        return {long: half, outside: off > half + BESIDE, share: half > 0 ? off / half : 0};
+    });
+    const longest = shares[0].long >= shares[1].long ? shares[0] : shares[1];
+    return shares.every(({outside}) => !outside) && longest.share >= AT_EDGE;
+}
+
 /**
  * Hamilton product: rotates by `b`, then by `a`.
  *

@@ -16,7 +16,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  *     local transform of a node, relative to its parent
  * @typedef {{width: number, height: number}} Viewport  pixels
  * @typedef {'VIEWER' | 'REVIEWER' | 'EDITOR'} Role
- * @typedef {{eye: Vec3, target: Vec3, up: Vec3, verticalFov: number}} View  fov in radians
+ * @typedef {{eye: Vec3, target: Vec3, up: Vec3, verticalFov: number, near?: number}} View  fov in radians; near: of plans
+ *     and sections, what is nearer along the line of sight is not shown, metres
  */
 
 /**
@@ -27,6 +28,9 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Bounds} bounds
  * @property {Transform} transform
  * @property {number[]} [worldFromParent]  affine 4x4 matrix, column by column
+ * @property {'THING' | 'STRUCTURE' | 'DOOR'} [kind]  as names tell
+ * @property {string[]} [path]  names of the nodes above it, the outermost first
+ * @property {string} [storey]  empty: none
  */
 
 /**
@@ -201,12 +205,23 @@ export const SUBPROTOCOL = 'raybundle.v1';
 /** @typedef {{illuminance: number[], relativeError: number[], epoch: number}} ProbeGridResult */
 
 /**
+ * @typedef {object} WalkMap
+ * @property {Vec3} origin
+ * @property {number} cell  width of a column, metres
+ * @property {number} layer  height of a layer, metres
+ * @property {number} columns  along x and along z
+ * @property {number} layers
+ * @property {string} occupied  base64: 8 bytes a column, at z * columns + x; bit k: something is in layer k
+ */
+
+/**
  * @typedef {object} ProbeResult
  * @property {boolean} hit
  * @property {Vec3} [position]
  * @property {Vec3} [normal]
  * @property {number} [object]  0: part of no object
  * @property {number} [patch]
+ * @property {number} [material]  Material.id
  * @property {number} [illuminance]  lx
  * @property {number} [luminance]  cd/m²
  * @property {number} [relativeError]
@@ -239,6 +254,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{by: number, position: Vec3}} [pointed]
  * @property {{viewers: Viewer[]}} [presence]
  * @property {ProbeGridResult} [probeGridResult]
+ * @property {WalkMap} [walkMap]
  * @property {SceneList} [sceneList]
  * @property {SceneOpening} [sceneOpening]
  * @property {{effects: Effect[]}} [effectCosts]

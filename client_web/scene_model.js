@@ -3,10 +3,12 @@
 // stand. The two differ while a move is on its way.
 
 import {visibleEdges} from './overlay.js';
+import {basePoint, isHinge} from './placement.js';
 import {
     IDENTITY,
     add,
     boundsOf,
+    centre,
     completeTransform,
     corners,
     inverseMatrixPoint,
@@ -16,6 +18,7 @@ import {
     matrixVector,
     sub,
     transformPoint,
+    vec3,
 } from './vector.js';
 
 /**
@@ -69,6 +72,17 @@ export function shifted(transform, shift, worldFromParent = IDENTITY) {
  */
 const roundedNumbers = (_, value) => (typeof value === 'number' ? Number(value.toPrecision(5)) : value);
 
+/**
+ * Where a leaf without a hinge of its own is hung: at one end, in the middle of its thickness.
+ *
+ * @param {Bounds} bounds
+ * @returns {Vec3}
+ */
+function hingeOf({min, max}) {
+    const along = max.x - min.x >= max.z - min.z;
+    return along ? vec3(min.x, min.y, (min.z + max.z) / 2) : vec3((min.x + max.x) / 2, min.y, min.z);
+}
+
 /** One object, with its place now and its place as the server last told. */
 export class PlacedObject {
     /** @type {Bounds} */
@@ -77,10 +91,12 @@ export class PlacedObject {
     #originalTransform;
 
     /** @param {SceneObject} object */
-    constructor({id, name, movable, bounds, transform, worldFromParent}) {
+    constructor({id, name, movable, bounds, transform, worldFromParent, kind, storey}) {
         this.id = id;
         this.name = name || `Object ${id}`;
         this.movable = movable;
+        this.kind = kind ?? 'THING';
+        this.storey = storey ?? '';
         /** Affine 4x4 matrix, column by column. */
         this.worldFromParent = worldFromParent?.length === 16 ? worldFromParent : IDENTITY;
         this.#originalBounds = bounds;
@@ -93,6 +109,34 @@ export class PlacedObject {
         this.earlier = this.transform;
         /** World bounds at `transform`. */
         this.bounds = bounds;
+        /** Somebody has said that this part of the building may be moved. */
+        this.unlocked = false;
+        /** What it turns about, in its own space, where somebody has said so. @type {Vec3 | null} */
+        this.ownPivot = null;
+        const origin = matrixPoint(this.worldFromParent, this.transform.translation);
+        if (isHinge(bounds, origin)) {
+            this.ownPivot = vec3(0, 0, 0);
+        } else if (this.kind === 'DOOR') {
+            this.pivot = hingeOf(bounds);
+        }
+    }
+
+    /** Whether it can be moved as it is: parts of the building have to be unlocked. */
+    get loose() {
+        return this.movable && (this.kind !== 'STRUCTURE' || this.unlocked);
+    }
+
+    /** What it turns about, at its lower edge: its hinge, or its middle. @returns {Vec3} */
+    get pivot() {
+        if (!this.ownPivot) {
+            return basePoint(this.bounds);
+        }
+        const point = matrixPoint(this.worldFromParent, transformPoint(this.transform, this.ownPivot));
+        return {...point, y: this.bounds.min.y};
+    }
+
+    set pivot(point) {
+        this.ownPivot = inverseTransformPoint(this.transform, inverseMatrixPoint(this.worldFromParent, point));
     }
 
     /** @param {Transform} transform */
@@ -148,6 +192,16 @@ export class PlacedObject {
         };
     }
 
+    /**
+     * Middle of the object, were it placed otherwise.
+     *
+     * @param {Transform} transform  local
+     * @returns {Vec3}
+     */
+    centreAt(transform) {
+        return centre(movedBounds(this.#originalBounds, this.#originalTransform, transform, this.worldFromParent));
+    }
+
     /** Local transform as this page was told first. */
     get original() {
         return completeTransform(this.#originalTransform);
@@ -197,6 +251,23 @@ export class SceneModel {
         this.lights = (scene.lights ?? []).map((light) => ({...light}));
         this.materials = (scene.materials ?? []).map((material) => ({...material}));
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
+    }
+
+    /**
+     * Storeys by name, each with the bounds of what is on it, the lowest first.
+     *
+     * @returns {Map<string, Bounds>}
+     */
+    get storeys() {
+        /** @type {Map<string, Bounds>} */
+        const storeys = new Map();
+        for (const {storey, bounds} of this.objects) {
+            if (storey) {
+                const known = storeys.get(storey);
+                storeys.set(storey, known ? boundsOf([known.min, known.max, bounds.min, bounds.max]) : bounds);
+            }
+        }
+        return new Map([...storeys].sort(([, a], [, b]) => a.min.y - b.min.y));
     }
 
     /**

@@ -2,6 +2,7 @@
 // Cameras, objects, and the selected object with its place in numbers.
 
 import {LiveField, announce, byId, fieldNote, listRow, showValue} from './elements.js';
+import {ObjectList} from './object_list.js';
 import {basePoint, limitedSize, resizedAbout, turnBetween, turnedAbout} from './placement.js';
 import {shifted} from './scene_model.js';
 import {centre, completeTransform, sub} from './vector.js';
@@ -52,7 +53,7 @@ export function placedAt(object, name, value) {
     const before = placeOf(object);
     if (name === 'turn') {
         const angle = ((value - before.turn) * Math.PI) / 180;
-        return turnedAbout(object.transform, pivot, angle, parent);
+        return turnedAbout(object.transform, object.pivot, angle, parent);
     }
     if (name === 'size') {
         const factor = limitedSize(value / before.size);
@@ -90,8 +91,7 @@ export function isOutside(object, scene) {
 
 export class ScenePanel {
     #cameras = byId('cameras', HTMLUListElement);
-    #objects = byId('objects', HTMLUListElement);
-    #fixed = byId('fixed-objects', HTMLUListElement);
+    #unlock = byId('unlock', HTMLButtonElement);
     #selection = byId('selection', HTMLElement);
     #placement = byId('placement', HTMLElement);
     #note = byId('place-note', HTMLElement);
@@ -107,6 +107,7 @@ export class ScenePanel {
      */
     constructor(app, grabbing, history) {
         this.app = app;
+        this.objects = new ObjectList(app);
         this.history = history;
         this.#addButtons(grabbing);
         app.on('welcome', () => this.#showScene());
@@ -122,6 +123,14 @@ export class ScenePanel {
             const [right, forwards] = (nudge ?? '0,0').split(',').map(Number);
             button.addEventListener('click', () => grabbing.nudge(right, forwards));
         }
+        this.#unlock.addEventListener('click', () => {
+            if (app.selected) {
+                app.selected.unlocked = true;
+                this.objects.refresh();
+                this.#showSelection();
+                app.drawOverlay();
+            }
+        });
         byId('deselect', HTMLElement).addEventListener('click', () => app.select(null));
         byId('put-back', HTMLElement).addEventListener('click', () => {
             if (app.selected) {
@@ -193,26 +202,10 @@ export class ScenePanel {
             listRow(name || `Camera ${index + 1}`, () => this.app.flyTo(index)),
         );
         this.#cameras.replaceChildren(...orEmpty(cameras, 'The scene names no camera.'));
-        const rowOf = (/** @type {PlacedObject} */ object) => {
-            const row = listRow(object.name, () => this.app.select(object.id));
-            row.dataset.object = String(object.id);
-            return row;
-        };
-        const movable = scene.objects.filter((object) => object.movable).map(rowOf);
-        const fixed = scene.objects.filter((object) => !object.movable).map(rowOf);
-        this.#objects.replaceChildren(...orEmpty(movable, 'Nothing here can be moved.'));
-        this.#fixed.replaceChildren(...fixed);
-        byId('fixed-details', HTMLElement).hidden = fixed.length === 0;
     }
 
     #showSelection() {
         const object = this.app.selected;
-        for (const list of [this.#objects, this.#fixed]) {
-            for (const row of list.querySelectorAll('li')) {
-                const selected = row.dataset.object === String(object?.id);
-                row.querySelector('button')?.setAttribute('aria-pressed', String(selected));
-            }
-        }
         if (this.#shown !== object?.id) {
             this.#shown = object?.id ?? null;
             this.#fields.forEach((field) => field.reset());
@@ -223,8 +216,10 @@ export class ScenePanel {
         if (!object) {
             return;
         }
-        const canMove = object.movable && this.app.mayEdit;
-        const why = object.movable ? 'Your role is to look, not to move.' : 'Part of the building.';
+        const canMove = object.loose && this.app.mayEdit;
+        const locked = object.movable && !object.loose && this.app.mayEdit;
+        const why = object.loose ? 'Your role is to look, not to move.' : 'Part of the building: nobody moves it by accident.';
+        this.#unlock.hidden = !locked;
         showValue('selectionName', object.name);
         announce(`${object.name} is selected.`);
         showValue('selectionHint', canMove ? 'Drag it, or its handles, in the picture.' : why);
