@@ -263,7 +263,9 @@ export class RaybundleApp extends EventTarget {
     drawOverlay() {
         const {shown} = this.link;
         if (shown && this.frame) {
-            this.picture.warp(shown, this.view);
+            // Between a plan and the eyes of somebody nothing is alike.
+            const alike = (shown.near ?? 0) > 0 === (this.view.near ?? 0) > 0;
+            this.picture.warp(alike ? shown : this.view, this.view);
         }
         this.overlay.draw(this.view, this.picture.aspect);
     }

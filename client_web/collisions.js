@@ -17,6 +17,7 @@ import {WalkGrid, Walker} from './walk_grid.js';
 const ASK_AFTER_M = 1.2;
 /** Likewise upwards and downwards. */
 const ASK_AFTER_HEIGHT_M = 0.5;
+const PAUSE_MS = 1000;
 /** Nobody stands in what is lower, metres. */
 const LOWEST_SCENE = 2;
 
@@ -152,6 +153,8 @@ export class Collisions {
             }
         } catch (error) {
             this.#unknown = error instanceof ServerError && error.code === 'UNIMPLEMENTED';
+            // A server that has too much to do is not asked at each step.
+            await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
         }
         this.#asking = false;
     }

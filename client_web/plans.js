@@ -2,6 +2,7 @@
 // Plans and sections: the scene seen from so far away that parallels stay parallel, cut open by a near plane. Light is
 // that of the whole scene.
 
+import {EYE_HEIGHT} from './camera.js';
 import {byId, listRow} from './elements.js';
 import {UP, add, centre, scale, sub, vec3} from './vector.js';
 
@@ -44,15 +45,18 @@ export function planView(bounds, towards, up, cut, aspect) {
 }
 
 /**
- * Plan of a storey, or of the whole scene.
+ * Plan of a storey, or of what is at the height of somebody's feet.
  *
  * @param {Bounds} bounds
  * @param {number} aspect
+ * @param {number} [eye]  height of his eyes, metres
  * @returns {View & {near: number}}
  */
-export function planOf(bounds, aspect) {
+export function planOf(bounds, aspect, eye) {
     const {x, z} = centre(bounds);
-    const y = Math.min(bounds.min.y + CUT_HEIGHT, (bounds.min.y + bounds.max.y) / 2);
+    const inside = eye !== undefined && eye > bounds.min.y && eye < bounds.max.y;
+    const floor = inside ? Math.max(eye - EYE_HEIGHT, bounds.min.y) : bounds.min.y;
+    const y = Math.min(floor + CUT_HEIGHT, (floor + bounds.max.y) / 2);
     return planView(bounds, vec3(0, -1, 0), vec3(0, 0, -1), vec3(x, y, z), aspect);
 }
 
@@ -119,7 +123,7 @@ export class Plans {
             listRow(`Plan of ${name}`, () => this.#open(planOf(bounds, app.picture.aspect))),
         );
         this.#list.replaceChildren(
-            ...(rows.length > 0 ? rows : [listRow('Plan', () => this.#open(planOf(scene.bounds, app.picture.aspect)))]),
+            ...(rows.length > 0 ? rows : [listRow('Plan', () => this.#open(planOf(scene.bounds, app.picture.aspect, (this.#before ?? app.view).eye.y)))]),
             listRow('Section, looking north (−z)', () => this.#open(sectionOf(scene.bounds, through(), 'z', app.picture.aspect))),
             listRow('Section, looking east (+x)', () => this.#open(sectionOf(scene.bounds, through(), 'x', app.picture.aspect))),
         );

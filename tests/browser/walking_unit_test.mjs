@@ -114,6 +114,9 @@ describe('plans and sections', () => {
         assert.ok(Math.abs(near.x - far.x) < 0.002);
         assert.ok(Math.abs(near.depth - plan.near) < 1e-6 * plan.near, 'cut 1.2 m above the floor');
         assert.ok(at(vec3(5, 2.9, 3)).depth < plan.near, 'the ceiling is cut away');
+        const tall = {min: vec3(0, -1.5, 0), max: vec3(10, 7, 6)};
+        const upstairs = planOf(tall, 1.5, 4.6);
+        assert.ok(Math.abs(upstairs.eye.y - upstairs.near - 4.2) < 1e-6, 'of the floor on which one stands');
     });
 
     it('look across at what is chosen', () => {
