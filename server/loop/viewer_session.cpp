@@ -189,6 +189,9 @@ void ViewerSession::set_display(const v1::SetDisplay& message) {
     if (message.has_scale_unit()) {
         scale_unit_ = message.scale_unit();
     }
+    if (message.has_linear_scale()) {
+        linear_scale_ = message.linear_scale();
+    }
     shown_exposure_.reset();
     changed_ = true;
 }
@@ -260,13 +263,13 @@ float ViewerSession::exposure(const ViewerImage& image) {
 ColourScale ViewerSession::colour_scale(float exposure) const {
     const float isolines = isolines_ ? scale_unit_ : 0.0F;
     if (scale_maximum_ > 0.0F) {
-        return {scale_maximum_, isolines};
+        return {scale_maximum_, isolines, linear_scale_};
     }
     // Display white, in lx on a surface of albedo 0.5 where illuminance is shown.
     const float white = 1.0F / ViewerImage::display_factor(exposure);
     const bool lux = mode_ == DisplayMode::false_illuminance;
     const float top = lux ? 2.0F * std::numbers::pi_v<float> * white : white;
-    return {round_up_125(top / scale_unit_) * scale_unit_, isolines};
+    return {round_up_125(top / scale_unit_) * scale_unit_, isolines, linear_scale_};
 }
 
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
@@ -332,6 +335,7 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
     const ColourScale scale = colour_scale(header_.exposure());
     if (mode_ != DisplayMode::photo) {
         header_.set_scale_maximum(scale.maximum);
+        header_.set_scale_linear(scale.linear);
     }
     image.compose(mode_, header_.exposure(), frame_size, scale);
     changed_ = false;

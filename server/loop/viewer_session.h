@@ -167,6 +167,7 @@ class ViewerSession {
     float scale_maximum_ = 0.0F;  // 0: follows the exposure
     bool isolines_ = false;
     float scale_unit_ = 1.0F;  // lx or cd/m²
+    bool linear_scale_ = false;
     std::optional<float> shown_exposure_;
     double target_error_ = 0.0;
     double target_seconds_ = 0.0;

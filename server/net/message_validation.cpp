@@ -173,8 +173,8 @@ void check_body(const v1::SetTarget& target, Checker& check) {
 
 void check_body(const v1::SetDisplay& display, Checker& check) {
     check.require(display.ByteSizeLong() > 0, "setDisplay",
-                  "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines or "
-                  "scaleUnit");
+                  "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines, "
+                  "scaleUnit or linearScale");
     if (display.has_mode()) {
         check.require(v1::SetDisplay::Mode_IsValid(display.mode()) &&
                           display.mode() != v1::SetDisplay::MODE_UNSPECIFIED,
@@ -349,6 +349,7 @@ void check_message(const v1::ClientMessage& message, Checker& check) {
         case Body::kFollow:
         case Body::kPing:
         case Body::kUndo:
+        case Body::kListChanges:
         case Body::kListScenes:
         case Body::kMeasureEffects:
         case Body::kCancelSnapshot:

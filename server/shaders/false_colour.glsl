@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "luminance.glsl"
 
-/// Polynomial fit of the perceptually even map "turbo" (A. Mikhailov 2019, Google), logarithmic over
-/// three decades below `maximum`.
-vec3 false_colour(float value, float maximum) {
-    float x = clamp(1.0 + log(max(value, 1e-20) / maximum) / log(1000.0), 0.0, 1.0);
+/// What lies above the scale, and below it: neither is a colour of the map.
+const vec3 ABOVE_SCALE = vec3(1.0), BELOW_SCALE = vec3(0.0);
+
+/// Polynomial fit of the perceptually even map "turbo" (A. Mikhailov 2019, Google), from `begin` to `maximum`: logarithmic, or linear
+/// where the scale begins at 0.
+vec3 false_colour(float value, float begin, float maximum) {
+    if (value > maximum) return ABOVE_SCALE;
+    if (value < begin) return BELOW_SCALE;
+    float x = begin > 0.0 ? log(value / begin) / log(maximum / begin) : value / maximum;
     vec4 v4 = vec4(1.0, x, x * x, x * x * x);
     vec2 v2 = v4.zw * v4.z;
     return clamp(vec3(dot(v4, vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234)) + dot(v2, vec2(-152.94239396, 59.28637943)),

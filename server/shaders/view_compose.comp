@@ -26,6 +26,8 @@ vec3 srgb_encoded(vec3 c) {
 }
 
 #if defined(FALSE_LUMINANCE) || defined(FALSE_ILLUMINANCE)
+uniform float scale_begin;  // lower end of the colour scale, cd/m² or lx; 0: it is linear
+
 /// What false colour shows of a pixel, cd/m² or lx.
 float quantity(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
@@ -47,7 +49,7 @@ bool isoline_between(float a, float b) {
 /// Displayed colour of a pixel, 0..1; dark where an isoline begins.
 vec3 shown(uvec2 at) {
     float value = quantity(at);
-    vec3 colour = false_colour(value, view.display.y);
+    vec3 colour = false_colour(value, scale_begin, view.display.y);
     if (view.display.w > 0.0) {
         uvec2 last = view.size.xy - 1u;
         if (isoline_between(value, quantity(min(at + uvec2(1u, 0u), last))) ||

@@ -30,10 +30,12 @@ class ContinuedView;
 
 enum class DisplayMode { photo = 0, false_luminance = 1, false_illuminance = 2 };
 
-/// How false colour shows a quantity: three decades below `maximum`, with lines or without.
+/// How false colour shows a quantity: three decades below `maximum`, or evenly from 0 on, with
+/// lines or without.
 struct ColourScale {
     float maximum = 1000.0F;  ///< cd/m² or lx
     float isolines = 0.0F;    ///< unit of the values with lines, cd/m² or lx; 0: none
+    bool linear = false;
 };
 
 /// How a picture for people shows radiance. exposure: EV.

@@ -9,6 +9,13 @@
 
 namespace raybundle {
 
+namespace {
+
+/// Lower end of a logarithmic colour scale: three decades.
+constexpr float logarithmic_begin = 1e-3F;
+
+}  // namespace
+
 void ViewerImage::interpolate_vertices() {
     if (continued_) {
         continued_->shade();
@@ -38,6 +45,9 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     program.set("triangle_count", scene_.triangle_count());
     program.set("frame_width", frame_size.x);
     program.set("frame_height", frame_size.y);
+    if (mode != DisplayMode::photo) {
+        program.set("scale_begin", scale.linear ? 0.0F : logarithmic_begin * scale.maximum);
+    }
     program.dispatch(pixel_count(frame_size));
     frame_bytes_ = pixel_count(frame_size) * sizeof(std::uint32_t);
     const bool smoothed = frame_size == size_ && edges_->complete();
