@@ -18,7 +18,7 @@
 namespace raybundle {
 namespace {
 
-struct Outcome {
+struct ReferenceOutcome {
     double seconds = 0.0;
     ImageError error;
 };
@@ -26,11 +26,11 @@ struct Outcome {
 /// Iterations between two estimates of the error, which costs about as much as one.
 constexpr std::uint64_t error_interval = 8;
 
-Outcome solve(ReferenceMethod& method, const Options& options) {
+ReferenceOutcome solve(ReferenceMethod& method, const Options& options) {
     const StopRule rule(options);
     Progress bar;
     bar.begin(options.output, {});
-    Outcome outcome;
+    ReferenceOutcome outcome;
     const Stopwatch stopwatch;
     double progress = 0.0;
     while (progress < 1.0) {
@@ -73,7 +73,7 @@ void write_picture(const std::string& path, const std::vector<glm::dvec3>& radia
 }
 
 void write_statistics(const Options& options, glm::uvec2 size, const LoadedScene& loaded,
-                      const ReferenceMethod& method, const Outcome& outcome) {
+                      const ReferenceMethod& method, const ReferenceOutcome& outcome) {
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
@@ -103,7 +103,7 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
     if (const std::string missed = light_missed(kind, scene, camera, size); !missed.empty()) {
         spdlog::warn("{}", missed);
     }
-    const Outcome outcome = solve(*method, options);
+    const ReferenceOutcome outcome = solve(*method, options);
     write_picture(options.output, method->picture(), size,
                   reflecting_pixels(scene, CameraRays(scene, camera, size)));
     if (!options.stats.empty()) {

@@ -12,6 +12,7 @@
 
 #include "commands/command.h"
 #include "commands/effect_bench.h"
+#include "commands/journal_choice.h"
 #include "commands/metrics_source.h"
 #include "commands/preparation.h"
 #include "commands/scene_opener.h"
@@ -45,12 +46,12 @@ void reload_settings(const Options& options, Server& server) {
     }
 }
 
-ChangeLog open_change_log(const Options& options, const LoadedScene& loaded) {
-    if (options.journal.empty()) {
+ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& loaded) {
+    JournalSettings settings;
+    settings.file = journals.file_for(loaded.digest);
+    if (settings.file.empty()) {
         return {};
     }
-    JournalSettings settings;
-    settings.file = options.journal;
     settings.scene_name = loaded.scene.name;
     settings.scene_digest = loaded.digest;
     return ChangeLog(settings);
@@ -88,9 +89,9 @@ class NetworkEnd {
 
 /// A scene that is being served.
 struct ServedScene {
-    ServedScene(const Options& options, LoadedScene loaded, const RenderLoopSettings& settings,
-                Server& server)
-        : log(open_change_log(options, loaded)),
+    ServedScene(const JournalChoice& journals, LoadedScene loaded,
+                const RenderLoopSettings& settings, Server& server)
+        : log(open_change_log(journals, loaded)),
           loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
                std::move(loaded.mesh), settings, server, log),
           metrics(server, loop, log) {}
@@ -124,6 +125,7 @@ class SceneServer {
         : options_(options),
           server_(server),
           control_(control),
+          journals_(options),
           context_(create_egl_context({options.gpu, false})),
           effect_bench_(options, server) {
         settings_.solver.seed = options.seed;
@@ -156,7 +158,9 @@ class SceneServer {
         std::fflush(stdout);
         control_.preparation.reach(v1::SceneOpening::COMPILING);
         compile_for_ever();
-        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
+        served_ = std::make_unique<ServedScene>(journals_, std::move(loaded), settings_, server_);
+        fmt::print("{}\n", where_saved(served_->log));
+        std::fflush(stdout);
         watch(file);
         while (!control_.stop) {
             try {
@@ -205,9 +209,7 @@ class SceneServer {
     /// The scene that was shown last time, where the journal knows one; else that of the options.
     std::pair<std::string, LoadedScene> first_scene() {
         const std::string name =
-            control_.opener && !options_.journal.empty()
-                ? SessionJournal::remembered_scene(options_.journal, options_.scene)
-                : std::string();
+            control_.opener ? journals_.remembered_scene(options_.scene) : std::string();
         const std::optional<std::string> file =
             name.empty() ? std::nullopt : control_.opener->library().find(name);
         if (file) {
@@ -217,9 +219,11 @@ class SceneServer {
                 check_confined(*file);
                 LoadedScene loaded = load(options);
                 control_.opener->set_shown(*file);
+                spdlog::info("{} was open last, so it is shown instead of {}", name,
+                             options_.scene);
                 return {*file, std::move(loaded)};
             } catch (const std::exception& error) {
-                spdlog::error("the scene of last time is not shown: {}", error.what());
+                spdlog::error("could not reopen the previous scene {}: {}", name, error.what());
             }
         }
         return {options_.scene, load(options_)};
@@ -262,7 +266,7 @@ class SceneServer {
         control_.preparation.begin(scene.file);
         // On disk before anybody is told.
         const auto shown = [&](ChangeLog& log) {
-            log.remember_scene(options_.scene, scene.progress.name());
+            journals_.remember_scene(log, options_.scene, scene.progress.name());
             control_.opener->accept(scene);
         };
         const std::string problem = replace(std::move(scene.loaded), shown);
@@ -282,9 +286,10 @@ class SceneServer {
             throw GpuError(std::string(error.what()) +
                            "; smaller bundles have not helped, so the server ends");
         }
-        spdlog::error("the GPU has failed, the scene is built anew with smaller bundles{}: {}",
-                      options_.journal.empty() ? " and without the changes made to it" : "",
-                      error.what());
+        spdlog::error(
+            "the GPU has failed, the scene is built anew with smaller bundles{}: {}",
+            served_->log.saving() == v1::NOT_SAVED ? " and without the changes made to it" : "",
+            error.what());
         server_.set_ready(false);
         served_->loop.refuse_waiting();
         server_.close_all(CloseCode::service_restart, "the graphics processor has failed");
@@ -299,7 +304,7 @@ class SceneServer {
         options.scene = shown_file_;
         LoadedScene loaded = load(options);
         control_.preparation.reach(v1::SceneOpening::COMPILING);
-        served_ = std::make_unique<ServedScene>(options_, std::move(loaded), settings_, server_);
+        served_ = std::make_unique<ServedScene>(journals_, std::move(loaded), settings_, server_);
     }
 
     /// Builds the next scene beside the present one, which stays where that fails. The reason in
@@ -311,7 +316,7 @@ class SceneServer {
         control_.preparation.reach(v1::SceneOpening::COMPILING);
         std::unique_ptr<ServedScene> fresh;
         try {
-            fresh = std::make_unique<ServedScene>(options_, std::move(next), settings_, server_);
+            fresh = std::make_unique<ServedScene>(journals_, std::move(next), settings_, server_);
         } catch (const std::exception& error) {
             spdlog::error("the scene stays as it was: {}", error.what());
             served_->log.resume();
@@ -324,12 +329,14 @@ class SceneServer {
         server_.close_all(CloseCode::service_restart, "the scene has been replaced");
         served_ = std::move(fresh);
         served_->metrics.use();
+        spdlog::info("{}", where_saved(served_->log));
         return {};
     }
 
     const Options& options_;
     Server& server_;
     Control& control_;
+    JournalChoice journals_;
     std::optional<EglContext> context_;
     EffectBench effect_bench_;
     RenderLoopSettings settings_;

@@ -20,6 +20,18 @@ constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kPageBytes = 4096;
 constexpr int kBusyMs = 1000;  ///< before a change is refused; pictures stand still meanwhile
 
+/// What the server that was started with a scene shows.
+constexpr const char* kShownTable =
+    "CREATE TABLE IF NOT EXISTS shown(started_with TEXT PRIMARY KEY, scene TEXT NOT NULL)";
+
+void write_shown(SqliteDatabase& database, const std::string& started_with,
+                 const std::string& shown) {
+    auto insert = database.prepare("INSERT OR REPLACE INTO shown VALUES(?, ?)");
+    insert.bind(1, started_with);
+    insert.bind(2, shown);
+    insert.run();
+}
+
 /// Moves the database and its companions out of the way; returns the new name.
 std::string move_aside(const std::string& file) {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
@@ -80,8 +92,7 @@ void SessionJournal::open(const JournalSettings& settings) {
     database_->execute(
         "CREATE TABLE IF NOT EXISTS past(session INTEGER NOT NULL REFERENCES session(id),"
         " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID");
-    database_->execute(
-        "CREATE TABLE IF NOT EXISTS shown(started_with TEXT PRIMARY KEY, scene TEXT NOT NULL)");
+    database_->execute(kShownTable);
     find_session(settings);
 }
 
@@ -223,12 +234,21 @@ void SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChang
 
 void SessionJournal::remember_scene(const std::string& started_with, const std::string& shown) {
     try {
-        auto insert = database_->prepare("INSERT OR REPLACE INTO shown VALUES(?, ?)");
-        insert.bind(1, started_with);
-        insert.bind(2, shown);
-        insert.run();
+        write_shown(*database_, started_with, shown);
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+void SessionJournal::remember_scene(const std::string& file, const std::string& started_with,
+                                    const std::string& shown) {
+    try {
+        SqliteDatabase database(file);
+        database.execute("PRAGMA busy_timeout=" + std::to_string(kBusyMs));
+        database.execute(kShownTable);
+        write_shown(database, started_with, shown);
+    } catch (const SqliteError& error) {
+        throw JournalError(file + ": " + error.what());
     }
 }
 

@@ -70,6 +70,9 @@ class SessionJournal {
     /// Keeps in mind which scene of the library is shown in place of the one that the server was
     /// started with. Throws JournalError.
     void remember_scene(const std::string& started_with, const std::string& shown);
+    /// The same in a file that holds no session. Throws JournalError.
+    static void remember_scene(const std::string& file, const std::string& started_with,
+                               const std::string& shown);
     /// What a journal that nobody has open remembers for a server started with that scene; empty
     /// where it remembers nothing or cannot be read.
     static std::string remembered_scene(const std::string& file, const std::string& started_with);

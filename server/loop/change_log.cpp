@@ -11,6 +11,44 @@
 
 namespace raybundle {
 
+namespace {
+
+/// What the journal keeps of a change for its history: the state before it, and who made it when.
+v1::SceneChanged signed_state(v1::SceneChanged before, const v1::SceneChanged& change) {
+    before.set_by(change.by());
+    before.set_by_name(change.by_name());
+    before.set_at_ms(change.at_ms());
+    if (before.has_move_object() && change.move_object().has_final()) {
+        before.mutable_move_object()->set_final(change.move_object().final());
+    }
+    return before;
+}
+
+/// The state alone.
+v1::SceneChanged unsigned_state(v1::SceneChanged state) {
+    state.clear_by();
+    state.clear_by_name();
+    state.clear_at_ms();
+    if (state.has_move_object()) {
+        state.mutable_move_object()->clear_final();
+    }
+    return state;
+}
+
+/// The change that led from one state to the other. signature: of signed_state().
+v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChanged after) {
+    set_before(unsigned_state(signature), after);
+    after.set_by(signature.by());
+    after.set_by_name(signature.by_name());
+    after.set_at_ms(signature.at_ms());
+    if (after.has_move_object() && signature.move_object().has_final()) {
+        after.mutable_move_object()->set_final(signature.move_object().final());
+    }
+    return after;
+}
+
+}  // namespace
+
 ChangeLog::ChangeLog(const JournalSettings& settings) : settings_(settings), required_(true) {
     open();
     epoch_ = journal_ ? journal_->epoch() : 0;
@@ -107,13 +145,14 @@ void ChangeLog::restore_history(const Scene& scene) {
     std::map<ChangeSubject, v1::SceneChanged> later;
     for (std::size_t i = past.size(); i-- > 0;) {
         const auto known = later.find(subject_of(past[i]));
-        after[i] = known != later.end() ? known->second : state_of(scene, past[i]);
+        after[i] = known != later.end() ? unsigned_state(known->second) : state_of(scene, past[i]);
         after[i].set_epoch(past[i].epoch());
         later[subject_of(past[i])] = past[i];
     }
     history_ = SceneHistory(past.front().epoch() - 1);
     for (std::size_t i = 0; i < past.size(); ++i) {
-        history_.note(past[i], after[i]);
+        history_.note(unsigned_state(past[i]), after[i]);
+        records_.add(change_between(past[i], after[i]));
     }
 }
 
@@ -128,7 +167,7 @@ bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before)
     }
     try {
         if (journal_) {
-            journal_->append(change, before);
+            journal_->append(change, signed_state(before, change));
         }
     } catch (const JournalError& error) {
         ++failures_;
@@ -138,6 +177,9 @@ bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before)
     }
     working_ = true;
     ++epoch_;
+    v1::SceneChanged record = change;
+    set_before(before, record);
+    records_.add(std::move(record));
     return true;
 }
 

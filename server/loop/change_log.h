@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "journal/session_journal.h"
+#include "loop/change_records.h"
 #include "loop/scene_history.h"
 #include "raybundle.pb.h"
 #include "scene/patch_mesh.h"
@@ -36,8 +37,8 @@ class ChangeLog {
     /// Brings a scene as read from its file to the state of the journal.
     void restore(Scene& scene, PatchMesh& mesh);
 
-    /// Numbers the change and stores it, with what its subject is like before it. False: it could
-    /// not be stored and must not be made.
+    /// Numbers the change and stores it, with what its subject is like before it, and who makes it
+    /// when. False: it could not be stored and must not be made.
     [[nodiscard]] bool record(v1::SceneChanged& change, const v1::SceneChanged& before);
 
     /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
@@ -50,11 +51,19 @@ class ChangeLog {
         history_.note(before, after);
     }
     [[nodiscard]] const SceneHistory& history() const { return history_; }
+    /// Who has changed what; before a restart, too, where there is a journal.
+    [[nodiscard]] const ChangeRecords& records() const { return records_; }
 
     /// As SessionJournal::remember_scene(); a failure is logged.
     void remember_scene(const std::string& started_with, const std::string& shown);
 
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
+    /// Whether what is changed now is there again after a restart. Any thread.
+    [[nodiscard]] v1::Saving saving() const {
+        return !required_ ? v1::NOT_SAVED : working_ ? v1::SAVED : v1::FAILING;
+    }
+    /// The journal; empty: there is none.
+    [[nodiscard]] const std::string& file() const { return settings_.file; }
     /// Whether the next change is expected to be stored. Any thread.
     [[nodiscard]] bool working() const { return working_; }
 
@@ -70,6 +79,7 @@ class ChangeLog {
     std::optional<SessionJournal> journal_;
     std::uint32_t epoch_ = 0;
     SceneHistory history_;
+    ChangeRecords records_;
     std::uint64_t failures_ = 0;
 };
 

@@ -190,6 +190,8 @@ void RenderLoop::join(const ClientEvent& event) {
     welcome->set_renderer(settings_.renderer);
     welcome->set_software_rendering(settings_.software_rendering);
     welcome->set_can_open_scenes(static_cast<bool>(settings_.scene_requests));
+    welcome->set_saving(log_.saving());
+    welcome->set_name(hello.name());
     review_.fill_welcome(welcome);
     sessions_[event.viewer]->set_role(event.role);
     presence_changed_ = true;
@@ -295,6 +297,7 @@ void RenderLoop::send_solutions() {
         solution->set_iterations(static_cast<std::uint32_t>(solver_->iterations()));
         solution->set_iterations_per_second(static_cast<float>(iterations_per_second_));
         solution->set_settled(static_cast<float>(solver_->statistics().settled));
+        solution->set_saving(log_.saving());
         session->fill_solution(solution);
         server_.send(id, message);
     }

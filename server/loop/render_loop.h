@@ -39,8 +39,8 @@ struct RenderLoopSettings {
     SolverSettings solver;
     /// Without viewers the solver rests after this many iterations since the last change.
     std::uint64_t idle_iterations = 4096;
-    /// A viewer is refused where the others would fall below this.
-    double min_frames_per_second = 1.0;
+    /// A viewer is refused where the others would fall below this; 0: nobody is.
+    double min_frames_per_second = 0.0;
     /// All that viewers and moves need is done once before anybody waits for it.
     bool rehearse = false;
     std::string renderer;             ///< what viewers are told that draws
@@ -108,6 +108,9 @@ class RenderLoop {
     static void fill_limits(v1::Limits* limits);
     void set_viewport(ViewerSession& session, const ClientEvent& event);
     [[nodiscard]] CostModel::Verdict admission(glm::uvec2 size, const ViewerSession* instead) const;
+    [[nodiscard]] bool crowded() const;
+    [[nodiscard]] std::optional<glm::uvec2> within_memory(glm::uvec2 size,
+                                                          const ViewerSession* instead) const;
     [[nodiscard]] glm::uvec2 served_size(glm::uvec2 wanted, const ViewerSession* instead) const;
     bool set_target(ViewerSession& session, const ClientEvent& event);
     bool handle_review(ViewerSession& session, const ClientEvent& event);

@@ -9,6 +9,7 @@
 #include "bundle/low_discrepancy.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
+#include "loop/unix_time.h"
 #include "scene/specular_surface.h"
 #include "stream/elapsed.h"
 
@@ -94,6 +95,9 @@ bool RenderLoop::record(PendingChange& pending) {
     if (!pending.requests.empty()) {
         pending.change.set_by(pending.requests.back().viewer);
     }
+    const auto viewer = sessions_.find(pending.change.by());
+    pending.change.set_by_name(viewer == sessions_.end() ? "" : viewer->second->name());
+    pending.change.set_at_ms(unix_ms());
     if (!log_.record(pending.change, before)) {
         undo_failed_ = true;
         for (const ClientEvent& request : pending.requests) {
@@ -106,6 +110,7 @@ bool RenderLoop::record(PendingChange& pending) {
     v1::SceneChanged after = state_of(scene_, pending.change);
     after.set_epoch(epoch_);
     log_.note_states(before, after);
+    set_before(before, pending.change);
     return true;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the render loop does for people who look together: who is here, who follows whom, pins,
-// viewpoints, and measuring a grid of points.
+// viewpoints.
 #include <algorithm>
-#include <chrono>
 #include <set>
 
+#include "loop/probed_pixel.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
-#include "view/camera_matrices.h"
+#include "loop/unix_time.h"
 #include "view/point_probe.h"
 
 namespace raybundle {
@@ -16,68 +16,7 @@ namespace {
 
 constexpr double least_presence_interval_s = 0.1;
 constexpr double presence_interval_per_viewer_s = 0.01;
-constexpr double pin_check_settled = 0.9;   // before, a pin's light is still on its way
-constexpr float on_surface_m = 0.01F;       // of a grid, besides what the distance allows
-constexpr float on_surface_share = 0.002F;  // of the distance to the eye
-constexpr float half_a_step = 0.5F;         // as far may a measured point lie from the one wanted
-
-double unix_ms() {
-    using std::chrono::system_clock;
-    return std::chrono::duration<double, std::milli>(system_clock::now().time_since_epoch())
-        .count();
-}
-
-/// Pixel of a picture that shows a point, row 0 at the top; nothing where the point lies outside.
-std::optional<glm::uvec2> pixel_of(const Camera& camera, glm::uvec2 size, const glm::vec3& point) {
-    const layout::ViewParameters view = make_view_parameters(camera, glm::vec3(0.0F), size, 0.01F);
-    const glm::vec4 clip = view.clip_from_world * glm::vec4(point, 1.0F);
-    if (clip.w <= 0.0F) {
-        return std::nullopt;
-    }
-    const glm::vec2 ndc = glm::vec2(clip) / clip.w;
-    const glm::vec2 at = (glm::vec2(ndc.x, -ndc.y) * 0.5F + 0.5F) * glm::vec2(size);
-    if (!(at.x >= 0.0F && at.y >= 0.0F && at.x < static_cast<float>(size.x) &&
-          at.y < static_cast<float>(size.y))) {
-        return std::nullopt;
-    }
-    return glm::uvec2(at);
-}
-
-/// The points of a grid and the surface that they lie on.
-struct Grid {
-    glm::vec3 origin, step_x, step_y;
-    std::uint32_t columns, rows;
-
-    explicit Grid(const v1::ProbeGrid& message)
-        : origin(from_message(message.origin())),
-          step_x(from_message(message.step_x())),
-          step_y(from_message(message.step_y())),
-          columns(message.columns()),
-          rows(message.rows()) {}
-
-    [[nodiscard]] std::vector<glm::vec3> points() const {
-        std::vector<glm::vec3> result;
-        result.reserve(std::size_t{columns} * rows);
-        for (std::uint32_t row = 0; row < rows; ++row) {
-            for (std::uint32_t column = 0; column < columns; ++column) {
-                result.push_back(origin + static_cast<float>(column) * step_x +
-                                 static_cast<float>(row) * step_y);
-            }
-        }
-        return result;
-    }
-
-    /// Whether what a pixel shows is the surface at a point of the grid, not something before it.
-    [[nodiscard]] bool shows(const glm::vec3& found, const glm::vec3& wanted,
-                             const glm::vec3& eye) const {
-        const glm::vec3 normal = glm::normalize(glm::cross(step_x, step_y));
-        const glm::vec3 offset = found - wanted;
-        const float off_plane = std::abs(glm::dot(offset, normal));
-        const float step = std::min(glm::length(step_x), glm::length(step_y));
-        return off_plane <= on_surface_m + on_surface_share * glm::distance(eye, wanted) &&
-               glm::length(offset) <= half_a_step * step + off_plane;
-    }
-};
+constexpr double pin_check_settled = 0.9;  // before, a pin's light is still on its way
 
 }  // namespace
 
@@ -106,6 +45,12 @@ bool RenderLoop::handle_review(ViewerSession& session, const ClientEvent& event)
         case v1::ClientMessage::kProbeGrid:
             probe_grid(session, event);
             return true;
+        case v1::ClientMessage::kListChanges: {
+            v1::ServerMessage answer;
+            log_.records().fill(answer.mutable_change_history());
+            server_.reply(event, answer);
+            return true;
+        }
         default:
             return false;
     }
@@ -273,36 +218,6 @@ void RenderLoop::point_at(const ClientEvent& event) {
     server_.reply_ok(event);
 }
 
-void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
-    const Grid grid(event.message.probe_grid());
-    const std::vector<glm::vec3> points = grid.points();
-    const Camera& camera = session.camera();
-    std::vector<glm::uvec2> pixels;
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (const auto pixel = pixel_of(camera, session.size(), points[i])) {
-            pixels.push_back(*pixel);
-            indices.push_back(i);
-        }
-    }
-    v1::ServerMessage answer;
-    v1::ProbeGridResult& result = *answer.mutable_probe_grid_result();
-    result.set_epoch(epoch_);
-    result.mutable_illuminance()->Resize(static_cast<int>(points.size()), -1.0F);
-    result.mutable_relative_error()->Resize(static_cast<int>(points.size()), -1.0F);
-    prepare_image(session);
-    const auto found = session.probe(pixels);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (found[i] && grid.shows(found[i]->position, points[indices[i]], camera.eye)) {
-            const int at = static_cast<int>(indices[i]);
-            result.set_illuminance(at, luminance(found[i]->irradiance));
-            result.set_relative_error(at,
-                                      static_cast<float>(found[i]->relative_error.value_or(-1.0)));
-        }
-    }
-    server_.reply(event, answer);
-}
-
 /// Tells everybody who is here, where that has changed and not too often.
 void RenderLoop::send_presence(Clock::time_point now) {
     const double interval =
@@ -315,7 +230,7 @@ void RenderLoop::send_presence(Clock::time_point now) {
     presence_changed_ = false;
     last_presence_ = now;
     v1::ServerMessage message;
-    message.mutable_presence();
+    message.mutable_presence()->set_crowded(crowded());
     for (const auto& [id, session] : sessions_) {
         v1::Viewer& viewer = *message.mutable_presence()->add_viewers();
         const Camera& camera = session->camera();
@@ -389,6 +304,7 @@ void RenderLoop::check_pin() {
     const bool changed =
         update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_);
     if (changed || refine_pin(*pin)) {
+        review_.keep(*pin);
         v1::ServerMessage message;
         *message.mutable_pin_changed() = pin->message;
         server_.broadcast(message);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How large the pictures of viewers are: what the limits and the time leave of what they want.
+#include "loop/memory_room.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
 #include "net/wire_codec.h"
@@ -20,6 +21,9 @@ void RenderLoop::fill_limits(v1::Limits* limits) {
 /// Whether there is time for a picture of this size. `instead` is the viewer whose picture it would
 /// replace, or null.
 CostModel::Verdict RenderLoop::admission(glm::uvec2 size, const ViewerSession* instead) const {
+    if (settings_.min_frames_per_second <= 0.0) {
+        return {};
+    }
     double present = 0.0;
     for (const auto& [id, session] : sessions_) {
         present += session->paused() || session.get() == instead ? 0.0 : session->pixels();
@@ -28,16 +32,56 @@ CostModel::Verdict RenderLoop::admission(glm::uvec2 size, const ViewerSession* i
     return cost_.admit(size.x, size.y, present, limit_ms);
 }
 
-/// The size at which a viewport is served. One beyond the limits gets the largest of its shape that
-/// there is time for, too: its client has to scale pictures anyway.
+/// Whether several people watch, and a frame for each of them takes more than a second: none sees
+/// at once what the others do.
+bool RenderLoop::crowded() const {
+    constexpr double at_once_ms = 1000.0;  // of attention that stays (R. Miller 1968)
+    double pixels = 0.0;
+    int watching = 0;
+    for (const auto& [id, session] : sessions_) {
+        pixels += session->paused() ? 0.0 : session->pixels();
+        watching += session->paused() ? 0 : 1;
+    }
+    return watching > 1 && cost_.round_ms(pixels) > at_once_ms;
+}
+
+/// The largest picture of this shape that there is memory for, by what the present ones take;
+/// nothing where there is none. A GPU says so itself.
+std::optional<glm::uvec2> RenderLoop::within_memory(glm::uvec2 size,
+                                                    const ViewerSession* instead) const {
+    double bytes = 0.0;
+    double pixels = 0.0;
+    double released = 0.0;
+    for (const auto& [id, session] : sessions_) {
+        if (session->has_image()) {
+            bytes += static_cast<double>(session->image().bytes());
+            pixels += session->pixels();
+            released += session.get() == instead ? session->pixels() : 0.0;
+        }
+    }
+    const auto available = settings_.software_rendering ? available_memory() : std::nullopt;
+    if (!available || pixels <= 0.0) {
+        return size;
+    }
+    const double per_pixel = bytes / pixels;
+    return size_within_memory(size, per_pixel, *available + released * per_pixel);
+}
+
+/// The size at which a viewport is served. One beyond the limits, or for which there is no memory,
+/// gets the largest of its shape that there is memory and time for: its client has to scale
+/// pictures anyway.
 glm::uvec2 RenderLoop::served_size(glm::uvec2 wanted, const ViewerSession* instead) const {
-    const glm::uvec2 size = fitted(wanted, picture_limits());
+    const glm::uvec2 limited = fitted(wanted, picture_limits());
+    const glm::uvec2 size = within_memory(limited, instead).value_or(limited);
     const auto fit = size == wanted ? std::nullopt : admission(size, instead).would_fit;
     return fit ? glm::uvec2(fit->first, fit->second) : size;
 }
 
 /// Why a picture of this size cannot be served, with what would fit; empty where it can.
 std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instead) const {
+    if (!within_memory(size, instead)) {
+        return "the server has no memory for another picture";
+    }
     const CostModel::Verdict verdict = admission(size, instead);
     if (verdict.fits) {
         return {};

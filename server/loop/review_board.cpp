@@ -16,7 +16,6 @@ constexpr float least_illuminance = 1e-3F;  // lx; below, a change is measured a
 std::string stored(const Pin& pin) {
     v1::JournalPin note;
     *note.mutable_pin() = pin.message;
-    note.mutable_pin()->clear_change();
     note.set_patch(pin.patch);
     note.set_patch_illuminance(pin.patch_illuminance);
     return note.SerializeAsString();
@@ -96,6 +95,10 @@ bool ReviewBoard::remove_viewpoint(std::uint32_t number) {
     }
     viewpoints_.erase(number);
     return true;
+}
+
+void ReviewBoard::keep(const Pin& pin) {
+    static_cast<void>(log_.keep_note(NoteKind::pin, pin.message.pin(), stored(pin)));
 }
 
 Pin* ReviewBoard::next_pin() {

@@ -42,6 +42,10 @@ class ReviewBoard {
     bool remove_viewpoint(std::uint32_t number);
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
 
+    /// Stores what is known of the light at a pin, so that it is known after a restart. A failure
+    /// is logged: the next value tries again.
+    void keep(const Pin& pin);
+
     /// The next pin whose light is to be looked at again, in turn; null where there is none.
     Pin* next_pin();
 

@@ -127,6 +127,9 @@ void Session::on_hello(v1::ClientMessage message, double now_ms) {
         return;
     }
     pass_ = std::get<Pass>(answer);
+    if (!pass_->token_name.empty()) {
+        message.mutable_hello()->set_name(pass_->token_name);  // whatever its holder says
+    }
     reading_ = reading_of(message.hello());
     spdlog::info("viewer {} from {} is '{}', {}{}", link_.viewer(), peer_, message.hello().name(),
                  v1::Role_Name(pass_->role),

@@ -73,9 +73,9 @@ struct Options {
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;
     std::vector<AccessToken> tokens;  // from the file only
-    std::string journal;              // file
+    std::string journal;              // file, "none", or empty: one of the user's folder
     std::string log_format = "text";
-    double min_frames_per_second = 1.0;
+    double min_frames_per_second = 0.0;
     double max_messages_per_second = 1000.0;
     int max_viewers = 64;
     int max_connections = 256;

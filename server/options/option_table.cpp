@@ -92,8 +92,10 @@ constexpr std::array serve_table{
     ServeOption{"trustedProxies", "Addresses of proxies whose X-Forwarded-For the log believes",
                 &Options::trusted_proxies, 0, 0, proxy_problem},
     ServeOption{"maxViewers", "Viewers at a time", &Options::max_viewers, 1, 1000},
-    ServeOption{"minFramesPerSecond", "A viewer is refused where the others would get fewer",
-                &Options::min_frames_per_second, 0.01, 60},
+    ServeOption{"minFramesPerSecond",
+                "A viewer is refused where the others would get fewer (0: all "
+                "get fewer instead)",
+                &Options::min_frames_per_second, 0, 60},
     ServeOption{"maxConnections", "Connections at a time, viewers and HTTP together",
                 &Options::max_connections, 1, 100000},
     ServeOption{"maxConnectionsPerAddress",
@@ -101,7 +103,10 @@ constexpr std::array serve_table{
                 &Options::max_connections_per_address, 1, 100000},
     ServeOption{"maxMessagesPerSecond", "Messages of one viewer a second, on average",
                 &Options::max_messages_per_second, 1, 1e6},
-    ServeOption{"journal", "File that keeps the scene changes over a restart (SQLite)",
+    ServeOption{"journal",
+                "File that keeps changes and pins over a restart (SQLite); none: nothing is kept; "
+                "by default "
+                "a file in ~/.local/state/raybundle, one for each scene",
                 &Options::journal},
     ServeOption{"watch", "Read the scene again when its file is replaced", &Options::watch},
     ServeOption{"scenes", "Folder of .gltf and .glb files that editors may open", &Options::scenes},

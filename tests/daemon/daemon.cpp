@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
@@ -39,9 +40,11 @@ Daemon::Daemon(Unready /*unready*/, const std::string& scene,
                const std::vector<std::string>& options) {
     std::vector<std::string> arguments{RAYBUNDLE_EXECUTABLE, "serve", scene, "--listen",
                                        "127.0.0.1:0"};
-    const std::string admission = "--min-frames-per-second";
-    if (std::find(options.begin(), options.end(), admission) == options.end()) {
-        arguments.insert(arguments.end(), {admission, "0.01"});  // a busy machine refuses nobody
+    const std::string journal = "--journal";
+    const bool chosen = std::find(options.begin(), options.end(), journal) != options.end();
+    if (!chosen && getenv("XDG_STATE_HOME") == nullptr) {
+        arguments.insert(arguments.end(),
+                         {journal, "none"});  // the user's own folder stays as it is
     }
     arguments.insert(arguments.end(), options.begin(), options.end());
     start(arguments);

@@ -14,7 +14,8 @@ namespace raybundle {
 /// A running `raybundle serve` on a free port of this machine.
 class Daemon {
   public:
-    /// Starts it and waits until it listens. `options` follow the scene. Throws std::runtime_error
+    /// Starts it and waits until it listens. `options` follow the scene. It keeps a journal where
+    /// they name one, or XDG_STATE_HOME is set. Throws std::runtime_error
     /// with its output where it ends instead.
     explicit Daemon(const std::string& scene, const std::vector<std::string>& options = {});
     /// Only starts it: wait_for_address() has to follow before port().

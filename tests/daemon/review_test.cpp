@@ -177,6 +177,61 @@ TEST_F(ReviewTest, APinThatIsSetEarlyGetsABetterValueLater) {
     EXPECT_EQ(better.at("pinChanged").at("pin"), added.at("pin"));
     EXPECT_GT(better.at("pinChanged").at("illuminance").get<double>(), 0.0);
     EXPECT_FALSE(better.at("pinChanged").contains("change")) << "nothing has changed";
+    EXPECT_EQ(daemon_->end(SIGKILL), -SIGKILL);
+    start();
+    JsonViewer later(daemon_->port());
+    const Json kept = later.join().at("welcome").at("pins").at(0);
+    EXPECT_LE(kept.at("relativeError").get<double>(),
+              better.at("pinChanged").at("relativeError").get<double>())
+        << "the value that was known last";
+}
+
+/// Lights up, drags a box, and goes back; then asks who did what.
+TEST_F(ReviewTest, WhoComesLaterHearsWhoChangedWhatFromWhatAlsoAfterARestart) {
+    const auto move = [](double x, bool final) {
+        return Json{{"moveObject",
+                     {{"object", kShortBox},
+                      {"transform", {{"translation", point(x, 0.8, 1.7)}}},
+                      {"final", final}}}};
+    };
+    double intensity = 0.0;
+    {
+        JsonViewer ann(daemon_->port());
+        const Json welcome = ann.join().at("welcome");
+        intensity = welcome.at("scene").at("lights").at(0).at("intensity").get<double>();
+        const Json dimmed =
+            ann.request({{"setLight", {{"light", 1}, {"intensity", 500.0}}}}).at("sceneChanged");
+        EXPECT_EQ(dimmed.at("byName"), "test");
+        EXPECT_NEAR(dimmed.at("lightBefore").at("intensity").get<double>(), intensity, 1e-2);
+        ann.request(move(2.0, false));
+        ann.request(move(2.5, false));
+        ann.request(move(3.0, true));
+        ann.request({{"undo", {{"epoch", 1}}}});
+    }
+    for (const bool restarted : {false, true}) {
+        if (restarted) {
+            EXPECT_EQ(daemon_->end(SIGKILL), -SIGKILL);
+            start();
+        }
+        JsonViewer later(daemon_->port());
+        later.join();
+        const Json history =
+            later.request({{"listChanges", Json::object()}}).at("changeHistory").at("changes");
+        ASSERT_EQ(history.size(), 3U) << "the steps of a drag are one: " << history.dump();
+        EXPECT_NEAR(history[0].at("setLight").at("intensity").get<double>(), 500.0, 1e-2);
+        EXPECT_NEAR(history[0].at("lightBefore").at("intensity").get<double>(), intensity, 1e-2);
+        EXPECT_EQ(history[1].at("epoch"), 4);
+        const auto x_of = [](const Json& moved) {
+            return moved.at("transform").at("translation").at("x").get<double>();
+        };
+        EXPECT_NEAR(x_of(history[1].at("moveObject")), 3.0, 1e-5);
+        EXPECT_NEAR(x_of(history[2].at("objectBefore")), 3.0, 1e-5);
+        EXPECT_NEAR(x_of(history[2].at("moveObject")), x_of(history[1].at("objectBefore")), 1e-5);
+        for (const Json& change : history) {
+            EXPECT_EQ(change.at("byName"), "test");
+            EXPECT_GT(change.at("atMs").get<double>(), 1.7e12) << "Unix time";
+        }
+    }
 }
 
 TEST_F(ReviewTest, APinSaysWhenTheLightThereHasChanged) {

@@ -284,6 +284,43 @@ TEST(ScenesOverARestart, TheOneThatWasOpenedIsShownAgainAsItWas) {
     EXPECT_EQ(viewer.join().at("welcome").at("epoch"), 2) << "another configuration counts";
 }
 
+TEST(ScenesOverARestart, AreShownAsTheyWereWithoutAWordOfJournals) {
+    const TestFolder folder;
+    const TestFolder state;
+    setenv("XDG_STATE_HOME", state.path().c_str(), 1);
+    folder.write("first.gltf", scene_with("first box").dump());
+    folder.write("second.gltf", scene_with("second box").dump());
+    const std::vector<std::string> options{"--scenes", folder.path()};
+    const Json move = {{"moveObject", {{"object", 2}, {"transform", Json::object()}}}};
+    {
+        Daemon daemon(folder.path("first.gltf"), options);
+        EXPECT_TRUE(daemon.says("changes and pins are saved in " + state.path("raybundle/")));
+        JsonViewer viewer(daemon.port());
+        EXPECT_EQ(viewer.join().at("welcome").at("saving"), "SAVED");
+        EXPECT_TRUE(viewer.request({{"openScene", {{"name", "second.gltf"}}}}).contains("ok"));
+        EXPECT_EQ(viewer.close_code(), 1012);
+        JsonViewer again(daemon.port());
+        again.join();
+        EXPECT_TRUE(again.request(move).contains("sceneChanged"));
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    {
+        Daemon daemon(folder.path("first.gltf"), options);
+        JsonViewer viewer(daemon.port());
+        const Json welcome = viewer.join().at("welcome");
+        EXPECT_EQ(welcome.at("epoch"), 1);
+        EXPECT_NE(welcome.dump().find("second box"), std::string::npos);
+        EXPECT_EQ(daemon.end(SIGKILL), -SIGKILL);
+    }
+    Daemon daemon(folder.path("first.gltf"), {"--journal", "none"});
+    EXPECT_TRUE(daemon.says("not saved"));
+    JsonViewer viewer(daemon.port());
+    const Json welcome = viewer.join().at("welcome");
+    EXPECT_EQ(welcome.at("epoch"), 0);
+    EXPECT_EQ(welcome.at("saving"), "NOT_SAVED");
+    unsetenv("XDG_STATE_HOME");
+}
+
 TEST(ScenesWithoutAFolder, AreRefused) {
     Daemon daemon(scene_file("cornell_box.gltf"));
     JsonViewer viewer(daemon.port());

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/journal_choice.h"
+
+#include <spdlog/spdlog.h>
+
+namespace raybundle {
+
+namespace {
+
+constexpr const char* none = "none";
+
+void warn(const JournalError& error) {
+    spdlog::warn("changes and pins are not saved, since a journal cannot be kept: {}",
+                 error.what());
+}
+
+}  // namespace
+
+JournalChoice::JournalChoice(const Options& options)
+    : file_(options.journal == none ? "" : options.journal) {
+    if (options.journal.empty()) {
+        try {
+            folder_ = StateFolder::of_user();
+        } catch (const JournalError& error) {
+            warn(error);
+        }
+    }
+}
+
+std::string JournalChoice::file_for(const std::string& digest) const {
+    try {
+        return folder_ ? folder_->journal_for(digest) : file_;
+    } catch (const JournalError& error) {
+        warn(error);
+        return {};
+    }
+}
+
+std::string JournalChoice::remembered_scene(const std::string& started_with) const {
+    if (folder_) {
+        return folder_->remembered_scene(started_with);
+    }
+    return file_.empty() ? "" : SessionJournal::remembered_scene(file_, started_with);
+}
+
+void JournalChoice::remember_scene(ChangeLog& log, const std::string& started_with,
+                                   const std::string& shown) const {
+    if (!folder_) {
+        log.remember_scene(started_with, shown);
+        return;
+    }
+    try {
+        folder_->remember_scene(started_with, shown);
+    } catch (const JournalError& error) {
+        spdlog::error("after a restart another scene will be shown: {}", error.what());
+    }
+}
+
+std::string where_saved(const ChangeLog& log) {
+    switch (log.saving()) {
+        case v1::SAVED:
+            return "changes and pins are saved in " + log.file();
+        case v1::FAILING:
+            return "changes and pins cannot be saved in " + log.file();
+        default:
+            return "changes and pins are not saved: a restart loses them";
+    }
+}
+
+}  // namespace raybundle

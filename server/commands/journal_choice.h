@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "journal/state_folder.h"
+#include "loop/change_log.h"
+#include "options/cli_options.h"
+
+namespace raybundle {
+
+/// Where `serve` keeps changes, pins and viewpoints: in the file of --journal, nowhere with
+/// `--journal none`, else in a file of the user's folder for each scene. Where that folder cannot
+/// be used the server works without; the log says why.
+class JournalChoice {
+  public:
+    explicit JournalChoice(const Options& options);
+
+    /// The journal of a scene file; empty: none.
+    [[nodiscard]] std::string file_for(const std::string& digest) const;
+
+    /// Name in the library of the scene that was open when a server started with this scene ended;
+    /// empty: not known.
+    [[nodiscard]] std::string remembered_scene(const std::string& started_with) const;
+    /// A failure is logged. `log`: of the scene that is shown now.
+    void remember_scene(ChangeLog& log, const std::string& started_with,
+                        const std::string& shown) const;
+
+  private:
+    std::string file_;
+    std::optional<StateFolder> folder_;
+};
+
+/// One line for whoever runs the server.
+std::string where_saved(const ChangeLog& log);
+
+}  // namespace raybundle
