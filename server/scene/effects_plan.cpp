@@ -176,8 +176,9 @@ class Planner {
         plan_reflection();
         const bool textured = survey_.textured > 0;
         add("textures", textured,
-            textured ? count_of(survey_.textured, "material") + " have a texture"
-                     : "no material in use has a texture",
+            textured
+                ? count_of(survey_.textured, "material has a texture", "materials have a texture")
+                : "no material in use has a texture",
             "L(D|G)+E", textured ? 1.0 : 0.0, 0);
         const bool bumpy = survey_.bumpy > 0;
         add("normal-maps", bumpy,
