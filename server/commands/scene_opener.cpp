@@ -3,6 +3,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "scene/gltf_confinement.h"
@@ -13,6 +16,19 @@ namespace raybundle {
 namespace {
 
 constexpr std::size_t max_jobs = 4;
+
+using Clock = std::chrono::steady_clock;
+
+double elapsed_s(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Size of a file; 0 where it is not known.
+double bytes_of(const std::string& file) {
+    std::error_code unknown;
+    const auto bytes = std::filesystem::file_size(file, unknown);
+    return unknown ? 0.0 : static_cast<double>(bytes);
+}
 
 }  // namespace
 
@@ -125,13 +141,14 @@ void SceneOpener::begin(const ClientEvent& request, const std::string& viewer_na
 }
 
 void SceneOpener::open(OpenedScene& scene) {
-    announce(scene.progress, v1::SceneOpening::READING);
+    scene.begun = Clock::now();
+    announce(scene, v1::SceneOpening::READING);
     try {
         Options options = options_;
         options.scene = scene.file;
         check_confined(scene.file);
         scene.loaded =
-            load_scene(options, [&] { announce(scene.progress, v1::SceneOpening::PREPARING); });
+            load_scene(options, [&] { announce(scene, v1::SceneOpening::PREPARING); });
         {
             const std::lock_guard lock(mutex_);
             ready_ = std::move(scene);
@@ -147,10 +164,19 @@ std::optional<OpenedScene> SceneOpener::take() {
     return std::exchange(ready_, std::nullopt);
 }
 
-void SceneOpener::announce(v1::SceneOpening& progress, v1::SceneOpening::Stage stage) {
-    progress.set_stage(stage);
+void SceneOpener::announce(OpenedScene& scene, v1::SceneOpening::Stage stage) {
+    scene.progress.set_stage(stage);
     v1::ServerMessage message;
-    *message.mutable_scene_opening() = progress;
+    v1::SceneOpening& progress = *message.mutable_scene_opening();
+    progress = scene.progress;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto expected = times_.expected(scene.file, bytes_of(scene.file));
+        if (expected && stage != v1::SceneOpening::REJECTED) {
+            const double left = *expected - elapsed_s(scene.begun);
+            progress.set_seconds_left(static_cast<float>(std::max(left, 0.0)));
+        }
+    }
     server_.broadcast(message);
 }
 
@@ -161,7 +187,7 @@ void SceneOpener::reject(OpenedScene& scene, const std::string& reason) {
         opening_ = false;
     }
     scene.progress.set_reason(reason);
-    announce(scene.progress, v1::SceneOpening::REJECTED);
+    announce(scene, v1::SceneOpening::REJECTED);
     server_.reply_error(scene.request, v1::Error::INVALID_ARGUMENT, "openScene: " + reason);
 }
 
@@ -170,8 +196,9 @@ void SceneOpener::accept(OpenedScene& scene) {
     {
         const std::lock_guard lock(mutex_);
         opening_ = false;
+        times_.note(scene.file, bytes_of(scene.file), elapsed_s(scene.begun));
     }
-    announce(scene.progress, v1::SceneOpening::READY);
+    announce(scene, v1::SceneOpening::READY);
     server_.reply_ok(scene.request);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "commands/command.h"
+#include "commands/opening_times.h"
 #include "commands/scene_library.h"
 #include "net/server.h"
 
@@ -22,6 +24,7 @@ struct OpenedScene {
     std::string file;
     ClientEvent request;
     v1::SceneOpening progress;
+    std::chrono::steady_clock::time_point begun;
 };
 
 /// Opens scenes of the library and checks uploads, one after the other on a thread of its own,
@@ -41,8 +44,8 @@ class SceneOpener {
     /// The scene that has been opened and not been taken yet.
     std::optional<OpenedScene> take();
 
-    /// Tells everybody how far a scene is.
-    void announce(v1::SceneOpening& progress, v1::SceneOpening::Stage stage);
+    /// Tells everybody how far a scene is, and how long it will take still where that is foreseen.
+    void announce(OpenedScene& scene, v1::SceneOpening::Stage stage);
     /// Tells everybody that nothing has changed, and why; answers the request.
     void reject(OpenedScene& scene, const std::string& reason);
     /// The scene is shown: answers the request.
@@ -74,6 +77,7 @@ class SceneOpener {
     std::string shown_;
     bool opening_ = false;
     std::optional<OpenedScene> ready_;
+    OpeningTimes times_;
     std::jthread thread_;
 };
 

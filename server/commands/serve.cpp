@@ -262,7 +262,7 @@ class SceneServer {
     }
 
     void open(OpenedScene& scene) {
-        control_.opener->announce(scene.progress, v1::SceneOpening::COMPILING);
+        control_.opener->announce(scene, v1::SceneOpening::COMPILING);
         control_.preparation.begin(scene.file);
         // On disk before anybody is told.
         const auto shown = [&](ChangeLog& log) {

@@ -122,6 +122,12 @@ TEST_F(ScenesTest, OpeningTellsEverybodyAndShowsTheOtherScene) {
     EXPECT_EQ(again.request({{"listScenes", Json::object()}}).at("sceneList").at("current"),
               "second.gltf");
     EXPECT_FALSE(again.next_frame([](const Json&) { return true; }).empty());
+    // By now it is known how long scenes take.
+    JsonViewer later(daemon_->port());
+    later.join(viewer_token);
+    EXPECT_EQ(open(again, "second.gltf").count("ok"), 1U);
+    const Json foreseen = later.next_with("sceneOpening").at("sceneOpening");
+    EXPECT_GT(foreseen.value("secondsLeft", 0.0), 0.0) << foreseen.dump();
 }
 
 TEST_F(ScenesTest, ARejectedSceneChangesNothing) {
