@@ -39,7 +39,7 @@ const NO_VIEW = {
 
 /**
  * Events: `anew`, before `welcome`, when the server knows nothing of the changes seen so far (another scene,
- * another start); `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
+ * another start; detail {otherScene}); `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
  * `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
  * message of the server), `upload` (somebody has dropped a scene on the page).
  */
@@ -326,7 +326,10 @@ export class RaybundleApp extends EventTarget {
         askForDepths(this.client, this.picture);
         this.readouts.reset();
         this.camera.fit(welcome.scene);
-        this.status.showWelcome(welcome, this.scene.title, this.frame !== null && sameScene);
+        if (!sameScene) {
+            this.#forgetPicture();
+        }
+        this.status.showWelcome(welcome, this.scene.title, this.frame !== null);
         if (!sameScene && this.#firstView) {
             this.camera.set(this.#firstView);
             this.#firstView = null;
@@ -334,16 +337,23 @@ export class RaybundleApp extends EventTarget {
             this.camera.set(this.framed(this.scene.cameras[0]));
         }
         if (anew) {
-            this.status.notify('The server has started anew: changes of the scene may be gone.');
+            this.status.notify('The server restarted. Unsaved changes and pins were lost.');
         }
         if (!goesOn) {
-            this.#emit('anew', null);
+            this.#emit('anew', {otherScene: before !== null && !sameScene});
         } else if (before) {
             this.#emit('missed', this.scene.differencesFrom(before));
         }
         this.#emit('welcome', welcome);
         this.select(sameScene ? (this.selected?.id ?? null) : null);
         this.link.show(this.view);
+    }
+
+    /** The picture of another scene is not of this one, nor is what was said of it. */
+    #forgetPicture() {
+        this.frame = null;
+        this.picture.clear();
+        this.readouts.forget();
     }
 
     /** @param {Frame} frame */

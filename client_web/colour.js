@@ -101,23 +101,52 @@ const TURBO = [
  * Polynomial fit of the map "turbo" (A. Mikhailov 2019), as the server draws it.
  *
  * @param {number} x  0..1
- * @returns {string} CSS colour
+ * @returns {number[]} red, green, blue, 0..255
  */
-export function turbo(x) {
-    const channels = TURBO.map((c) => {
+export const turboColour = (x) =>
+    TURBO.map((c) => {
         const value = c.reduceRight((sum, factor) => sum * x + factor, 0);
         return Math.round(255 * clamp(value, 0, 1));
     });
-    return `rgb(${channels.join(' ')})`;
-}
+
+/**
+ * @param {number} x  0..1
+ * @returns {string} CSS colour
+ */
+export const turbo = (x) => `rgb(${turboColour(x).join(' ')})`;
 
 /**
  * Where a value lies on the scale.
  *
  * @param {number} value
  * @param {number} maximum  upper end
+ * @param {boolean} linear  the scale begins at 0
  * @returns {number} 0..1
  */
-export function onScale(value, maximum) {
-    return clamp(1 + Math.log10(Math.max(value, 1e-20) / maximum) / SCALE_DECADES, 0, 1);
+export function onScale(value, maximum, linear = false) {
+    const at = linear ? value / maximum : 1 + Math.log10(Math.max(value, 1e-20) / maximum) / SCALE_DECADES;
+    return clamp(at, 0, 1);
+}
+
+/**
+ * The value at a place of the scale.
+ *
+ * @param {number} at  0..1
+ * @param {number} maximum  upper end
+ * @param {boolean} linear  the scale begins at 0
+ */
+export const valueOnScale = (at, maximum, linear) =>
+    linear ? at * maximum : maximum * 10 ** (SCALE_DECADES * (at - 1));
+
+/**
+ * Colour of a value as the server draws it: white above the scale, black below.
+ *
+ * @param {number} value
+ * @param {number} maximum  upper end
+ * @param {boolean} linear
+ * @returns {string} CSS colour
+ */
+export function scaleColour(value, maximum, linear) {
+    const begin = linear ? 0 : maximum * 10 ** -SCALE_DECADES;
+    return value > maximum ? '#fff' : value < begin ? '#000' : turbo(onScale(value, maximum, linear));
 }

@@ -10,8 +10,8 @@ import {requestSnapshot} from './snapshot_request.js';
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./display_panel.js').DisplayPanel} DisplayPanel
- * @typedef {import('./history.js').ChangeList} ChangeList
- * @typedef {import('./history.js').LogEntry} LogEntry
+ * @typedef {import('./change_list.js').ChangeList} ChangeList
+ * @typedef {import('./change_list.js').LogEntry} LogEntry
  * @typedef {import('./protocol.js').View} View
  * @typedef {{view: View, epoch: number, exposure: number, name: string}} KeptPicture
  */
@@ -34,7 +34,7 @@ export function choicesOf(entries, epoch) {
     const newest = entries
         .slice(-MOST_CHOICES)
         .reverse()
-        .map(({before, by, text}) => ({epoch: before, name: `before ${by === 'You' ? 'you' : by} ${text}`}));
+        .map(({before, by, mine, text}) => ({epoch: before, name: `before ${mine ? 'you' : by} ${text}`}));
     const loaded = newest.some((choice) => choice.epoch === 0);
     return epoch > 0 && !loaded ? [...newest, {epoch: 0, name: 'as it was loaded'}] : newest;
 }
@@ -73,8 +73,9 @@ export class Compare {
             }
         });
         app.picture.addEventListener('resize', () => this.#end('The picture has another size: the comparison is over.'));
-        app.on('sceneChanged', () => this.#list());
+        changes.addEventListener('change', () => this.#list());
         app.on('welcome', () => this.#list());
+        app.on('anew', ({otherScene}) => otherScene && this.#forget());
     }
 
     /** Keeps the picture that is on screen. */
@@ -98,12 +99,12 @@ export class Compare {
     async showEarlier(epoch) {
         const {app} = this;
         const {view} = app;
-        const name = this.#choice.selectedOptions[0]?.textContent ?? `epoch ${epoch}`;
+        const name = this.#choice.selectedOptions[0]?.textContent ?? `after change ${epoch}`;
         this.#fixExposure();
         this.#asking = true;
         this.#list();
         const tell = (/** @type {string} */ how) =>
-            showValue('compareState', `The light ${name} is being computed: ${how}. Go on meanwhile.`);
+            showValue('compareState', `Computing the light ${name}: ${how}. You can go on meanwhile.`);
         tell('it has just begun');
         await this.display.carriedOut();
         const {limits, viewport} = app.picture;
@@ -120,7 +121,7 @@ export class Compare {
         this.#list();
         if (!ready || !image) {
             this.#releaseExposure();
-            showValue('compareState', 'The earlier light is not there.');
+            showValue('compareState', ready ? 'The picture of the earlier light did not arrive. Compare again.' : 'Comparison cancelled.');
             return;
         }
         this.#take(image, {view, epoch: ready.epoch, exposure: ready.exposure, name});
@@ -131,6 +132,14 @@ export class Compare {
             this.#releaseExposure();
             showValue('compareState', `The picture ${name} is there: Compare shows it.`);
         }
+    }
+
+    /** There is another scene: what was kept is not of it. */
+    #forget() {
+        this.close();
+        this.kept = null;
+        this.#button.disabled = true;
+        showValue('compareState', 'Compare by wiping: with the light before a change, or with a picture that you keep.');
     }
 
     /** Ends the comparison. Returns whether there was one. */

@@ -36,6 +36,25 @@ export function scaleTicks(maximum) {
     return ticks;
 }
 
+/** Values that isolines are drawn at, in the unit that is shown. @type {(maximum: number) => number[]} */
+export const levelsOf = (maximum) => scaleTicks(maximum).filter((value) => value < maximum * 0.9999);
+
+/** A linear scale has so many marks at least. */
+const LINEAR_MARKS = 5;
+
+/**
+ * Marks of a scale that begins at 0: its end, and even steps of 1, 2 or 5 times a power of ten.
+ *
+ * @param {number} maximum
+ * @returns {number[]} downwards
+ */
+export function linearTicks(maximum) {
+    const widest = maximum / LINEAR_MARKS;
+    const power = 10 ** Math.floor(Math.log10(widest) + 1e-9);
+    const step = power * (widest >= 5 * power * 0.9999 ? 5 : widest >= 2 * power * 0.9999 ? 2 : 1);
+    return Array.from({length: Math.floor(maximum / step + 1e-6) + 1}, (_, i) => i * step).reverse();
+}
+
 export class DisplayPanel {
     /** @type {DisplayMode} */
     mode = 'PHOTO';
@@ -43,9 +62,12 @@ export class DisplayPanel {
     autoExposure = true;
     scaleMaximum = 0;
     isolines = false;
+    linear = false;
     /** @type {IlluminanceUnit} */
     #unit = 'lx';
     #drawn = '';
+    /** Whether the server has been asked for a linear scale. */
+    #saidLinear = false;
     /** @type {{text: string, at: number}[]} */
     #marks = [];
     #select = byId('display-mode', HTMLSelectElement);
@@ -78,7 +100,9 @@ export class DisplayPanel {
             return null;
         }
         const colours = Array.from({length: 33}, (_, i) => turbo(i / 32));
-        return {title: byId('legend-title', HTMLElement).textContent ?? '', colours, marks: this.#marks};
+        const quantity = byId('legend-title', HTMLElement).textContent ?? '';
+        const beyond = this.app.frame.scaleLinear ? 'white: above' : 'white: above, black: below';
+        return {title: `${quantity} (${beyond})`, colours, marks: this.#marks};
     }
 
     /** @param {DisplayMode} mode */
@@ -143,6 +167,15 @@ export class DisplayPanel {
             this.scaleMaximum = Number(maximum.value);
             this.#showColours();
         });
+        for (const button of document.querySelectorAll('[data-scale]')) {
+            button.addEventListener('click', () => {
+                this.linear = /** @type {HTMLElement} */ (button).dataset.scale === 'linear';
+                for (const other of document.querySelectorAll('[data-scale]')) {
+                    other.setAttribute('aria-pressed', String(other === button));
+                }
+                this.#showColours();
+            });
+        }
         const isolines = byId('isolines', HTMLInputElement);
         isolines.addEventListener('change', () => {
             this.isolines = isolines.checked;
@@ -165,7 +198,7 @@ export class DisplayPanel {
     }
 
     #wanted() {
-        const {mode, exposure, autoExposure, scaleMaximum, isolines} = this;
+        const {mode, exposure, autoExposure, scaleMaximum, isolines, linear} = this;
         const scaleUnit = mode === 'FALSE_ILLUMINANCE' && this.#unit === 'fc' ? LUX_PER_FOOTCANDLE : 1;
         return {
             mode,
@@ -174,15 +207,24 @@ export class DisplayPanel {
             scaleMaximum: scaleMaximum * scaleUnit,
             isolines,
             scaleUnit,
+            // Servers that do not know it have the other scale alone.
+            ...(linear || this.#saidLinear ? {linearScale: linear} : {}),
         };
     }
 
     #send() {
+        this.#saidLinear ||= this.linear;
         this.app.client.send({setDisplay: this.#wanted()});
+    }
+
+    /** Unit of the colour scale. */
+    get legendUnit() {
+        return this.mode === 'FALSE_ILLUMINANCE' ? this.#unit : 'cd/m²';
     }
 
     #drawLegend() {
         const maximum = this.app.frame?.scaleMaximum;
+        const linear = this.app.frame?.scaleLinear ?? false;
         const legend = byId('legend', HTMLElement);
         legend.hidden = maximum === undefined;
         if (maximum === undefined) {
@@ -190,12 +232,16 @@ export class DisplayPanel {
             return;
         }
         const lux = this.mode === 'FALSE_ILLUMINANCE';
-        const unit = lux ? this.#unit : 'cd/m²';
+        const unit = this.legendUnit;
         const top = unit === 'fc' ? maximum / LUX_PER_FOOTCANDLE : maximum;
-        if (this.#drawn === `${top} ${unit}`) {
+        if (this.#drawn === `${top} ${unit} ${linear}`) {
             return;
         }
-        this.#drawn = `${top} ${unit}`;
+        this.#drawn = `${top} ${unit} ${linear}`;
+        const bottom = top * 10 ** -SCALE_DECADES;
+        byId('legend-above', HTMLElement).textContent = `above ${oneDigit(top)}`;
+        byId('legend-below', HTMLElement).textContent = `below ${oneDigit(bottom)}`;
+        byId('legend-below-row', HTMLElement).hidden = linear;
         byId('legend-title', HTMLElement).textContent = `${lux ? 'Illuminance' : 'Luminance'}, ${unit}`;
         const bar = byId('legend-bar', HTMLCanvasElement);
         const context = bar.getContext('2d');
@@ -203,9 +249,9 @@ export class DisplayPanel {
             context.fillStyle = turbo(1 - row / (bar.height - 1));
             context.fillRect(0, row, 1, 1);
         }
-        this.#marks = scaleTicks(top).map((value) => ({
+        this.#marks = (linear ? linearTicks : scaleTicks)(top).map((value) => ({
             text: oneDigit(value),
-            at: onScale(value, top),
+            at: onScale(value, top, linear),
         }));
         const ticks = this.#marks.map(({text, at}) => {
             const item = document.createElement('li');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pure maths of a measuring grid: where its points lie on a surface, and what they say together.
 
-import {noteOf} from './units.js';
+import {NOT_YET, inUnit, noteOf, plusMinusCell} from './units.js';
 import {add, clamp, cross, dot, normalise, scale, sub, vec3} from './vector.js';
 
 /**
@@ -188,15 +188,16 @@ export function intervalsOf(illuminance, relativeError) {
 /**
  * @param {Grid} grid
  * @param {ProbeGridResult} result
+ * @param {import('./units.js').IlluminanceUnit} unit
  * @returns {string} table with a head, points that were not measured left empty
  */
-export function gridCsv(grid, {illuminance, relativeError, epoch}) {
-    const lines = ['row,column,x_m,y_m,z_m,illuminance_lx,relative_standard_error,epoch,note'];
+export function gridCsv(grid, {illuminance, relativeError, epoch}, unit = 'lx') {
+    const lines = [`row,column,x_m,y_m,z_m,illuminance_${unit},plus_minus_95_percent,after_change,note`];
     pointsOf(grid).forEach(({x, y, z}, i) => {
         const at = [Math.floor(i / grid.columns) + 1, (i % grid.columns) + 1];
         const place = [x, y, z].map((value) => value.toFixed(4));
-        const value = illuminance[i] >= 0 ? illuminance[i].toPrecision(6) : '';
-        const error = relativeError[i] >= 0 ? relativeError[i].toPrecision(3) : '';
+        const value = illuminance[i] >= 0 ? inUnit(illuminance[i], unit).toPrecision(6) : '';
+        const error = plusMinusCell(relativeError[i]);
         const note = illuminance[i] >= 0 ? noteOf(relativeError[i]) : 'not in view';
         lines.push([...at, ...place, value, error, epoch, note].join(','));
     });
@@ -282,3 +283,13 @@ export function typicalError(relativeErrors) {
     const known = relativeErrors.filter((error) => error >= 0).sort((a, b) => a - b);
     return known.length > 0 ? known[known.length >> 1] : null;
 }
+
+/**
+ * Uniformity for people.
+ *
+ * @param {GridSummary} summary
+ * @param {GridIntervals | null} intervals
+ * @returns {string} says so where it is not known: the minimum may be nothing, or errors are not known
+ */
+export const uniformityText = (summary, intervals) =>
+    intervals && (intervals.uniformity.low > 0 || summary.minimum === 0) ? summary.uniformity.toFixed(2) : NOT_YET;

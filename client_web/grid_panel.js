@@ -2,15 +2,15 @@
 // A grid of measured points: on which surface, what they say together, and their dots in the picture. It
 // goes with the object that it lies on, and is measured again while light settles.
 
-import {onScale, turbo} from './colour.js';
+import {scaleColour} from './colour.js';
 import {byId, fileName, saveFile, showValue} from './elements.js';
 import {
     carriedGrid, faceName, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf,
-    typicalError,
+    typicalError, uniformityText,
 } from './grid.js';
 import {SETTLED} from './readouts.js';
 import {Anchor} from './scene_model.js';
-import {NOT_YET, estimated, inUnit, plusMinus} from './units.js';
+import {NOT_YET, UNCERTAIN, estimated, inUnit, plusMinus} from './units.js';
 import {corners, length, sub} from './vector.js';
 
 /**
@@ -199,7 +199,7 @@ export class GridPanel {
             if (this.shown) {
                 const {grid, result, surface} = this.shown;
                 const name = fileName(`${this.app.scene?.title} ${surface} grid`);
-                saveFile(new Blob([gridCsv(grid, result)], {type: 'text/csv'}), `${name}.csv`);
+                saveFile(new Blob([gridCsv(grid, result, this.measuring.unit)], {type: 'text/csv'}), `${name}.csv`);
             }
         });
     }
@@ -244,8 +244,8 @@ export class GridPanel {
             showValue('gridMean', show(summary.mean));
             showValue('gridMax', show(summary.maximum));
             showValue('gridMeanInterval', intervals ? plusMinus(intervals.meanError) : NOT_YET);
-            showValue('gridUniformity', summary.uniformity.toFixed(2));
-            showValue('gridUniformityInterval', intervals ? between(intervals.uniformity) : NOT_YET);
+            showValue('gridUniformity', uniformityText(summary, intervals));
+            showValue('gridUniformityInterval', intervals ? between(intervals.uniformity) : '');
         }
         this.app.drawOverlay();
     }
@@ -265,6 +265,7 @@ export class GridPanel {
             const {grid, result, outdated} = this.shown;
             group.classList.toggle('outdated', outdated);
             const scale = display.mode === 'FALSE_ILLUMINANCE' ? this.app.frame?.scaleMaximum : undefined;
+            const linear = scale !== undefined && (this.app.frame?.scaleLinear ?? false);
             const top = scale ?? Math.max(...result.illuminance, 1e-3);
             const points = pointsOf(grid);
             while (group.childElementCount < points.length) {
@@ -281,7 +282,7 @@ export class GridPanel {
                 dot.setAttribute('cx', x.toFixed(1));
                 dot.setAttribute('cy', y.toFixed(1));
                 dot.setAttribute('class', measured ? 'measured' : 'unseen');
-                const colour = measured ? turbo(onScale(result.illuminance[i], top)) : 'none';
+                const colour = measured ? scaleColour(result.illuminance[i], top, linear) : 'none';
                 dot.setAttribute('fill', colour);
             });
         });
@@ -311,8 +312,8 @@ export function stateOf({grid, result, surface, settled, outdated}) {
         return `${size} The light has changed since: new values come as soon as the picture shows this surface.`;
     }
     const error = plusMinus(typicalError(result.relativeError));
-    const unknown = error === NOT_YET;
-    const known = unknown ? `Most values are ${NOT_YET}.` : `Typical error ${error}.`;
+    const unknown = [NOT_YET, UNCERTAIN].includes(error);
+    const known = unknown ? `Most values are ${UNCERTAIN}: Uo is ${NOT_YET}.` : `Typical error ${error}.`;
     const settling = settled ? '' : ' The light is still settling.';
     const later = unknown || !settled ? ' Better values come by themselves.' : '';
     return `${size} ${seen} of ${total} are in view. ${known}${settling}${later}`;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Undo and redo of this viewer's own changes, and the log of everybody's.
+// Undo and redo of this viewer's own changes.
 
-import {byId, showValue} from './elements.js';
+import {byId} from './elements.js';
 import {deedOf} from './placement.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
- * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  * @typedef {import('./protocol.js').Transform} Transform
  * @typedef {object} Step
  * @property {string} label  what was done, e.g. "move short box"
@@ -17,9 +16,6 @@ import {deedOf} from './placement.js';
  */
 
 const MAX_STEPS = 200;
-/** What has been done to an object, in the past tense. */
-const DONE = {move: 'moved', turn: 'turned', resize: 'resized', 'put back': 'put back'};
-
 /** @typedef {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number}}} Subject */
 
 /**
@@ -125,91 +121,6 @@ export class History extends EventTarget {
         });
         return this.#under;
     }
-}
-
-/**
- * What has changed in the scene since this page came to it.
- *
- * @typedef {object} LogEntry
- * @property {Date} time
- * @property {number} epoch
- * @property {number} before  epoch of the scene before it, and before the steps of a drag
- * @property {string} by
- * @property {string} text
- *
- * @typedef {{epoch: number, place: Required<Transform> | null}} Before  the scene's epoch, and the object's place
- */
-const MAX_ENTRIES = 1000;
-
-export class ChangeList {
-    /** @type {LogEntry[]} */
-    entries = [];
-    /** What was before the drags that are under way, by object. @type {Map<number, Before>} */
-    #dragged = new Map();
-
-    /**
-     * @param {RaybundleApp} app
-     * @param {(viewer: number) => string} nameOf
-     */
-    constructor(app, nameOf) {
-        app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
-            const object = app.scene?.object(change.moveObject?.object) ?? null;
-            const before = this.#before(change, object);
-            if (before === null) {
-                return;
-            }
-            const text = describeChange(app, change, before);
-            const by = nameOf(change.by);
-            this.entries.push({time: new Date(), epoch: change.epoch, before: before.epoch, by, text});
-            this.entries.splice(0, this.entries.length - MAX_ENTRIES);
-            showValue('lastChange', `${by}: ${text}`);
-        });
-        app.on('anew', () => {
-            this.entries = [];
-            this.#dragged.clear();
-            showValue('lastChange', '');
-        });
-    }
-
-    /**
-     * @param {import('./protocol.js').SceneChanged} change
-     * @param {PlacedObject | null} object  that it moves
-     * @returns {Before | null} null: a step of a drag that goes on
-     */
-    #before({epoch, moveObject}, object) {
-        const last = {epoch: epoch - 1, place: object?.earlier ?? null};
-        if (!moveObject) {
-            return last;
-        }
-        const before = this.#dragged.get(moveObject.object) ?? last;
-        if (moveObject.final === false) {
-            this.#dragged.set(moveObject.object, before);
-            return null;
-        }
-        this.#dragged.delete(moveObject.object);
-        return before;
-    }
-}
-
-/**
- * @param {RaybundleApp} app
- * @param {import('./protocol.js').SceneChanged} change
- * @param {Before} before
- * @returns {string} e.g. "moved short box"
- */
-function describeChange({scene}, {moveObject, setLight, setMaterial}, {place}) {
-    if (moveObject) {
-        const object = scene?.object(moveObject.object);
-        const deed = object && place ? deedOf(place, object.confirmed, object.original) : 'move';
-        return `${DONE[deed]} ${object?.name ?? 'an object'}`;
-    }
-    if (setLight) {
-        const name = scene?.lights.find(({id}) => id === setLight.light)?.name ?? 'a light';
-        const state = setLight.on === undefined ? 'set' : setLight.on ? 'switched on' : 'switched off';
-        return `${state} ${name}`;
-    }
-    const id = setMaterial?.material;
-    return `set ${scene?.materials.find((material) => material.id === id)?.name ?? 'a material'}`;
 }
 
 /**

@@ -15,6 +15,7 @@ import {byId} from './elements.js';
  * @property {import('./display_panel.js').DisplayPanel} display
  * @property {import('./history.js').History} history
  * @property {(tool: string) => void} setTool
+ * @property {() => boolean} removeLastPoint  the newest measured one; whether there was one
  * @property {() => void} clickMiddle  as a click on the middle of the picture
  * @property {() => boolean} cancel  ends what is going on; whether there was anything
  * @property {() => void} showKeys  the list of them
@@ -103,6 +104,10 @@ function press(targets, event) {
         app.camera.zoom(event.key === '+' ? 0.9 : 1 / 0.9);
         return true;
     }
+    if (event.key === 'Delete' || event.key === 'Backspace') {
+        remove(targets);
+        return true;
+    }
     const command = COMMANDS.get(event.code);
     if (command && !event.repeat) {
         command(targets);
@@ -112,13 +117,44 @@ function press(targets, event) {
 }
 
 /**
- * Undo and redo.
+ * Takes a measured point away. Objects stay, and who wants one gone is told so.
+ *
+ * @param {KeyTargets} targets
+ */
+function remove({app, removeLastPoint}) {
+    if (app.tool === 'measure' && removeLastPoint()) {
+        return;
+    }
+    const {selected} = app;
+    app.status.notify(
+        selected
+            ? `${selected.name} stays: objects cannot be deleted here. Move it out of the way, or delete it in the file.`
+            : 'Nothing to delete: Del takes away the newest point while Measure is on.',
+    );
+}
+
+/** @param {RaybundleApp} app */
+function duplicate(app) {
+    const {selected} = app;
+    app.status.notify(
+        selected
+            ? `${selected.name} stays alone: objects cannot be copied here. Copy it in the file.`
+            : 'Nothing is selected.',
+    );
+}
+
+/**
+ * Undo and redo; and why there are no copies.
  *
  * @param {KeyTargets} targets
  * @param {KeyboardEvent} event
  * @returns {boolean}
  */
-function pressModified({history}, event) {
+function pressModified({app, history}, event) {
+    if (event.code === 'KeyD' && !event.shiftKey) {
+        duplicate(app);
+        return true;
+    }
     if (event.code === 'KeyZ' && !event.shiftKey) {
         history.undo();
         return true;

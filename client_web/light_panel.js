@@ -68,9 +68,9 @@ export const dimmerShare = (position) => DIMMEST * (BRIGHTEST / DIMMEST) ** posi
  */
 export function intensityProblem(value) {
     if (!Number.isFinite(value)) {
-        return 'That is no number.';
+        return 'Enter a number.';
     }
-    return value < 0 ? 'A light cannot have less than 0.' : '';
+    return value < 0 ? 'Enter 0 or more.' : '';
 }
 
 /** @typedef {{intensity: number, colour: import('./protocol.js').Vec3}} LoadedLight */
@@ -248,7 +248,7 @@ export class LightPanel {
         kelvin.addEventListener('change', () => change.done(tinted()));
         const reset = document.createElement('button');
         reset.type = 'button';
-        reset.textContent = 'As in the file';
+        reset.textContent = 'Reset';
         reset.addEventListener('click', () => change.done({...asLoaded, on: true}));
         this.#refresh.push(() => {
             reset.hidden = !this.app.mayEdit || sameLight(light, asLoaded);

@@ -11,7 +11,9 @@ import {announce, byId, fileName, returnFocus, saveFile} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
 import {GridPanel} from './grid_panel.js';
-import {ChangeList, History, addHistory, subjectOf} from './history.js';
+import {ChangeList} from './change_list.js';
+import {History, addHistory, subjectOf} from './history.js';
+import {IsolineNumbers} from './isolines.js';
 import {addKeys} from './keys.js';
 import {LightPanel} from './light_panel.js';
 import {Lost} from './lost.js';
@@ -24,11 +26,13 @@ import {Pins} from './pins.js';
 import {Plans} from './plans.js';
 import {PointerControl} from './pointer_control.js';
 import {reportHtml} from './report.js';
+import {SavingState} from './saving.js';
 import {SceneFiles} from './scene_files.js';
 import {ScenePanel} from './scene_panel.js';
 import {fromHash, toHash} from './share.js';
 import {SnapshotPanel} from './snapshot_panel.js';
 import {addTabs} from './tabs.js';
+import {addTheme} from './theme.js';
 import {TargetPanel} from './target_panel.js';
 import {Viewpoints} from './viewpoints.js';
 import {FirstHint, Walking, remembered} from './walking.js';
@@ -63,7 +67,7 @@ const measuring = new Measuring(app, marks, display);
 const gridPanel = new GridPanel(app, measuring, display);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
-const changes = new ChangeList(app, (viewer) => people.name(viewer));
+const changes = new ChangeList(app);
 app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
     if (change.by !== app.client.welcome?.viewer) {
         history.noteOther(subjectOf(change), people.name(change.by));
@@ -83,7 +87,8 @@ new MeasuredStrip(app, measuring, () => {
 });
 new ScenePanel(app, grabbing, history);
 const plans = new Plans(app);
-new SceneFiles(app);
+const saving = new SavingState(app);
+new SceneFiles(app, () => ({changes: app.scene?.epoch ?? 0, pins: pins.pins.size, forgets: saving.forgets}));
 new SnapshotPanel(app);
 const lightPanel = new LightPanel(app, history, () => {
     setPanel(true);
@@ -93,8 +98,20 @@ new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);
 new Lost(app, display, collisions);
+new IsolineNumbers(app, display);
 addHistory(app, history);
 addEffects(app);
+addTheme();
+app.on('welcome', () => {
+    byPinButton().hidden = !app.mayReview;
+    byId('pins-how', HTMLElement).hidden = !app.mayReview;
+    byId('pins-view-only', HTMLElement).hidden = app.mayReview;
+    if (!app.mayReview && app.tool === 'pin') {
+        setTool('select');
+    }
+});
+
+const byPinButton = () => /** @type {HTMLElement} */ (document.querySelector('[data-tool="pin"]'));
 
 /** What was selected before each of the last two clicks. @type {(number | null)[]} */
 let selectedBefore = [];
@@ -145,6 +162,10 @@ async function doubleClickAt(at) {
 
 /** @param {string} tool */
 function setTool(tool) {
+    if (tool === 'pin' && app.scene && !app.mayReview) {
+        app.status.notify('View only. Ask for reviewer access to add pins.');
+        return;
+    }
     pins.cancel();
     app.setTool(tool);
     for (const button of document.querySelectorAll('[data-tool]')) {
@@ -319,6 +340,7 @@ addKeys({
     display,
     history,
     setTool,
+    removeLastPoint: () => measuring.removeLast(),
     clickMiddle: () => {
         const {clientWidth, clientHeight} = app.picture.element;
         clickAt({x: clientWidth / 2, y: clientHeight / 2});

@@ -4,8 +4,9 @@
 import {announce, byId, fileName, saveFile, smallButton} from './elements.js';
 import {csvCell} from './grid.js';
 import {Anchor} from './scene_model.js';
-import {estimated, inUnit, measured, noteOf, plusMinus} from './units.js';
+import {estimated, inUnit, measured, noteOf, plusMinus, plusMinusCell} from './units.js';
 import {length, sub} from './vector.js';
+import {remember, remembered} from './walking.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -15,6 +16,7 @@ import {length, sub} from './vector.js';
  * @typedef {import('./protocol.js').ProbeResult} ProbeResult
  * @typedef {import('./protocol.js').Vec3} Vec3
  * @typedef {import('./units.js').IlluminanceUnit} IlluminanceUnit
+ * @typedef {{probe: ProbeResult, laid: Vec3, anchor: Anchor}} KeptPoint
  * @typedef {{number: number, probe: ProbeResult, laid: Vec3, position: Vec3, anchor: Anchor, text: string, mark: HTMLElement, row: HTMLTableRowElement}} MeasuredPoint
  */
 
@@ -24,6 +26,30 @@ const REFRESH_MS = 1000;
 const MAX_REFRESHED = 8;
 /** A probe further from the point than this has met something else, metres. */
 const SAME_PLACE = 0.05;
+
+/**
+ * Where this browser keeps the points of a scene.
+ *
+ * @param {import('./scene_model.js').SceneModel} scene
+ */
+const keyOf = ({name, bounds}) => `points of ${name} ${JSON.stringify(bounds)}`;
+
+/**
+ * @param {string | null} text  as kept
+ * @returns {KeptPoint[]} none where it cannot be read
+ */
+export function keptPoints(text) {
+    try {
+        const kept = JSON.parse(text ?? '[]');
+        return kept.map((/** @type {any} */ {probe, laid, anchor}) => ({
+            probe,
+            laid,
+            anchor: Object.assign(new Anchor(null), anchor),
+        }));
+    } catch {
+        return [];
+    }
+}
 
 /**
  * Events: `unit`, when illuminance is shown in another one; `points`, when there are more or fewer; `values`,
@@ -56,6 +82,7 @@ export class Measuring extends EventTarget {
         app.on('moved', () => this.#follow());
         app.on('welcome', () => this.#welcomed());
         setInterval(() => this.#refresh(), REFRESH_MS);
+        addEventListener('pagehide', () => this.#keep());
     }
 
     /** Points go with the objects that they have been measured on. */
@@ -65,14 +92,24 @@ export class Measuring extends EventTarget {
         }
     }
 
-    /** Points of another scene mean nothing in this one. */
+    /** Points of another scene mean nothing in this one; those of this one are there again. */
     #welcomed() {
-        const {name = ''} = this.app.scene ?? {};
-        if (name !== this.#scene) {
+        const key = this.app.scene ? keyOf(this.app.scene) : '';
+        if (key !== this.#scene) {
+            this.#scene = '';  // what goes now is not forgotten
             [...this.points].forEach((point) => this.#remove(point));
+            keptPoints(remembered(key)).forEach((kept) => this.#add(kept));
+            this.#scene = key;
+            this.#showLists();
         }
-        this.#scene = name;
         this.#follow();
+    }
+
+    /** Keeps the points in this browser, for when the page or the server begins anew. */
+    #keep() {
+        if (this.#scene) {
+            remember(this.#scene, JSON.stringify(this.points.map(({probe, laid, anchor}) => ({probe, laid, anchor}))));
+        }
     }
 
     /**
@@ -89,6 +126,14 @@ export class Measuring extends EventTarget {
         while (this.points.length >= MAX_POINTS) {
             this.#remove(this.points[0]);
         }
+        const anchor = new Anchor(this.app.scene?.object(probe.object));
+        const point = this.#add({probe, laid: probe.position, anchor});
+        this.#showLists();
+        announce(`Point ${point.number}: ${point.text}`);
+    }
+
+    /** @param {KeptPoint} kept */
+    #add({probe, laid, anchor}) {
         const number = this.#next++;
         const mark = document.createElement('div');
         mark.className = 'probe';
@@ -96,9 +141,7 @@ export class Measuring extends EventTarget {
         badge.textContent = String(number);
         mark.append(badge, document.createElement('span'));
         const row = document.createElement('tr');
-        const anchor = new Anchor(this.app.scene?.object(probe.object));
-        const {position} = probe;
-        const point = {number, probe, laid: position, position, anchor, text: '', mark, row};
+        const point = {number, probe, laid, position: laid, anchor, text: '', mark, row};
         const cells = Array.from({length: 5}, () => row.insertCell());
         cells[0].textContent = String(number);
         cells[4].append(smallButton('×', `Remove point ${number}`, () => this.#remove(point)));
@@ -106,8 +149,16 @@ export class Measuring extends EventTarget {
         this.marks.add(mark, () => point.position);
         this.#table.tBodies[0].append(row);
         this.#write(point);
-        this.#showLists();
-        announce(`Point ${number}: ${point.text}`);
+        return point;
+    }
+
+    /** Takes the newest point away. Returns whether there was one. */
+    removeLast() {
+        const last = this.points.at(-1);
+        if (last) {
+            this.#remove(last);
+        }
+        return last !== undefined;
     }
 
     /** @param {DisplayPanel} display */
@@ -164,6 +215,7 @@ export class Measuring extends EventTarget {
         byId('points-none', HTMLElement).hidden = !none;
         byId('clear-points', HTMLButtonElement).disabled = none;
         byId('points-csv', HTMLButtonElement).disabled = none;
+        this.#keep();
         this.dispatchEvent(new Event('points'));
         this.dispatchEvent(new Event('values'));
     }
@@ -191,12 +243,14 @@ export class Measuring extends EventTarget {
     }
 
     #savePoints() {
-        const head = 'point,x_m,y_m,z_m,illuminance_lx,luminance_cd_m2,relative_standard_error,object,epoch,note';
+        const {unit} = this;
+        const head = `point,x_m,y_m,z_m,illuminance_${unit},luminance_cd_m2,plus_minus_95_percent,object,after_change,note`;
         const lines = this.points.map(({number, position, probe}) => {
             const place = [position.x, position.y, position.z].map((value) => value.toFixed(4));
             const object = this.app.scene?.object(probe.object)?.name ?? '';
-            const light = [probe.illuminance, probe.luminance, probe.relativeError];
-            const values = light.map((value) => value?.toPrecision(6) ?? '');
+            const light = [inUnit(probe.illuminance ?? NaN, unit), probe.luminance ?? NaN];
+            const values = light.map((value) => (Number.isFinite(value) ? value.toPrecision(6) : ''));
+            values.push(plusMinusCell(probe.relativeError));
             const last = [csvCell(object), probe.epoch, noteOf(probe.relativeError)];
             return [number, ...place, ...values, ...last].join(',');
         });

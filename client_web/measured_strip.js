@@ -39,6 +39,6 @@ export class MeasuredStrip {
         });
         this.#list.replaceChildren(...rows);
         byId('measured-hint', HTMLElement).hidden = rows.length > 0;
-        byId('measured-all', HTMLElement).textContent = points.length > SHOWN ? `All ${points.length}, grid` : 'List, grid';
+        byId('measured-all', HTMLElement).textContent = points.length > SHOWN ? `Show all ${points.length} points` : 'Show list';
     }
 }

@@ -84,9 +84,52 @@ export function frustumOf({eye, target, up, verticalFov, aspect}) {
     return {eye, corners};
 }
 
+/** Who comes back within so long has not been away for people, ms: another scene, a page that is loaded again. */
+const ABSENCE_MS = 60000;
+
+/** Who comes, without those who only come back or have been told of. */
+export class Arrivals {
+    /** When each was here last, by name. @type {Map<string, number>} */
+    #seen = new Map();
+    #first = true;
+    #began = -Infinity;
+
+    /**
+     * This page has come in again: people without a name have new numbers.
+     *
+     * @param {number} now  ms
+     */
+    begin(now) {
+        this.#began = now;
+    }
+
+    /**
+     * @param {{viewer: number, name: string}[]} others  who are here, in the newest message
+     * @param {number} now  ms
+     * @returns {string[]} names of those who have come
+     */
+    note(others, now) {
+        const settling = now - this.#began < ABSENCE_MS;
+        const came = others
+            .filter(({name}) => name.trim() || !settling)
+            .map(nameOf)
+            .filter((name, i, names) => names.indexOf(name) === i)
+            .filter((name) => now - (this.#seen.get(name) ?? -Infinity) > ABSENCE_MS);
+        others.forEach((other) => this.#seen.set(nameOf(other), now));
+        const told = this.#first ? [] : came;
+        this.#first = false;
+        return told;
+    }
+}
+
 export class People {
     /** Everybody, this viewer included. @type {Viewer[]} */
     viewers = [];
+    #arrivals = new Arrivals();
+    #crowded = false;
+    /** Whether this page has been in before. */
+    #welcomed = false;
+    #leaderName = '';
     /** Viewer whose camera is shown, 0: the own one. */
     following = 0;
     /** What the list shows. */
@@ -106,6 +149,7 @@ export class People {
         app.on('message', (/** @type {import('./protocol.js').ServerMessage} */ message) => {
             if (message.presence) {
                 this.#update(message.presence.viewers);
+                this.#tellCrowd(message.presence.crowded ?? false);
             }
             if (message.pointed) {
                 this.#pointed(message.pointed.by, message.pointed.position);
@@ -113,6 +157,11 @@ export class People {
         });
         app.on('welcome', () => {
             this.following = 0;
+            this.#showOwnName();
+            if (this.#welcomed) {
+                this.#arrivals.begin(performance.now());
+            }
+            this.#welcomed = true;
         });
         app.on('view', () => {
             if (this.following && !app.link.led) {
@@ -148,6 +197,7 @@ export class People {
     async follow(viewer) {
         if (await this.app.ask({follow: {viewer}})) {
             this.following = viewer;
+            this.#leaderName = this.name(viewer);
             this.app.link.led = viewer !== 0;
             this.#showList();
             this.#lead();
@@ -165,6 +215,30 @@ export class People {
         }
     }
 
+    /** The name that others see; a token's cannot be changed here. */
+    #showOwnName() {
+        const {settings, welcome} = this.app.client;
+        const shown = welcome?.name;
+        const fixed = shown !== undefined && shown !== (settings.name ?? '').trim();
+        const name = byId('own-name', HTMLInputElement);
+        name.value = shown ?? settings.name ?? '';
+        name.disabled = fixed;
+        const button = byId('name-form', HTMLFormElement).querySelector('button');
+        if (button) {
+            button.hidden = fixed;
+        }
+        byId('name-note', HTMLElement).hidden = !fixed;
+    }
+
+    /** @param {boolean} crowded  time is short for so many */
+    #tellCrowd(crowded) {
+        if (crowded && !this.#crowded) {
+            const {length: count} = this.viewers;
+            this.app.status.notify(`${count} people share this server: pictures now come less often for everybody.`);
+        }
+        this.#crowded = crowded;
+    }
+
     #addNameForm() {
         const name = byId('own-name', HTMLInputElement);
         name.value = this.app.client.settings.name ?? '';
@@ -179,18 +253,15 @@ export class People {
 
     /** @param {Viewer[]} viewers */
     #update(viewers) {
-        const before = new Set(this.viewers.map(({viewer}) => viewer));
-        const known = this.viewers.length > 0;
         this.viewers = viewers;
-        for (const viewer of viewers) {
-            if (known && !before.has(viewer.viewer) && viewer.viewer !== this.own) {
-                this.app.status.notify(`${nameOf(viewer)} has joined.`);
-            }
+        const others = viewers.filter(({viewer}) => viewer !== this.own);
+        for (const name of this.#arrivals.note(others, performance.now())) {
+            this.app.status.notify(`${name} has joined.`);
         }
         const self = viewers.find(({viewer}) => viewer === this.own);
         if (self && this.following && self.following === 0) {
             if (this.app.link.led) {
-                this.app.status.notify(`${this.name(this.following)} leads no more.`);
+                this.app.status.notify(`You stopped following ${this.#leaderName}.`);
             }
             this.following = 0;
             this.app.link.led = false;

@@ -180,6 +180,17 @@ export class Picture extends EventTarget {
         this.element.classList.add('has-picture');
     }
 
+    /** Takes the picture away, until there is another one. */
+    clear() {
+        this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+        this.#small?.fillRect(0, 0, BACKDROP_SIDE, BACKDROP_SIDE);
+        this.#depths = null;
+        this.#wanted = null;
+        this.#throttle.cancel();
+        this.#showWarped(false);
+        this.element.classList.remove('has-picture');
+    }
+
     /**
      * Puts the picture where it belongs in a view, until the server's picture of it is there: by its
      * depths, where it has any, else as a flat one.

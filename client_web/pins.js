@@ -3,7 +3,7 @@
 
 import {byId, replaceRows, smallButton} from './elements.js';
 import {measured} from './units.js';
-import {matrixPoint, transformPoint} from './vector.js';
+import {add, matrixPoint, transformPoint} from './vector.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -86,13 +86,20 @@ export class Pins {
      */
     async askAt(at) {
         if (!this.app.mayReview) {
-            this.app.status.notify('Your role is to look: pins need the role reviewer.');
+            this.app.status.notify('View only. Ask for reviewer access to add pins.');
             return;
         }
+        // At once, since what is typed while the server measures is the note, not keys of the camera.
+        const ray = this.app.rayAt(at);
+        const editor = this.#openEditor(add(ray.origin, ray.direction));
         const probe = await this.app.probeAt(at);
+        if (this.#editor !== editor.form) {
+            return;
+        }
         if (probe?.position) {
-            this.#openEditor(probe);
+            editor.found(probe);
         } else {
+            this.cancel();
             this.app.status.notify('There is no surface at this point of the picture.');
         }
     }
@@ -132,17 +139,18 @@ export class Pins {
         this.app.camera.flyAround({...view, eye, target});
     }
 
-    /** @param {import('./protocol.js').ProbeResult} probe */
-    #openEditor(probe) {
+    /**
+     * @param {Vec3} at  where the picture shows it, until found() is told what is there
+     */
+    #openEditor(at) {
         this.cancel();
-        const {position} = probe;
-        if (!position) {
-            return;
-        }
+        /** @type {import('./protocol.js').ProbeResult | null} */
+        let probe = null;
+        let asked = false;
         const form = document.createElement('form');
         form.className = 'pin-editor';
         const value = document.createElement('p');
-        value.textContent = measured(probe.illuminance ?? 0, this.measuring.unit, probe.relativeError);
+        value.textContent = 'Measuring …';
         const text = document.createElement('textarea');
         text.rows = 2;
         text.maxLength = MAX_TEXT;
@@ -153,20 +161,29 @@ export class Pins {
         save.type = 'submit';
         save.textContent = 'Pin it';
         const point = smallButton('Look here', 'Show this place to the others', () => {
+            const {position} = probe ?? {};
             this.cancel();
-            this.people.pointAt(position);
+            if (position) {
+                this.people.pointAt(position);
+            }
         });
+        point.disabled = true;
         const close = smallButton('Cancel', 'Cancel', () => this.cancel());
         const row = document.createElement('div');
         row.className = 'row';
         row.append(save, point, close);
         form.append(value, text, row);
-        form.addEventListener('submit', async (event) => {
-            event.preventDefault();
-            const addPin = {text: text.value.trim(), position, patch: probe.patch ?? 0};
-            if (addPin.text && (await this.app.ask({addPin}))) {
+        const submit = async () => {
+            const {position, patch = 0} = probe ?? {};
+            asked = probe === null;
+            const addPin = {text: text.value.trim(), position, patch};
+            if (addPin.text && position && (await this.app.ask({addPin})) && this.#editor === form) {
                 this.cancel();
             }
+        };
+        form.addEventListener('submit', (event) => {
+            event.preventDefault();
+            submit();
         });
         for (const type of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'dblclick', 'keydown']) {
             form.addEventListener(type, (event) => {
@@ -181,8 +198,18 @@ export class Pins {
                 }
             });
         }
-        this.#editor = this.marks.add(form, () => position, true);
+        this.#editor = this.marks.add(form, () => probe?.position ?? at, true);
         text.focus({preventScroll: true});
+        const found = (/** @type {import('./protocol.js').ProbeResult} */ result) => {
+            probe = result;
+            point.disabled = false;
+            value.textContent = measured(result.illuminance ?? 0, this.measuring.unit, result.relativeError);
+            this.app.drawOverlay();
+            if (asked) {
+                submit();  // Enter came before the server's answer
+            }
+        };
+        return {form, found};
     }
 
     /** @param {Pin} pin */
@@ -197,7 +224,7 @@ export class Pins {
         if (before && fresh && !changeOf(before)) {
             this.app.status.notify(`The light at pin ${pin.pin} has changed: ${fresh}.`);
         } else if (!before && !pin.removed && pin.by !== this.people.own) {
-            this.app.status.notify(`${pin.byName || this.people.name(pin.by)} has set a pin.`);
+            this.app.status.notify(`${pin.byName || this.people.name(pin.by)} added a pin.`);
         }
         this.#show();
     }
@@ -249,7 +276,7 @@ export class Pins {
         const when = new Date(pin.setAtMs).toLocaleString([], {dateStyle: 'short', timeStyle: 'short'});
         const who = pin.byName || `Viewer ${pin.by}`;
         const value = measured(pin.illuminance, this.measuring.unit, pin.relativeError);
-        detail.textContent = `${value} · epoch ${pin.epoch} · ${who}, ${when}`;
+        detail.textContent = `${value} · after change ${pin.epoch} · ${who}, ${when}`;
         const body = document.createElement('div');
         body.append(text, detail);
         const change = changeOf(pin);

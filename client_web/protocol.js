@@ -106,6 +106,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {string} [renderer]  of the server's GL
  * @property {boolean} [softwareRendering]
  * @property {boolean} [canOpenScenes]
+ * @property {Saving} [saving]
+ * @property {string} [name]  that others see
  * @property {Pin[]} [pins]
  * @property {SavedViewpoint[]} [viewpoints]
  */
@@ -121,7 +123,10 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [errorHigh]
  * @property {boolean} [errorMeasured]  at some pixels, by path tracing
  * @property {number} [secondsToTarget]
+ * @property {Saving} [saving]
  */
+
+/** @typedef {'SAVING_UNSPECIFIED' | 'SAVED' | 'NOT_SAVED' | 'FAILING'} Saving  whether changes outlast a restart */
 
 /**
  * @typedef {object} FrameHeader
@@ -140,6 +145,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {boolean} [errorMeasured]  at some pixels, by path tracing
  * @property {number} exposure  EV (log2)
  * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
+ * @property {boolean} [scaleLinear]  it begins at 0; absent or false: logarithmic
  * @property {number} serverTimeMs
  * @property {number} [depthBytes]  at the end of the message; absent: the frame has no depths
  * @property {number} [depthColumns]
@@ -162,6 +168,12 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {MoveObject} [moveObject]
  * @property {SetLight} [setLight]
  * @property {SetMaterial} [setMaterial]
+ * @property {string} [byName]
+ * @property {number} [atMs]  Unix time
+ * @property {MoveObject} [objectBefore]  what it was like before
+ * @property {SetLight} [lightBefore]
+ * @property {SetMaterial} [materialBefore]
+ * @property {number} [firstEpoch]  of several steps
  */
 
 /**
@@ -237,6 +249,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {string} byName
  * @property {'READING' | 'PREPARING' | 'COMPILING' | 'READY' | 'REJECTED'} stage
  * @property {string} reason  of REJECTED
+ * @property {number} [secondsLeft]  as foreseen
  */
 
 /**
@@ -252,7 +265,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Pin} [pinChanged]
  * @property {SavedViewpoint} [viewpointChanged]
  * @property {{by: number, position: Vec3}} [pointed]
- * @property {{viewers: Viewer[]}} [presence]
+ * @property {{viewers: Viewer[], crowded?: boolean}} [presence]
+ * @property {{changes: SceneChanged[]}} [changeHistory]
  * @property {ProbeGridResult} [probeGridResult]
  * @property {WalkMap} [walkMap]
  * @property {SceneList} [sceneList]

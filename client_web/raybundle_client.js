@@ -21,12 +21,11 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
 const SILENCE_LIMIT_MS = 20000;
 /** Before the welcome, since a server may compile its shaders first. */
 const WELCOME_LIMIT_MS = 120000;
-const PREPARING = 'The server is there and gets the scene ready';
-const PREPARING_STEPS = /** @type {Record<string, string>} */ ({
-    READING: 'step 1 of 3, reading',
-    PREPARING: 'step 2 of 3, cutting into patches',
-    COMPILING: 'step 3 of 3, compiling',
-});
+const PREPARING = 'The server is preparing the scene';
+/** Requests that change what is saved. */
+const CHANGES = [
+    'moveObject', 'setLight', 'setMaterial', 'undo', 'addPin', 'removePin', 'saveViewpoint', 'removeViewpoint',
+];
 const PING_INTERVAL_MS = 2000;
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 10000;
@@ -54,12 +53,13 @@ export function retryDelay(attempt, random) {
 /**
  * Events: `state` (detail {state, reason, code, retryAt}), `welcome`, `frame` (detail {header, image,
  * decodeMs}), `solution`, `sceneChanged`, `roundTrip` (detail milliseconds), `problem` (detail
- * ServerError, of a message that expects no answer), `message` (every text message).
+ * ServerError, of a message that expects no answer), `asked` (a change has been asked for, or answered), `message`
+ * (every text message).
  */
 export class RaybundleClient extends EventTarget {
     /** @type {WebSocket | null} */
     #socket = null;
-    /** @type {Map<number, {resolve: (m: ServerMessage) => void, reject: (e: Error) => void}>} */
+    /** @type {Map<number, {resolve: (m: ServerMessage) => void, reject: (e: Error) => void, changes: boolean}>} */
     #waiting = new Map();
     #nextId = 1;
     #attempt = 0;
@@ -148,12 +148,26 @@ export class RaybundleClient extends EventTarget {
         const id = this.#nextId++;
         const answer = new Promise((resolve, reject) => {
             if (this.send({id, ...body})) {
-                this.#waiting.set(id, {resolve, reject});
+                const changes = CHANGES.some((name) => name in body);
+                this.#waiting.set(id, {resolve, reject, changes});
+                this.#tellChanging(changes);
             } else {
                 reject(new Error('not connected'));
             }
         });
         return {id, answer};
+    }
+
+    /** Whether a change that this page has asked for waits for its answer. */
+    get changing() {
+        return [...this.#waiting.values()].some(({changes}) => changes);
+    }
+
+    /** @param {boolean} changes  whether it was about a change that something has been sent or answered */
+    #tellChanging(changes) {
+        if (changes) {
+            this.dispatchEvent(new Event('asked'));
+        }
     }
 
     async #greet() {
@@ -241,7 +255,7 @@ export class RaybundleClient extends EventTarget {
     #watch() {
         const limit = this.state === 'connected' ? SILENCE_LIMIT_MS : WELCOME_LIMIT_MS;
         if (performance.now() - this.#lastHeard > limit) {
-            this.#lost('The server has gone silent.');
+            this.#lost('The server has not answered for a while.');
         } else if (this.state === 'connected') {
             this.#ping();
         }
@@ -289,14 +303,11 @@ export class RaybundleClient extends EventTarget {
         if (message.sceneChanged) {
             this.#emit('sceneChanged', message.sceneChanged);
         }
-        const step = PREPARING_STEPS[message.sceneOpening?.stage ?? ''];
-        if (step && this.state !== 'connected') {
-            this.#become(this.state, `${PREPARING}: ${step}.`);
-        }
         const {replyTo, error} = message;
         const waiting = replyTo === undefined ? undefined : this.#waiting.get(replyTo);
         if (replyTo !== undefined) {
             this.#waiting.delete(replyTo);
+            this.#tellChanging(waiting?.changes ?? false);
         }
         if (error) {
             const failure = new ServerError(error.code, error.message);

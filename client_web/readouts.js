@@ -51,6 +51,13 @@ export class Readouts {
         this.#history.clear();
     }
 
+    /** Forgets the picture, too: there is another scene. */
+    forget() {
+        this.reset();
+        this.#header = null;
+        this.#refresh();
+    }
+
     /**
      * @param {FrameHeader} header
      * @param {number} decodeMs
@@ -127,7 +134,7 @@ export class Readouts {
             announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
         }
         const rough = stats.relativeError === null || stats.relativeError >= ROUGH;
-        const settledText = rough ? 'Settled, still rough' : 'Light has settled';
+        const settledText = rough ? 'First result, still noisy' : 'Light has settled';
         const text = done ? settledText : `Light is settling, ${progress(settled)}`;
         showValue('settledState', known ? text : 'Waiting for light');
         this.#showFormat();

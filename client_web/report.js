@@ -3,7 +3,7 @@
 // measured, and who changed what.
 
 import {pictureError} from './format.js';
-import {summaryOf, typicalError} from './grid.js';
+import {intervalsOf, summaryOf, typicalError, uniformityText} from './grid.js';
 import {changeOf} from './pins.js';
 import {estimated, inUnit, measured, plusMinus} from './units.js';
 
@@ -28,7 +28,7 @@ import {estimated, inUnit, measured, plusMinus} from './units.js';
  * @property {Pin[]} pins
  * @property {{number: number, probe: import('./protocol.js').ProbeResult}[]} points
  * @property {{object: string, columns: number, rows: number, illuminance: number[], relativeError: number[]} | null} grid
- * @property {import('./history.js').LogEntry[]} changes
+ * @property {import('./change_list.js').LogEntry[]} changes
  * @property {{pin: number, x: number, y: number}[]} pinsInPicture  shares of its width and height
  */
 
@@ -110,16 +110,16 @@ export function reportHtml(content) {
                   value(summary.minimum),
                   value(summary.mean),
                   value(summary.maximum),
-                  summary.uniformity.toFixed(2),
+                  uniformityText(summary, intervalsOf(content.grid?.illuminance ?? [], content.grid?.relativeError ?? [])),
                   escaped(plusMinus(gridError)),
               ],
           ]
         : [];
     const changes = content.changes.map((entry) => [
         String(entry.epoch),
-        escaped(entry.time.toLocaleTimeString()),
+        escaped(entry.time.toLocaleString()),
         escaped(entry.by),
-        escaped(entry.text),
+        `<div style="white-space:normal">${escaped(entry.text)}</div>`,
     ]);
     const marks = content.pinsInPicture.map(
         ({pin, x, y}) =>
@@ -129,14 +129,14 @@ export function reportHtml(content) {
 <html lang="en"><head><meta charset="utf-8"><title>${escaped(title)}: lighting review</title>
 <style>${STYLE}</style></head><body>
 <h1>${escaped(title)}</h1>
-<p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. Epoch ${epoch}, estimated error of the
+<p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. After change ${epoch}, estimated error of the
 picture ${escaped(pictureError(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
 <figure><img alt="The scene as seen during the review" src="${escaped(picture)}">${marks.join('')}</figure>
 ${content.scale ? scaleHtml(content.scale) : ''}
-${section('Pins', ['#', 'Note', 'Illuminance then', 'Epoch', 'Light', 'By'], pins)}
-${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'Epoch'], points)}
+${section('Pins', ['#', 'Note', 'Illuminance then', 'After change', 'Light', 'By'], pins)}
+${section('Measured points', ['#', 'Illuminance', 'Luminance', 'Error (95 %)', 'After change'], points)}
 ${section('Grid', ['Surface', 'Points', 'Minimum', 'Mean', 'Maximum', 'Uniformity Uo (minimum / mean)', 'Typical error (95 %)'], grid)}
-${section('Changes', ['Epoch', 'Time', 'By', 'What'], changes)}
+${section('Changes', ['Change', 'Time', 'By', 'What'], changes)}
 </body></html>
 `;
 }

@@ -3,6 +3,8 @@
 // file on the page. For editors; everybody is told when a scene is being opened.
 
 import {byId, listRow, replaceRows} from './elements.js';
+import {progressText} from './opening.js';
+import {nameOf} from './people.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -10,43 +12,26 @@ import {byId, listRow, replaceRows} from './elements.js';
  * @typedef {import('./protocol.js').SceneOpening} SceneOpening
  */
 
-/** What the stages of opening a scene are called. */
-const STAGES = /** @type {Record<string, string>} */ ({
-    READING: 'is being read',
-    PREPARING: 'is being cut into patches',
-    COMPILING: 'is being made ready',
-    READY: 'is about to be shown',
-});
-
 /**
- * One line about a scene that somebody opens.
+ * What people read first of a reason that a file is refused for, and the rest.
  *
- * @param {SceneOpening} opening
+ * @param {string} reason  e.g. "not glTF: parse error at line 1"
+ * @returns {{text: string, details: string}}
  */
-export function openingText({name, stage, reason}) {
-    return stage === 'REJECTED'
-        ? `${name} cannot be opened: ${reason}`
-        : `${name} ${STAGES[stage] ?? 'is being opened'}.`;
+export function refusalOf(reason) {
+    const plain = reason.replace(/^Rejected: /, '');
+    const known = REASONS.find(({sign}) => sign.test(plain));
+    return known ? {text: known.text, details: plain} : {text: 'This scene cannot be used.', details: plain};
 }
 
-/** The same as steps, for everybody who watches. */
-const STEPS = /** @type {Record<string, string>} */ ({
-    READING: 'step 1 of 3, reading',
-    PREPARING: 'step 2 of 3, cutting into patches',
-    COMPILING: 'step 3 of 3, the picture stands still for it',
-    READY: 'about to be shown',
-});
-
-/**
- * How far a scene is that somebody opens, for everybody; empty where it is over.
- *
- * @param {SceneOpening} opening
- * @param {boolean} mine
- */
-export function progressText({name, byName, stage}, mine) {
-    const who = mine ? 'You open' : `${byName || 'Somebody'} opens`;
-    return STEPS[stage] ? `${who} ${name}: ${STEPS[stage]}` : '';
-}
+const REASONS = [
+    {sign: /^not glTF|parse error/i, text: 'This is not a glTF file.'},
+    {sign: /cut off|^GLB |bytes are left/, text: 'This file is damaged, or not whole.'},
+    {sign: /out of memory/, text: 'This scene is too large for the server’s memory.'},
+    {sign: /cannot be read/, text: 'The server could not read this file.'},
+    {sign: /extensionsRequired|extension/, text: 'This scene needs a glTF extension that the server does not know.'},
+    {sign: /no room/, text: 'The server has no room for this scene.'},
+];
 
 /**
  * What the list of scenes says of one.
@@ -63,13 +48,42 @@ export function listTag(name, current, coming) {
     return name === current ? (coming ? 'still shown' : 'shown') : '';
 }
 
+/** So many are named, the others counted. */
+const MAX_NAMED = 4;
+
 /**
- * @param {string} name  of a scene
- * @param {number} others  who are here
+ * @param {string[]} names
+ * @returns {string} e.g. "Ann, Ben and 3 others"
  */
-export function openingQuestion(name, others) {
-    const who = others === 1 ? 'somebody else is' : `${others} others are`;
-    return `Open ${name}? It replaces the scene for everybody, and ${who} here.`;
+export function namesText(names) {
+    const rest = names.length - MAX_NAMED;
+    const said = rest > 1 ? [...names.slice(0, MAX_NAMED), `${rest} others`] : names;
+    return said.length < 2 ? said.join('') : `${said.slice(0, -1).join(', ')} and ${said[said.length - 1]}`;
+}
+
+/** @type {(count: number, one: string) => string} */
+const counted = (count, one) => `${count} ${one}${count === 1 ? '' : 's'}`;
+
+/**
+ * What somebody is asked before another scene is opened.
+ *
+ * @param {string} name  of a scene
+ * @param {{others: string[], changes: number, pins: number, forgets: boolean}} now  names of who else is here; what
+ *     has been left in the present scene, and whether the server forgets it
+ * @returns {string} empty: nobody and nothing is affected
+ */
+export function openingQuestion(name, {others, changes, pins, forgets}) {
+    const left = [changes > 0 ? counted(changes, 'change') : '', pins > 0 ? counted(pins, 'pin') : ''].filter(Boolean);
+    if (others.length === 0 && left.length === 0) {
+        return '';
+    }
+    const who = others.length > 0 ? ` It replaces the scene for ${namesText(others)}, too.` : '';
+    const what = left.join(' and ');
+    const one = changes + pins === 1;
+    const fate = forgets
+        ? ` The ${what} in the present scene will be lost.`
+        : ` The ${what} in the present scene ${one ? 'is' : 'are'} saved, and there when it is opened again.`;
+    return `Open ${name}?${who}${what ? fate : ''}`;
 }
 
 /**
@@ -89,7 +103,7 @@ export function sizeText(bytes) {
  */
 export function uploadProblem({name, size}, maxBytes) {
     if (!name.toLowerCase().endsWith('.glb')) {
-        return `${name} is no .glb file. Export the scene as binary glTF, one file that holds everything.`;
+        return `${name} is not a .glb file. Export the scene as binary glTF, one file that holds everything.`;
     }
     return size > maxBytes
         ? `${name} has ${sizeText(size)}; this server takes up to ${sizeText(maxBytes)}.`
@@ -108,23 +122,29 @@ export class SceneFiles {
     #known = null;
     /** Scene that somebody opens; empty: none. */
     #coming = '';
-    /** How many others are here. */
-    #others = 0;
+    /** Names of who else is here. @type {string[]} */
+    #others = [];
     /** Scene that the user is asked about. */
     #asked = '';
     #question = byId('scene-file-question', HTMLElement);
 
-    /** @param {RaybundleApp} app */
-    constructor(app) {
+    /**
+     * @param {RaybundleApp} app
+     * @param {() => {changes: number, pins: number, forgets: boolean}} leaves  what opening another scene leaves behind
+     */
+    constructor(app, leaves) {
         this.app = app;
+        this.leaves = leaves;
         app.on('welcome', () => this.#welcomed());
         app.on('message', (/** @type {import('./protocol.js').ServerMessage} */ {sceneOpening, presence}) => {
             if (sceneOpening?.by) {
                 this.#opening(sceneOpening);
+            } else if (sceneOpening) {
+                this.app.status.showOpening(sceneOpening, false);
             }
             if (presence) {
                 const own = app.client.welcome?.viewer;
-                this.#others = presence.viewers.filter(({viewer}) => viewer !== own).length;
+                this.#others = presence.viewers.filter(({viewer}) => viewer !== own).map(nameOf);
             }
         });
         byId('scene-file-cancel', HTMLElement).addEventListener('click', () => this.#ask(''));
@@ -168,7 +188,7 @@ export class SceneFiles {
             this.app.dispatchEvent(new Event('upload'));
             this.#upload(file);
         } else {
-            const looks = 'Your role is to look, not to add scenes.';
+            const looks = 'View only. Ask for editor access to add scenes.';
             this.app.status.notify(this.app.mayEdit ? 'This server takes no scenes.' : looks);
         }
     }
@@ -218,8 +238,8 @@ export class SceneFiles {
     #choose(name) {
         if (name === this.#known?.current) {
             this.#ask('');
-            this.#say(`${name} is shown already.`);
-        } else if (this.#others > 0) {
+            this.#say(`${name} is already open.`);
+        } else if (this.#questionOf(name)) {
             this.#ask(name);
         } else {
             this.#open(name);
@@ -236,16 +256,23 @@ export class SceneFiles {
         this.#question.hidden = name === '';
         if (name) {
             this.#say('');
-            byId('scene-file-asked', HTMLElement).textContent = openingQuestion(name, this.#others);
+            byId('scene-file-asked', HTMLElement).textContent = this.#questionOf(name);
+            const everybody = this.#others.length > 0;
+            byId('scene-file-open', HTMLElement).textContent = everybody ? 'Open for everybody' : 'Open';
             byId('scene-file-open', HTMLElement).focus();
             this.#question.scrollIntoView({block: 'nearest'});
         }
     }
 
     /** @param {string} name */
+    #questionOf(name) {
+        return openingQuestion(name, {others: this.#others, ...this.leaves()});
+    }
+
+    /** @param {string} name */
     async #open(name) {
         this.#ask('');
-        const text = `${name} is being opened.`;
+        const text = `Opening ${name}.`;
         this.#say(text);
         const opened = await this.app.ask({openScene: {name}});
         if (!opened && this.#state.textContent === text) {
@@ -255,16 +282,16 @@ export class SceneFiles {
 
     /** @param {SceneOpening} opening */
     #opening(opening) {
-        const text = openingText(opening);
         const mine = opening.by === this.app.client.welcome?.viewer;
-        this.#say(text, opening.stage === 'REJECTED');
+        const rejected = opening.stage === 'REJECTED';
+        const {text: why, details} = refusalOf(opening.reason);
+        const text = rejected ? `Could not open ${opening.name}. ${why}` : progressText(opening, mine);
+        this.#say(text, rejected, rejected ? details : '');
         this.#coming = opening.stage === 'REJECTED' ? '' : opening.name;
         this.#showList();
-        const progress = progressText(opening, mine);
-        this.app.status.showOpening(progress ? opening.name : '', progress);
-        if (!mine && opening.stage === 'REJECTED') {
-            const who = opening.byName ? `${opening.byName}: ` : '';
-            this.app.status.notify(who + text);
+        this.app.status.showOpening(rejected ? null : opening, mine);
+        if (!mine && rejected) {
+            this.app.status.notify(`${opening.byName || 'Somebody'} could not open ${opening.name}. ${why}`);
         }
     }
 
@@ -288,13 +315,16 @@ export class SceneFiles {
         request.upload.onprogress = ({loaded, total}) => {
             this.#progress.value = loaded / Math.max(total, 1);
         };
-        request.upload.onload = () => this.#say(`${name} is being checked.`);
+        request.upload.onload = () => this.#say(`Checking ${name}.`);
         request.onload = () => {
             const stored = request.status === 200 || request.status === 201;
-            this.#ended(stored ? `${name} is in the list now.` : request.responseText.trim(), !stored);
+            const said = request.responseText.trim();
+            const rejected = request.status === 422;
+            const {text, details} = rejected ? refusalOf(said) : {text: said, details: ''};
+            this.#ended(stored ? `Added ${name} to the list.` : text, !stored, details);
         };
-        request.onerror = () => this.#ended(`${name} could not be sent.`, true);
-        this.#say(`${name} is being sent.`);
+        request.onerror = () => this.#ended(`Could not send ${name}.`, true);
+        this.#say(`Sending ${name}.`);
         this.#progress.value = 0;
         this.#progress.hidden = false;
         this.#add.disabled = true;
@@ -304,20 +334,24 @@ export class SceneFiles {
     /**
      * @param {string} text
      * @param {boolean} failed
+     * @param {string} details
      */
-    #ended(text, failed) {
+    #ended(text, failed, details = '') {
         this.#progress.hidden = true;
         this.#add.disabled = false;
-        this.#say(text, failed);
+        this.#say(text, failed, details);
         this.#refresh();
     }
 
     /**
      * @param {string} text
      * @param {boolean} failed
+     * @param {string} details  behind a click; empty: none
      */
-    #say(text, failed = false) {
+    #say(text, failed = false, details = '') {
         this.#state.textContent = text;
         this.#state.classList.toggle('problem', failed);
+        byId('scene-file-details', HTMLElement).hidden = details === '';
+        byId('scene-file-reason', HTMLElement).textContent = details;
     }
 }

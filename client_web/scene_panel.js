@@ -72,7 +72,7 @@ export function placedAt(object, name, value) {
  */
 export function placeProblem(name, value) {
     if (!Number.isFinite(value)) {
-        return 'That is no number: nothing has been changed.';
+        return 'Enter a number. Nothing has been changed.';
     }
     return name === 'size' && value <= 0 ? 'A size is more than 0 %: nothing has been changed.' : '';
 }

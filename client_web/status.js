@@ -2,6 +2,7 @@
 // The state of the connection, what is being waited for, and passing notices.
 
 import {byId, returnFocus, showValue} from './elements.js';
+import {OpeningCard} from './opening.js';
 
 /**
  * @typedef {import('./raybundle_client.js').ConnectionState} ConnectionState
@@ -24,6 +25,8 @@ const ABOUT_MESSAGE =
 
 const NOTICE_MS = 8000;
 const MAX_NOTICES = 3;
+/** A lost connection and the next attempt are told without a reason, also where a server is there. */
+const MOST_EMPTY = 2;
 
 /**
  * What the banner says.
@@ -43,7 +46,7 @@ export function bannerOf({state, code}, hasPicture, opening = '') {
         return {title, retry: 'Load the page again', asksForToken};
     }
     const away = hasPicture ? 'The connection to the server is lost' : 'Waiting for the server';
-    const lost = opening ? `${opening} is about to be shown` : away;
+    const lost = opening ? `Opening ${opening}` : away;
     const titles = {
         idle: 'Disconnected',
         connecting: 'Connecting to the server',
@@ -69,14 +72,17 @@ export function adviceOf({state, code, reason}, hasPicture, opening = '') {
     if (state === 'refused' && code === 'UNAUTHENTICATED') {
         return reason.endsWith('is missing')
             ? 'Whoever runs the server can give you one.'
-            : `${why} Is it copied whole? Whoever runs the server can give you another.`;
+            : `${why} Check that you copied all of it. Whoever runs the server can give you another.`;
     }
     if (state === 'refused' && code === 'UNIMPLEMENTED') {
         return `The server has probably been updated. ${why} If loading the page again does not help, ask whoever runs the server.`;
     }
     if (state === 'reconnecting' && code === 'RESOURCE_EXHAUSTED') {
         const limit = sentence(reason.replace(/^the server is full, /, ''));
-        return `${limit} You come in by yourself as soon as somebody leaves.`;
+        return `${limit} You will be let in when there is room.`;
+    }
+    if (state === 'reconnecting' && opening) {
+        return 'The page comes back by itself when it is ready.';  // silence is no news while the server prepares
     }
     if (state === 'reconnecting' && !reason && hasPicture && !opening) {
         return 'You see the last picture meanwhile. The page comes back by itself.';
@@ -90,10 +96,10 @@ export class Status {
     #connection = byId('connection', HTMLElement);
     #notices = byId('notices', HTMLElement);
     #tokenForm = byId('token-form', HTMLFormElement);
-    #preparing = byId('preparing', HTMLElement);
-    /** Scene that somebody opens; empty: none. */
-    #opening = '';
+    #card = new OpeningCard();
     #hasPicture = false;
+    /** How often in a row nothing was there to connect to. */
+    #nobody = 0;
     /** @type {StateChange} */
     #shown = {state: 'idle', reason: '', code: '', retryAt: 0};
 
@@ -122,12 +128,16 @@ export class Status {
         this.#shown = change;
         this.#hasPicture = hasPicture;
         const {state} = change;
+        this.#nobody = state === 'reconnecting' && change.reason === '' ? this.#nobody + 1 : 0;
+        if (this.#nobody > MOST_EMPTY) {
+            this.showOpening(null, false);  // the server has ended, and the scene is not coming
+        }
         this.#connection.dataset.state = state;
         byId('app', HTMLElement).classList.toggle('offline', state !== 'connected');
         byId('connection-text', HTMLElement).textContent = STATE_TEXTS[state];
-        const {title, retry, asksForToken} = bannerOf(change, hasPicture, this.#opening);
+        const {title, retry, asksForToken} = bannerOf(change, hasPicture, this.#card.name);
         byId('banner-title', HTMLElement).textContent = title;
-        this.#banner.hidden = state === 'connected';
+        this.#showBanner();
         this.#banner.classList.toggle('aside', hasPicture);
         this.#retry.hidden = retry === '';
         this.#retry.textContent = retry || 'Try again now';
@@ -136,7 +146,7 @@ export class Status {
         if (asksAnew) {
             byId('token', HTMLInputElement).focus();
         }
-        this.#preparing.hidden = true;
+        this.#card.visible = this.#card.name !== '' && state !== 'refused';
         this.#tick();
     }
 
@@ -149,8 +159,8 @@ export class Status {
         document.title = `${title} – Raybundle`;
         byId('scene-name', HTMLElement).textContent = title;
         showValue('server', welcome.server);
-        this.showOpening('', '');
-        this.#preparing.hidden = hasPicture;
+        this.showOpening(null, false);
+        this.#card.visible = !hasPicture;
         const renderer = byId('renderer', HTMLElement);
         renderer.hidden = !welcome.softwareRendering;
         renderer.textContent =
@@ -158,22 +168,27 @@ export class Status {
             ` (${welcome.renderer ?? ''})`;
     }
 
+    /** Where the card says how far a scene is, that is all. */
+    #showBanner() {
+        const {state, code} = this.#shown;
+        this.#banner.hidden = state === 'connected' || (this.#card.name !== '' && state !== 'refused' && code === '');
+    }
+
     /** There is a picture now. */
     showPicture() {
-        this.#preparing.hidden = this.#opening === '';
+        this.#card.visible = this.#card.name !== '';
     }
 
     /**
-     * Says how far a scene is that somebody opens.
+     * Says how far a scene is that is opened, or made ready.
      *
-     * @param {string} name  empty: no scene is being opened any more
-     * @param {string} text
+     * @param {import('./protocol.js').SceneOpening | null} opening  null: none any more
+     * @param {boolean} mine
      */
-    showOpening(name, text) {
-        this.#opening = name;
-        this.#preparing.hidden = name === '';
-        this.#preparing.classList.toggle('opening', name !== '');
-        byId('preparing-text', HTMLElement).textContent = text || 'Drawing the first picture';
+    showOpening(opening, mine) {
+        this.#card.show(opening, mine);
+        this.#card.visible = opening !== null;
+        this.#showBanner();
     }
 
     /**
@@ -230,7 +245,8 @@ export class Status {
         const seconds = Math.max(0, Math.ceil((retryAt - performance.now()) / 1000));
         const next = seconds > 0 ? `Next attempt in ${seconds}\u00a0s.` : reason ? '' : 'Trying again.';
         // Apart, since screen readers say a changed text anew, and this one changes every second.
-        const advice = adviceOf(this.#shown, this.#hasPicture, this.#opening);
+        this.#card.tick();
+        const advice = adviceOf(this.#shown, this.#hasPicture, this.#card.name);
         byId('banner-reason', HTMLElement).textContent = advice;
         byId('banner-next', HTMLElement).textContent = state === 'reconnecting' ? next : '';
     }

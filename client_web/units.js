@@ -44,8 +44,9 @@ export const oneDigit = (value) => {
  */
 export const illuminance = (lux, unit) => `${threeDigits(inUnit(lux, unit))} ${unit}`;
 
-/** What somebody reads of a value that is hardly known: its 95 % interval reaches down to nothing. */
+/** What somebody reads of an error that is not known, and of a value whose 95 % interval reaches down to nothing. */
 export const NOT_YET = 'not yet known';
+export const UNCERTAIN = 'still uncertain';
 
 /** @typedef {number | null | undefined} StandardError  relative; neither known nor 0 where there is none yet */
 
@@ -62,7 +63,10 @@ const hopeless = (standardError) => estimatedAtAll(standardError) && 1.96 * stan
  * @returns {string} e.g. "± 2.3 %"
  */
 export function plusMinus(standardError) {
-    if (!estimatedAtAll(standardError) || hopeless(standardError)) {
+    if (hopeless(standardError)) {
+        return UNCERTAIN;
+    }
+    if (!estimatedAtAll(standardError)) {
         return NOT_YET;
     }
     const share = 196 * standardError;
@@ -79,8 +83,17 @@ export function noteOf(standardError) {
     if (!estimatedAtAll(standardError)) {
         return `error ${NOT_YET}`;
     }
-    return hopeless(standardError) ? NOT_YET : '';
+    return hopeless(standardError) ? UNCERTAIN : '';
 }
+
+/**
+ * The half width of the 95 % interval for a table, as the page states it.
+ *
+ * @param {StandardError} standardError
+ * @returns {string} per cent; empty: not known
+ */
+export const plusMinusCell = (standardError) =>
+    estimatedAtAll(standardError) ? (196 * standardError).toPrecision(3) : '';
 
 /**
  * A value with as many digits as it is worth.
@@ -88,10 +101,10 @@ export function noteOf(standardError) {
  * @param {number} value
  * @param {string} unit
  * @param {StandardError} standardError
- * @returns {string} e.g. "482 lx", or "about 500 lx" where it is hardly known
+ * @returns {string} e.g. "482 lx", or "≈ 500 lx" where it is hardly known
  */
 export function estimated(value, unit, standardError) {
-    const number = hopeless(standardError) ? `about ${oneDigit(value)}` : threeDigits(value);
+    const number = hopeless(standardError) ? `≈ ${oneDigit(value)}` : threeDigits(value);
     return `${number} ${unit}`.trimEnd();
 }
 
@@ -101,12 +114,12 @@ export function estimated(value, unit, standardError) {
  * @param {number} lux
  * @param {IlluminanceUnit} unit
  * @param {StandardError} standardError
- * @returns {string} e.g. "482 lx ± 2.3 %", or "not yet known (about 500 lx)"
+ * @returns {string} e.g. "482 lx ± 2.3 %", or "≈ 500 lx, still uncertain"
  */
 export function measured(lux, unit, standardError) {
     const value = estimated(inUnit(lux, unit), unit, standardError);
     if (hopeless(standardError)) {
-        return `${NOT_YET} (${value})`;
+        return `${value}, ${UNCERTAIN}`;
     }
     return estimatedAtAll(standardError)
         ? `${value} ${plusMinus(standardError)}`

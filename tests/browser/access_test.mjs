@@ -350,14 +350,14 @@ describe('a file that is dropped', () => {
         await page.click('#tab-review');
         assert.deepEqual(await drop(page, 'room.obj'), {shown: true, stays: true});
         await page.waitForSelector('#scene-file-state', {state: 'visible'});
-        assert.match(await page.textContent('#scene-file-state'), /room\.obj is no \.glb file/);
+        assert.match(await page.textContent('#scene-file-state'), /room\.obj is not a \.glb file/);
         assert.ok(await page.isHidden('#drop-target'));
     });
 
     it('does not make the browser leave the page of who may only look', async () => {
         const {page} = await openPage(obeys({role: 'VIEWER'}));
         assert.deepEqual(await drop(page, 'room.glb'), {shown: false, stays: true});
-        assert.match(await page.textContent('#notices'), /Your role is to look/);
+        assert.match(await page.textContent('#notices'), /View only\. Ask for editor access/);
     });
 });
 

@@ -35,14 +35,19 @@ export class Daemon {
      * @param {string} scene  file, relative to the root of the repository
      * @param {number} port  0: any free one
      * @param {string[]} more  options
+     * @param {string} state  folder in which the server keeps its journals; empty: it keeps none
      * @returns {Promise<Daemon>} once it listens
      */
-    static async start(scene, port = 0, more = []) {
+    static async start(scene, port = 0, more = [], state = '') {
         if (!existsSync(EXECUTABLE)) {
             throw new Error(`${EXECUTABLE} is missing: build first, or name it in RAYBUNDLE`);
         }
         const options = ['serve', path.join(ROOT, scene), '--listen', `127.0.0.1:${port}`, ...more];
-        const child = spawn(EXECUTABLE, options, {stdio: ['ignore', 'pipe', 'pipe']});
+        if (!state && !more.includes('--journal')) {
+            options.push('--journal', 'none');
+        }
+        const env = state ? {...process.env, XDG_STATE_HOME: state} : process.env;
+        const child = spawn(EXECUTABLE, options, {env, stdio: ['ignore', 'pipe', 'pipe']});
         return new Daemon(child, await listeningPort(child));
     }
 

@@ -83,7 +83,7 @@ describe('a number field', () => {
     it('of a light goes back to what is true, and says why', async () => {
         const {page, sent, faults} = await openPage();
         await page.click('#tab-light');
-        for (const [text, why] of [['-5', 'less than 0.*stays at 1000 lm'], ['', 'no number'], ['1e12', 'at most 1e9.*stays at 1000 lm']]) {
+        for (const [text, why] of [['-5', 'Enter 0 or more.*stays at 1000 lm'], ['', 'Enter a number'], ['1e12', 'at most 1e9.*stays at 1000 lm']]) {
             await type(page, LIGHT, text);
             await noteIs(page, '#lights .field-note', why);
             assert.equal(await page.inputValue(LIGHT), '1000', text);
@@ -101,7 +101,7 @@ describe('a number field', () => {
         await page.click('#objects li:first-child button');
         const x = '[data-place="x"]';
         await type(page, x, '');
-        await noteIs(page, '#place-note', 'no number');
+        await noteIs(page, '#place-note', 'Enter a number');
         assert.equal(await page.inputValue(x), '1.50');
         await type(page, x, '1e12');
         await page.waitForSelector('.notice.problem');
@@ -111,7 +111,7 @@ describe('a number field', () => {
         await page.click('#place-note button');
         await page.waitForFunction(() => document.querySelector('[data-place="x"]').value === '1.50');
         assert.ok(await page.isHidden('#place-note'));
-        assert.equal(await page.textContent('[data-value="lastChange"]'), 'You: put back table');
+        assert.equal(await page.textContent('[data-value="lastChange"]'), 'You put back table');
     });
 
     it('shows what others do while it has the focus, but not over what is being typed', async () => {
@@ -142,23 +142,23 @@ describe('the list of scenes', () => {
     it('does nothing at the scene that is shown, and asks before it takes another from others', async () => {
         const {page, sent} = await openPage(obeys({people: 3}));
         await page.click('#scene-file-list button[title="a.glb"]');
-        assert.equal(await page.textContent('#scene-file-state'), 'a.glb is shown already.');
+        assert.equal(await page.textContent('#scene-file-state'), 'a.glb is already open.');
         await page.click('#scene-file-list button[title="b.glb"]');
-        assert.match(await page.textContent('#scene-file-asked'), /^Open b\.glb\?.*2 others are here/);
+        assert.match(await page.textContent('#scene-file-asked'), /^Open b\.glb\? It replaces the scene for Viewer 2 and Viewer 3, too\.$/);
         await keepScreenshot(page, 'scene_question');
         await page.click('#scene-file-cancel');
         assert.ok(await page.isHidden('#scene-file-question'));
         assert.deepEqual(opened(sent), []);
         await page.click('#scene-file-list button[title="b.glb"]');
         await page.click('#scene-file-open');
-        await page.waitForFunction(() => document.getElementById('scene-file-state').textContent === 'b.glb is being opened.');
+        await page.waitForFunction(() => document.getElementById('scene-file-state').textContent === 'Opening b.glb.');
         assert.deepEqual(opened(sent), ['b.glb']);
     });
 
     it('opens at once for who is alone', async () => {
         const {page, sent} = await openPage();
         await page.click('#scene-file-list button[title="b.glb"]');
-        await page.waitForFunction(() => document.getElementById('scene-file-state').textContent === 'b.glb is being opened.');
+        await page.waitForFunction(() => document.getElementById('scene-file-state').textContent === 'Opening b.glb.');
         assert.deepEqual(opened(sent), ['b.glb']);
     });
 });

@@ -2,26 +2,16 @@
 // Adding scenes to the server and opening them, as editors do in the page, while another looks on.
 
 import assert from 'node:assert/strict';
-import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
+import {mkdtemp, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import path from 'node:path';
 import {after, before, describe, it} from 'node:test';
 
 import {frameWith, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
-import {Daemon, ROOT} from './daemon.mjs';
+import {Daemon} from './daemon.mjs';
+import {toGlb} from './glb.mjs';
 
 const SCENE = 'scenes/cornell_box.gltf';
-
-/** A binary glTF file of a scene that needs no other files. */
-async function toGlb(scene) {
-    const json = Buffer.from(await readFile(path.join(ROOT, scene)));
-    const padded = Buffer.concat([json, Buffer.alloc(-json.length & 3, ' ')]);
-    const head = Buffer.alloc(20);
-    head.write('glTF');
-    [2, 20 + padded.length, padded.length].forEach((word, i) => head.writeUInt32LE(word, 4 + 4 * i));
-    head.write('JSON', 16);
-    return Buffer.concat([head, padded]);
-}
 
 describe('the list of scenes', () => {
     let folder, daemon, browser, ann, ben;
@@ -56,11 +46,13 @@ describe('the list of scenes', () => {
         await ann.page.setInputFiles('#scene-file', file('Atelier Süd.glb', await toGlb(SCENE)));
         await listed('Atelier Süd.glb');
         await ann.page.setInputFiles('#scene-file', file('no.glb', Buffer.from('glTF, it says')));
-        await stateIs('Rejected: ');
+        await stateIs('This file is damaged, or not whole.');
+        await ann.page.click('#scene-file-details summary');
+        assert.notEqual(await ann.page.textContent('#scene-file-reason'), '');
         await ann.page.setInputFiles('#scene-file', file('big.glb', Buffer.alloc(1_000_001)));
         await stateIs('this server takes up to 1.0 MB');
         await ann.page.setInputFiles('#scene-file', file('scene.obj', Buffer.from('o box')));
-        await stateIs('is no .glb file');
+        await stateIs('is not a .glb file');
     });
 
     it('takes a file that is dropped on the page', async () => {
@@ -80,8 +72,8 @@ describe('the list of scenes', () => {
     it('says why a scene cannot be opened, and keeps the one that is shown', async () => {
         await ann.page.click('#scene-file-list button[title="broken.gltf"]');
         await ann.page.click('#scene-file-open');
-        await stateIs('broken.gltf cannot be opened: scenes');
-        await ben.page.waitForSelector('.notice:has-text("Ann: broken.gltf cannot be opened")');
+        await stateIs('Could not open broken.gltf. This scene cannot be used.');
+        await ben.page.waitForSelector('.notice:has-text("Ann could not open broken.gltf")');
         assert.equal(await ann.page.textContent('#connection-text'), 'Connected');
         assert.notEqual(await ann.page.textContent('#scene-name'), 'broken');
     });
@@ -110,7 +102,7 @@ describe('the list of scenes', () => {
         }
         await ann.page.waitForSelector('#scene-file-list button[title="Atelier Süd.glb"][aria-pressed="true"]');
         const seen = await ben.page.evaluate(() => window.seen);
-        for (const part of ['Ann opens Atelier Süd.glb: step 1 of 3', 'step 2 of 3', 'step 3 of 3']) {
+        for (const part of ['Ann opens Atelier Süd.glb (1 of 3', '(2 of 3', '(3 of 3']) {
             assert.ok(seen.some((text) => text.includes(part)), `${part}: ${seen.join(' | ')}`);
         }
         assert.ok(!seen.some((text) => text.includes('is lost')), seen.join(' | '));

@@ -50,7 +50,7 @@ describe('the page without its server', () => {
             const [title, text] = ['banner-title', 'banner-text'].map(
                 (id) => document.getElementById(id).textContent,
             );
-            return title === 'The server is full' && /come in by yourself .*(Next attempt|Trying)/.test(text);
+            return title === 'The server is full' && /You will be let in when there is room\. (Next attempt|Trying)/.test(text);
         });
         await page.waitForFunction(() => window.raybundle.client.state === 'connected');
     });
@@ -79,7 +79,7 @@ describe('the page without its server', () => {
         await page.waitForFunction(() => window.raybundle.client.state === 'connected');
         const after = await page.evaluate(() => [window.raybundle.view.eye.x, window.raybundle.selected?.name]);
         assert.deepEqual(after, [x, 'table']);
-        assert.match(await page.textContent('#notices'), /started anew: changes of the scene may be gone/);
+        assert.match(await page.textContent('#notices'), /The server restarted\. Unsaved changes and pins were lost\./);
     });
 
     it('says that the versions differ', async () => {
@@ -94,7 +94,7 @@ describe('the page without its server', () => {
     it('says that the server gets ready, where that takes its time', async () => {
         const {page} = await openPage(() => {});
         await page.waitForFunction(
-            () => document.getElementById('banner-text').textContent.includes('gets the scene ready'),
+            () => document.getElementById('banner-text').textContent.includes('is preparing the scene'),
         );
         assert.equal(await page.textContent('#banner-title'), 'Connecting to the server');
     });
@@ -107,9 +107,9 @@ describe('the page without its server', () => {
             }
         });
         await page.waitForFunction(() =>
-            document.getElementById('banner-text').textContent.includes('step 3 of 3, compiling'),
+            document.getElementById('preparing-text').textContent === 'The server is preparing a.glb (3 of 3: preparing light. The picture pauses).',
         );
-        assert.ok(await page.isHidden('#preparing'), 'nobody opens another scene');
+        await page.waitForSelector('#banner', {state: 'hidden'});
     });
 
     it('says that it waits for the first picture, and what draws it', async () => {

@@ -22,7 +22,8 @@ import {avatarTexts, frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
 import * as placement from '../../client_web/placement.js';
 import {escaped, reportHtml} from '../../client_web/report.js';
-import {listTag, openingQuestion, openingText, progressText, sizeText, uploadProblem} from '../../client_web/scene_files.js';
+import {progressText, timeText} from '../../client_web/opening.js';
+import {listTag, namesText, openingQuestion, refusalOf, sizeText, uploadProblem} from '../../client_web/scene_files.js';
 import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene_model.js';
 import {isOutside, placeOf, placeProblem, placedAt} from '../../client_web/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/share.js';
@@ -40,15 +41,18 @@ const close = (actual, expected, bound, what) =>
 describe('files of scenes', () => {
     it('are refused before they are sent where the server would not take them', () => {
         assert.equal(uploadProblem({name: 'a.GLB', size: 10}, 10), '');
-        assert.match(uploadProblem({name: 'a.obj', size: 10}, 10), /no \.glb file/);
+        assert.match(uploadProblem({name: 'a.obj', size: 10}, 10), /not a \.glb file/);
         assert.match(uploadProblem({name: 'a.glb', size: 2e6}, 1e6), /2\.0 MB.*1\.0 MB/);
         assert.equal(sizeText(1), '1 kB');
     });
 
-    it('are followed on their way, with the reason where they are rejected', () => {
-        const opening = {name: 'a.glb', by: 1, byName: '', reason: 'no'};
-        assert.equal(openingText({...opening, stage: 'READING'}), 'a.glb is being read.');
-        assert.equal(openingText({...opening, stage: 'REJECTED'}), 'a.glb cannot be opened: no');
+    it('are rejected in words for people, with the parser’s own behind them', () => {
+        const {text, details} = refusalOf('Rejected: not glTF: parse error at line 1');
+        assert.equal(text, 'This is not a glTF file.');
+        assert.equal(details, 'not glTF: parse error at line 1');
+        assert.deepEqual(refusalOf('scenes: must be a list'), {
+            text: 'This scene cannot be used.', details: 'scenes: must be a list',
+        });
     });
 });
 
@@ -56,30 +60,44 @@ describe('a scene that somebody opens', () => {
     const opening = {name: 'a.glb', by: 2, byName: 'Ann', stage: 'PREPARING', reason: ''};
 
     it('tells everybody how far it is, and nothing once it is over', () => {
-        assert.equal(progressText(opening, false), 'Ann opens a.glb: step 2 of 3, cutting into patches');
-        assert.match(progressText({...opening, stage: 'READING'}, true), /^You open a.glb: step 1 of 3/);
-        assert.match(progressText({...opening, byName: ''}, false), /^Somebody opens/);
+        assert.equal(progressText(opening, false), 'Ann opens a.glb (2 of 3: preparing surfaces).');
+        assert.match(progressText({...opening, stage: 'READING'}, true), /^Opening a.glb \(1 of 3/);
+        assert.match(progressText({...opening, byName: ''}, false), /^The server is preparing a.glb/);
         assert.equal(progressText({...opening, stage: 'REJECTED'}, false), '');
     });
 
+    it('says how long it has taken and will take', () => {
+        assert.equal(timeText(0.2, null), '');
+        assert.equal(timeText(12, null), '12 s so far');
+        assert.equal(timeText(12, 20), '12 s so far, about 20 s left');
+        assert.equal(timeText(12, -3), '12 s so far, longer than foreseen');
+    });
+
     it('is said to be shown only once it is, in the list too', () => {
-        for (const stage of ['COMPILING', 'READY']) {
-            assert.doesNotMatch(openingText({...opening, stage}), /is shown/);
-        }
         assert.equal(listTag('b.glb', 'b.glb', ''), 'shown');
         assert.equal(listTag('b.glb', 'b.glb', 'a.glb'), 'still shown');
         assert.equal(listTag('a.glb', 'b.glb', 'a.glb'), 'being opened');
         assert.equal(listTag('c.glb', 'b.glb', 'a.glb'), '');
     });
 
-    it('is asked about where others are here', () => {
-        assert.match(openingQuestion('a.glb', 1), /^Open a\.glb\?.* somebody else is here\.$/);
-        assert.match(openingQuestion('a.glb', 3), /3 others are here\.$/);
+    it('is asked about where it replaces what others see, or leaves changes behind', () => {
+        const now = {others: [], changes: 0, pins: 0, forgets: false};
+        assert.equal(openingQuestion('a.glb', now), '');
+        assert.equal(
+            openingQuestion('a.glb', {...now, others: ['Ann', 'Ben']}),
+            'Open a.glb? It replaces the scene for Ann and Ben, too.',
+        );
+        assert.match(openingQuestion('a.glb', {...now, changes: 3, pins: 1}), /The 3 changes and 1 pin .* are saved/);
+        assert.match(openingQuestion('a.glb', {...now, pins: 1, forgets: true}), /The 1 pin .* will be lost\.$/);
+        assert.equal(namesText(['A', 'B', 'C', 'D', 'E', 'F']), 'A, B, C, D and 2 others');
+        assert.equal(namesText(['A', 'B', 'C', 'D', 'E']), 'A, B, C, D and E');
     });
 
     it('is no lost connection', () => {
         const away = {state: 'reconnecting', reason: '', code: '', retryAt: 0};
-        assert.equal(bannerOf(away, true, 'a.glb').title, 'a.glb is about to be shown');
+        assert.equal(bannerOf(away, true, 'a.glb').title, 'Opening a.glb');
+        const silent = {...away, reason: 'The server has not answered for a while.'};
+        assert.doesNotMatch(adviceOf(silent, true, 'a.glb'), /not answered/);
         assert.equal(bannerOf(away, true, 'a.glb').retry, '', 'nothing is gained by trying again');
         assert.match(bannerOf(away, true).title, /lost/);
     });
@@ -213,9 +231,9 @@ describe('a measuring grid', () => {
         const grid = {origin: vec3(0, 0, 0), stepX: vec3(1, 0, 0), stepY: vec3(0, 0, 2), columns: 4, rows: 1};
         const result = {illuminance: [123.4567, -1, 5, 5], relativeError: [0.02, -1, 0.7, -1], epoch: 7};
         const lines = gridCsv(grid, result).trim().split('\r\n');
-        assert.equal(lines[1], '1,1,0.0000,0.0000,0.0000,123.457,0.0200,7,');
+        assert.equal(lines[1], '1,1,0.0000,0.0000,0.0000,123.457,3.92,7,');
         assert.equal(lines[2], '1,2,1.0000,0.0000,0.0000,,,7,not in view');
-        assert.match(lines[3], /,5\.00000,0\.700,7,not yet known$/);
+        assert.match(lines[3], /,5\.00000,137,7,still uncertain$/);
         assert.match(lines[4], /,5\.00000,,7,error not yet known$/);
         assert.equal(csvCell('=1+1'), "'=1+1");
         assert.equal(csvCell('a "b", c'), '"a ""b"", c"');
@@ -254,7 +272,7 @@ describe('the surface that a grid is laid on', () => {
         };
         const size = 'desk, upper side: 2 × 1 points, 0.20 m apart.';
         assert.equal(state([100, -1], 0.02), `${size} 1 of 2 are in view. Typical error ± 3.9 %.`);
-        assert.match(state([100, 90], 0.6), /Most values are not yet known\. Better values come by themselves\.$/);
+        assert.match(state([100, 90], 0.6), /Most values are still uncertain: Uo is not yet known\. Better values come by themselves\.$/);
         assert.match(state([100, 90], 0.02, false), /still settling\. Better values come by themselves\.$/);
         assert.match(state([-1, -1], -1), /None of them is in view: turn/);
         assert.match(state([100, 90], 0.02, true, true), /changed since: new values come/);
@@ -398,13 +416,13 @@ describe('colours and units', () => {
 
     it('say plainly what is not yet known', () => {
         assert.equal(units.plusMinus(undefined), 'not yet known');
-        assert.equal(units.plusMinus(0.6), 'not yet known');
+        assert.equal(units.plusMinus(0.6), 'still uncertain');
         assert.equal(units.measured(482.1, 'lx', 0.012), '482 lx ± 2.4 %');
-        assert.equal(units.measured(482.1, 'lx', 0.6), 'not yet known (about 500 lx)');
+        assert.equal(units.measured(482.1, 'lx', 0.6), '≈ 500 lx, still uncertain');
         assert.equal(units.measured(107.639, 'fc', undefined), '10.0 fc, error not yet known');
-        assert.equal(units.estimated(38.2, '', 0.6), 'about 40');
+        assert.equal(units.estimated(38.2, '', 0.6), '≈ 40');
         assert.equal(units.estimated(38.2, '', 0.1), '38.2');
-        assert.deepEqual([0.1, 0.6, -1].map(units.noteOf), ['', 'not yet known', 'error not yet known']);
+        assert.deepEqual([0.1, 0.6, -1].map(units.noteOf), ['', 'still uncertain', 'error not yet known']);
     });
 });
 
@@ -528,10 +546,10 @@ describe('a change of an object', () => {
 describe('what is typed into a field of numbers', () => {
     it('is refused with a reason', () => {
         assert.equal(intensityProblem(0), '');
-        assert.match(intensityProblem(-5), /less than 0/);
-        assert.match(intensityProblem(NaN), /no number/);
+        assert.match(intensityProblem(-5), /Enter 0 or more/);
+        assert.match(intensityProblem(NaN), /Enter a number/);
         assert.equal(placeProblem('x', -99), '');
-        assert.match(placeProblem('x', NaN), /no number/);
+        assert.match(placeProblem('x', NaN), /Enter a number/);
         assert.match(placeProblem('size', 0), /more than 0/);
     });
 
@@ -647,7 +665,7 @@ describe('the report', () => {
         assert.ok(html.includes('&lt;script&gt;'));
         assert.ok(html.includes('+50 % since') && html.includes('moved chair'));
         assert.ok(html.includes('left:50.00%;top:25.00%'));
-        assert.ok(html.includes('100 lx, error not yet known') && html.includes('>not yet known</td></tr>'));
+        assert.ok(html.includes('100 lx, error not yet known') && html.includes('>still uncertain</td></tr>'));
         assert.ok(!/(src|href)="https?:(?!\/\/a\/)/.test(html), 'needs nothing else');
         assert.ok(!html.includes('linear-gradient'), 'a photograph has no scale');
         assert.equal(escaped(`<a href="x">&'`), '&lt;a href=&quot;x&quot;&gt;&amp;&#39;');
@@ -733,13 +751,13 @@ describe('what the page says', () => {
             adviceOf({state, code, reason, retryAt: 0}, hasPicture, opening);
         const token = (reason) => advice('refused', 'UNAUTHENTICATED', `hello.token: ${reason}`);
         assert.equal(token('is missing'), 'Whoever runs the server can give you one.');
-        assert.match(token('is not valid'), /^Token is not valid\. Is it copied whole\?/);
+        assert.match(token('is not valid'), /^Token is not valid\. Check that you copied all of it\./);
         const full = advice('reconnecting', 'RESOURCE_EXHAUSTED', 'the server is full, it takes 16 viewers');
-        assert.equal(full, 'It takes 16 viewers. You come in by yourself as soon as somebody leaves.');
+        assert.equal(full, 'It takes 16 viewers. You will be let in when there is room.');
         assert.match(advice('refused', 'UNIMPLEMENTED', 'hello.protocol: client speaks 1.0, server speaks 2.0'),
             /updated\. Client speaks 1\.0, server speaks 2\.0\. If loading/);
         assert.match(advice('reconnecting', '', '', true), /last picture.*by itself/);
-        assert.equal(advice('reconnecting', '', '', true, 'a.glb'), '');
+        assert.match(advice('reconnecting', '', '', true, 'a.glb'), /comes back by itself/);
         assert.equal(advice('reconnecting', '', 'The server has gone silent.'), 'The server has gone silent.');
     });
 
