@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has been changed in the scene, by whom, when, from what to what: everybody's, also before this page came.
 
+import {nameOf} from './arrivals.js';
 import {toHex, temperatureOf} from './colour.js';
 import {byId, replaceRows, showValue} from './elements.js';
 import {metres} from './format.js';
 import {subjectOf} from './history.js';
-import {nameOf} from './people.js';
 import {deedOf} from './placement.js';
 import {threeDigits} from './units.js';
 import {completeTransform, length, matrixVector, sub} from './vector.js';

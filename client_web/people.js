@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who else is here: names and colours, where they look, following them, and showing them a place.
 
+import {Arrivals, nameOf} from './arrivals.js';
 import {axes, framedFov} from './camera.js';
 import {byId, listRow, replaceRows, smallButton} from './elements.js';
 import {add, length, scale, sub} from './vector.js';
@@ -37,9 +38,6 @@ const TOO_NEAR = 0.3;
 
 /** @type {(viewer: number) => string} */
 export const colourOf = (viewer) => PEOPLE_COLOURS[viewer % PEOPLE_COLOURS.length];
-
-/** @type {(viewer: {viewer: number, name: string}) => string} */
-export const nameOf = ({viewer, name}) => name.trim() || `Viewer ${viewer}`;
 
 /** @type {(name: string) => string} */
 const initials = (name) => {
@@ -82,44 +80,6 @@ export function frustumOf({eye, target, up, verticalFov, aspect}) {
         add(middle, add(scale(right, x * height * aspect), scale(upwards, y * height))),
     );
     return {eye, corners};
-}
-
-/** Who comes back within so long has not been away for people, ms: another scene, a page that is loaded again. */
-const ABSENCE_MS = 60000;
-
-/** Who comes, without those who only come back or have been told of. */
-export class Arrivals {
-    /** When each was here last, by name. @type {Map<string, number>} */
-    #seen = new Map();
-    #first = true;
-    #began = -Infinity;
-
-    /**
-     * This page has come in again: people without a name have new numbers.
-     *
-     * @param {number} now  ms
-     */
-    begin(now) {
-        this.#began = now;
-    }
-
-    /**
-     * @param {{viewer: number, name: string}[]} others  who are here, in the newest message
-     * @param {number} now  ms
-     * @returns {string[]} names of those who have come
-     */
-    note(others, now) {
-        const settling = now - this.#began < ABSENCE_MS;
-        const came = others
-            .filter(({name}) => name.trim() || !settling)
-            .map(nameOf)
-            .filter((name, i, names) => names.indexOf(name) === i)
-            .filter((name) => now - (this.#seen.get(name) ?? -Infinity) > ABSENCE_MS);
-        others.forEach((other) => this.#seen.set(nameOf(other), now));
-        const told = this.#first ? [] : came;
-        this.#first = false;
-        return told;
-    }
 }
 
 export class People {

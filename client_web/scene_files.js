@@ -2,9 +2,9 @@
 // Scenes that the server can open for everybody: a list, and uploads by button or by dropping a
 // file on the page. For editors; everybody is told when a scene is being opened.
 
+import {nameOf} from './arrivals.js';
 import {byId, listRow, replaceRows} from './elements.js';
 import {progressText} from './opening.js';
-import {nameOf} from './people.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp

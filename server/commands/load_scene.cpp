@@ -29,7 +29,7 @@ Daylight daylight_of(const Options& options) {
     daylight.environment_scale = options.environment_scale;
     if (!options.environment.empty()) {
         if (!options.sky.text.empty()) {
-            throw UsageError("--environment: goes not together with --sky");
+            throw UsageError("--environment: cannot be combined with --sky");
         }
         daylight.environment = options.environment;
         daylight.environment_bytes =

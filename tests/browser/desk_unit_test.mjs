@@ -2,17 +2,20 @@
 // What the page says of changes, people and numbers, without a browser.
 
 import assert from 'node:assert/strict';
+import {readFileSync, readdirSync} from 'node:fs';
+import path from 'node:path';
 import {describe, it} from 'node:test';
 
+import {Arrivals} from '../../client_web/arrivals.js';
 import {describeChange} from '../../client_web/change_list.js';
 import {onScale, scaleColour, turboColour, valueOnScale} from '../../client_web/colour.js';
 import {linearTicks} from '../../client_web/display_panel.js';
 import {gridCsv, intervalsOf, summaryOf, uniformityText} from '../../client_web/grid.js';
 import {chosenLabels, crossingsOf, placeOf} from '../../client_web/isolines.js';
-import {Arrivals} from '../../client_web/people.js';
 import {SceneModel} from '../../client_web/scene_model.js';
 import {measured, plusMinus, plusMinusCell} from '../../client_web/units.js';
 import {vec3} from '../../client_web/vector.js';
+import {ROOT} from './daemon.mjs';
 
 const WHITE = vec3(1, 1, 1);
 const BOUNDS = {min: vec3(0, 0, 0), max: vec3(1, 1, 1)};
@@ -133,5 +136,13 @@ describe('numbers at isolines', () => {
         const chosen = chosenLabels(row, {x: 300, y: 50});
         assert.ok(chosen.length >= 2 && chosen.length <= 3);
         assert.equal(chosen[0].x, 300);
+    });
+});
+
+describe('the executable', () => {
+    it('has every file of the page', () => {
+        const listed = readFileSync(path.join(ROOT, 'server/net/CMakeLists.txt'), 'utf8').split(/[\s()]+/);
+        const files = readdirSync(path.join(ROOT, 'client_web')).filter((file) => /\.(js|css|html)$/.test(file));
+        assert.deepEqual(files.filter((file) => !listed.includes(file)), []);
     });
 });

@@ -186,7 +186,7 @@ def main():
         server = subprocess.Popen(
             [raybundle, "serve", root + "/scenes/cornell_box.gltf", "--listen",
              f"127.0.0.1:{backend}", "--config", folder / "site.json", "--scenes",
-             folder / "scenes", "--log-level", "warn"])
+             folder / "scenes", "--log-level", "warn", "--journal", "none"])
         command = {"nginx": nginx, "haproxy": haproxy}[kind](example, folder, port, backend)
         proxy = None
         try:
