@@ -219,9 +219,10 @@ function describeLight(light, to, from) {
     if (!near(before, after)) {
         const whole = light?.loadedIntensity;
         const [one, unit] = whole ? [whole / 100, '%'] : [1, UNITS[light?.unit ?? ''] ?? ''];
-        const value = (/** @type {number} */ intensity) => threeDigits(intensity / one);
+        const value = (/** @type {number} */ intensity) =>
+            whole ? String(Number((intensity / one).toPrecision(3))) : threeDigits(intensity / one);
         const verb = after < before ? 'dimmed' : 'brightened';
-        parts.push(`${verb} ${name}: ${value(before)} → ${value(after)} ${unit}`.trimEnd());
+        parts.push(`${verb} ${name}: ${value(before)} → ${value(after)}\u00a0${unit}`.trimEnd());
     }
     if (to.colour && from.colour && !sameColour(to.colour, from.colour)) {
         parts.push(`changed the colour of ${name}: ${temperatureOf(from.colour)} → ${temperatureOf(to.colour)} K`);

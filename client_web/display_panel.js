@@ -250,7 +250,7 @@ export class DisplayPanel {
             context.fillRect(0, row, 1, 1);
         }
         this.#marks = (linear ? linearTicks : scaleTicks)(top).map((value) => ({
-            text: oneDigit(value),
+            text: String(Number(value.toPrecision(3))),
             at: onScale(value, top, linear),
         }));
         const ticks = this.#marks.map(({text, at}) => {

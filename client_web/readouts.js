@@ -129,11 +129,11 @@ export class Readouts {
         this.#bar.classList.toggle('done', settled >= SETTLED);
         const done = settled >= SETTLED;
         const before = this.#state.dataset.settled;
-        this.#state.dataset.settled = known && done ? 'yes' : 'no';
+        const rough = stats.relativeError === null || stats.relativeError >= ROUGH;
+        this.#state.dataset.settled = known && done ? (rough ? 'rough' : 'yes') : 'no';
         if (known && done && before === 'no') {
             announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
         }
-        const rough = stats.relativeError === null || stats.relativeError >= ROUGH;
         const settledText = rough ? 'First result, still noisy' : 'Light has settled';
         const text = done ? settledText : `Light is settling, ${progress(settled)}`;
         showValue('settledState', known ? text : 'Waiting for light');

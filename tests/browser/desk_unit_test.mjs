@@ -39,7 +39,7 @@ describe('a change in the history', () => {
     it('has what was before and what is now', () => {
         const light = {light: 1, on: true, colour: WHITE};
         const dimmed = {lightBefore: {...light, intensity: 1000}, setLight: {light: 1, intensity: 500}};
-        assert.equal(says(dimmed), 'dimmed LED panel: 100 → 50.0 %');
+        assert.equal(says(dimmed), 'dimmed LED panel: 100 → 50\u00a0%');
         const off = {lightBefore: {...light, intensity: 1000}, setLight: {light: 1, on: false}};
         assert.equal(says(off), 'switched off LED panel');
         const moved = {objectBefore: {object: 1, transform: {}}, moveObject: {object: 1, transform: {translation: vec3(0.5, 0, 0)}}};
