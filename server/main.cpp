@@ -96,8 +96,11 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
+/// Runs before the constructors of libraries, which take longer than all that main() does first.
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const hold_hangup_first)() = raybundle::hold_hangup;
+
 int main(int argc, char** argv) {
-    raybundle::hold_hangup();
     try {
         return parse_and_run(argc, argv);
     } catch (const std::exception& error) {

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/signal_watch.h"
 
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 #include <utility>
 
 namespace raybundle {
 
-namespace {
-
-void mask_hangup(int how) {
-    sigset_t hangup{};
-    sigemptyset(&hangup);
-    sigaddset(&hangup, SIGHUP);
-    pthread_sigmask(how, &hangup, nullptr);
-}
-
-}  // namespace
-
 void hold_hangup() {
-    mask_hangup(SIG_BLOCK);
+    constexpr std::uint64_t kHangup = std::uint64_t{1} << (SIGHUP - 1U);
+    syscall(SYS_rt_sigprocmask, SIG_BLOCK, &kHangup, nullptr, sizeof kHangup);
 }
 
 void release_hangup() {
-    mask_hangup(SIG_UNBLOCK);
+    sigset_t hangup{};
+    sigemptyset(&hangup);
+    sigaddset(&hangup, SIGHUP);
+    pthread_sigmask(SIG_UNBLOCK, &hangup, nullptr);
 }
 
 SignalWatch::SignalWatch(std::function<void()> stop, std::function<void()> reload)

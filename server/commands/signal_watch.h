@@ -8,7 +8,8 @@
 namespace raybundle {
 
 /// Keeps SIGHUP waiting, for a SignalWatch or release_hangup(): until somebody can answer it, it
-/// would end the program. For the first line of main().
+/// would end the program. For .preinit_array: it calls the kernel alone, since no library has been
+/// made ready by then.
 void hold_hangup();
 /// SIGHUP ends the program, as usual.
 void release_hangup();

@@ -78,5 +78,19 @@ TEST(FirstLineTest, AHangupWhileTheConfigurationIsReadEndsNothing) {
     EXPECT_TRUE(viewer.join().contains("welcome"));
 }
 
+TEST(FirstLineTest, AHangupBeforeMainIsAnsweredOnceThereIsAServer) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer wants to be the first library";
+#endif
+    // NOLINTBEGIN(concurrency-mt-unsafe)
+    setenv("LD_PRELOAD", RAYBUNDLE_HANGUP_LIBRARY, 1);
+    Daemon daemon(Daemon::Unready{}, scene_file("cornell_box.gltf"), {});
+    unsetenv("LD_PRELOAD");
+    // NOLINTEND(concurrency-mt-unsafe)
+    ASSERT_NO_THROW(daemon.wait_for_address());
+    EXPECT_TRUE(daemon.says("settings have been read again"));
+    EXPECT_EQ(daemon.end(), 0);
+}
+
 }  // namespace
 }  // namespace raybundle
