@@ -72,8 +72,11 @@ struct Floor {
         return mean_irradiance(b, solver.store().read_irradiance());
     }
 
-    SceneBuilder b = open_floor();
-    Solver solver{b.scene, b.mesh};
+    Floor() : b(open_floor()), solver(b.scene, b.mesh, settings) {}
+
+    SceneBuilder b;
+    SolverSettings settings;
+    Solver solver;
 };
 
 /// What lamp and sun bring is exact from the first iteration on; what the sky brings is found by
