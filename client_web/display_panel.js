@@ -5,7 +5,7 @@ import {SCALE_DECADES, onScale, turbo} from './colour.js';
 import {byId, fileName, returnFocus, saveFile} from './elements.js';
 import {FrameThrottle} from './frame_throttle.js';
 import {withLegend} from './legend.js';
-import {LUX_PER_FOOTCANDLE, oneDigit} from './units.js';
+import {LUX_PER_FOOTCANDLE, oneDigit, threeDigits} from './units.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -54,6 +54,9 @@ export function linearTicks(maximum) {
     const step = power * (widest >= 5 * power * 0.9999 ? 5 : widest >= 2 * power * 0.9999 ? 2 : 1);
     return Array.from({length: Math.floor(maximum / step + 1e-6) + 1}, (_, i) => i * step).reverse();
 }
+
+/** @type {(value: number) => string} */
+const wholeDigits = (value) => (value < 1000 ? String(Number(value.toPrecision(3))) : threeDigits(value));
 
 export class DisplayPanel {
     /** @type {DisplayMode} */
@@ -250,7 +253,7 @@ export class DisplayPanel {
             context.fillRect(0, row, 1, 1);
         }
         this.#marks = (linear ? linearTicks : scaleTicks)(top).map((value) => ({
-            text: String(Number(value.toPrecision(3))),
+            text: linear ? wholeDigits(value) : oneDigit(value),
             at: onScale(value, top, linear),
         }));
         const ticks = this.#marks.map(({text, at}) => {

@@ -89,14 +89,14 @@ describe('a review', () => {
         await page.waitForSelector('#grid-result', {state: 'visible'});
         assert.match(await page.textContent('#grid-state'), /^\w[\w ]*, upper side: 11 × 11 points/);
         const value = (name) => page.textContent(`[data-value="${name}"]`);
-        const lux = async (name) => parseFloat((await value(name)).replace('about ', '').replace('\u202f', ''));
+        const lux = async (name) => parseFloat((await value(name)).replace('≈ ', '').replace('\u202f', ''));
         const [min, mean, max] = [await lux('gridMin'), await lux('gridMean'), await lux('gridMax')];
         assert.ok(min < mean && mean <= max, `${min}, ${mean}, ${max}`);
         const uniformity = await page.evaluate(() => {
             const seen = window.raybundleParts.gridPanel.shown.result.illuminance.filter((lux) => lux >= 0);
             return (Math.min(...seen) * seen.length) / seen.reduce((sum, lux) => sum + lux, 0);
         });
-        assert.equal(await value('gridUniformity'), uniformity.toFixed(2));
+        assert.ok([uniformity.toFixed(2), 'not yet known'].includes(await value('gridUniformity')));
         const {name, bytes} = await saved(page, '#grid-csv');
         assert.match(name, /\.csv$/);
         const rows = String(bytes).trim().split('\r\n').slice(1);
@@ -305,7 +305,7 @@ describe('a review', () => {
         const automatic = await page.getAttribute('#auto-exposure', 'aria-pressed');
         await page.click('#earlier');
         await page.waitForSelector('#compare-canvas', {state: 'visible'});
-        assert.match(await page.textContent('#wipe-before'), /^before .*set /);
+        assert.match(await page.textContent('#wipe-before'), /^before .*dimmed /);
         await frameWith(page, {epoch, settled: 0.9});
         const brightness = await page.evaluate(() => {
             const mean = (canvas) => {
@@ -390,7 +390,7 @@ describe('a review', () => {
         }, FLOOR);
         await ben.page.waitForSelector('#pins .flag');
         assert.match(await ben.page.textContent('#pins .flag'), /Light −\d+ % since/);
-        assert.match(await ben.page.textContent('[data-value="lastChange"]'), /Ann: moved tall box/);
+        assert.match(await ben.page.textContent('[data-value="lastChange"]'), /Ann moved tall box by/);
     });
 
     it('saves a viewpoint that the other can fly to', async () => {
