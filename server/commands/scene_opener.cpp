@@ -147,8 +147,7 @@ void SceneOpener::open(OpenedScene& scene) {
         Options options = options_;
         options.scene = scene.file;
         check_confined(scene.file);
-        scene.loaded =
-            load_scene(options, [&] { announce(scene, v1::SceneOpening::PREPARING); });
+        scene.loaded = load_scene(options, [&] { announce(scene, v1::SceneOpening::PREPARING); });
         {
             const std::lock_guard lock(mutex_);
             ready_ = std::move(scene);
