@@ -40,39 +40,4 @@ void RenderLoop::answer_walk_map(const ClientEvent& event) {
     server_.reply(event, answer);
 }
 
-void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) {
-    const v1::Probe& probe = event.message.probe();
-    if (!probe.has_pixel()) {
-        server_.reply_error(event, v1::Error::UNIMPLEMENTED,
-                            "probe.ray: only pixels can be probed");
-        return;
-    }
-    const glm::uvec2 size = session.size();
-    const glm::vec2 pixel(probe.pixel().x(), probe.pixel().y());
-    if (!(pixel.x >= 0.0F && pixel.y >= 0.0F && pixel.x < static_cast<float>(size.x) &&
-          pixel.y < static_cast<float>(size.y))) {
-        server_.reply_error(event, v1::Error::INVALID_ARGUMENT, "probe.pixel: outside the picture");
-        return;
-    }
-    prepare_image(session);
-    const std::optional<PixelProbe> hit = session.probe(glm::uvec2(pixel));
-    v1::ServerMessage message;
-    v1::ProbeResult* result = message.mutable_probe_result();
-    result->set_hit(hit.has_value());
-    result->set_epoch(epoch_);
-    if (hit) {
-        to_message(hit->position, result->mutable_position());
-        to_message(hit->normal, result->mutable_normal());
-        result->set_object(scene_.objects[hit->object].id);
-        result->set_patch(hit->patch);
-        result->set_material(mesh_.triangle_material[mesh_.patch_triangle[hit->patch]] + 1);
-        result->set_illuminance(luminance(hit->irradiance));
-        result->set_luminance(luminance(hit->radiance));
-        if (hit->relative_error) {
-            result->set_relative_error(static_cast<float>(*hit->relative_error));
-        }
-    }
-    server_.reply(event, message);
-}
-
 }  // namespace raybundle
