@@ -54,8 +54,9 @@ class Finder {
         const int columns = count(extent.x);
         const int rows = count(extent.z);
         for (int i = 0; i < columns * rows; ++i) {
+            const int row = i / columns;
             const float u = (static_cast<float>(i % columns) + 0.5F) / static_cast<float>(columns);
-            const float v = (static_cast<float>(i / columns) + 0.5F) / static_cast<float>(rows);
+            const float v = (static_cast<float>(row) + 0.5F) / static_cast<float>(rows);
             const glm::vec3 top(bounds.min.x + u * extent.x, bounds.max.y + 1.0F,
                                 bounds.min.z + v * extent.z);
             for (const float floor : floors_below(top)) {
@@ -158,12 +159,12 @@ class Finder {
         Standing result;
         Camera& camera = result.camera;
         camera.eye = place;
-        for (float back = step_back * behind; back > elbow_room; back *= 0.5F) {
-            const glm::vec3 there = place - back * turn(best);
-            if (has_room(there)) {
-                camera.eye = there;
-                break;
-            }
+        float back = step_back * behind;
+        while (back > elbow_room && !has_room(place - back * turn(best))) {
+            back *= 0.5F;
+        }
+        if (back > elbow_room) {
+            camera.eye = place - back * turn(best);
         }
         camera.target = camera.eye + turn(best);
         camera.vertical_fov = standing_fov;

@@ -16,10 +16,11 @@ struct ZoneMeans {
     glm::dvec3 since{0.0};
     double since_weight = 0.0;  ///< samples that the latter is worth
     double area = 0.0;          ///< m²
-    /// Mean of q / (q + DIFFERENCE_UNIT) over patches with both means, q: squared difference of them
-    /// over the variance that samples of a relative deviation of 1 give it. Negative: none has.
+    /// Mean of q / (q + DIFFERENCE_UNIT) over patches with both means, q: squared difference of
+    /// them over the variance that samples of a relative deviation of 1 give it. Negative: none
+    /// has.
     double bounded_difference = -1.0;
-    bool loose = false;         ///< has no level of its own
+    bool loose = false;  ///< has no level of its own
 };
 
 /// How far the kept mean of a zone's patches is believed.

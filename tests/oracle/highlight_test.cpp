@@ -99,7 +99,8 @@ TEST(Highlight, OfTheSunIsItsDisc) {
     EXPECT_LT(brightest(true), 1.0F);
 }
 
-/// Radiance that a lamp of 0.5 m by 0.5 m, 1.5 m above and 1 m beside the origin, has in a floor there, cd/m².
+/// Radiance that a lamp of 0.5 m by 0.5 m, 1.5 m above and 1 m beside the origin, has in a floor
+/// there, cd/m².
 double exact_highlight(const Material& floor, const glm::vec3& eye, float luminance) {
     const Brdf brdf = make_brdf(floor, floor.base_colour);
     const auto local = [](const glm::vec3& w) { return glm::vec3(w.x, w.z, w.y); };

@@ -96,9 +96,11 @@ TEST(MoveReceivers, AMoveBeforeTheFirstIterationStaysFinite) {
               0.15);
 }
 
-/// Against the solver that only iterates on, which is given the time of the phase as iterations: a
-/// pair of bundles counts as two.
-TEST(MoveReceivers, WithoutThePhaseTheErrorAtEqualWorkIsLarger) {
+/// Against the solver that leaves the light as it was. At equal work (a pair of bundles counts as
+/// two iterations) both are as good by now, since what was kept is judged at each patch: 0.14 beside
+/// 0.13 and 0.14, and 0.11, 0.09 beside 0.08, 0.08 after 32 iterations more. What the phase brings
+/// is the new light before anything has been iterated.
+TEST(MoveReceivers, ThePhaseBringsTheNewLightAtOnce) {
     const SceneBuilder b = room_with_box(first_place);
     const SceneBuilder moved = room_with_box(second_place);
     Solver fresh(moved.scene, moved.mesh, quick(21));
@@ -113,8 +115,6 @@ TEST(MoveReceivers, WithoutThePhaseTheErrorAtEqualWorkIsLarger) {
             iterate(*solver, 384);
             move_box(*solver, second_place);
         }
-        iterate(corrected, 32);
-        iterate(skipped, 32 + 2 * settings.special.bundles);
         EXPECT_LT(relative_difference(corrected.store().read_irradiance(), truth),
                   0.8 * relative_difference(skipped.store().read_irradiance(), truth))
             << seed;

@@ -130,7 +130,8 @@ TEST(IesProfile, ErrorsNameTheLineAndTheReason) {
         return "none";
     };
     const std::string head = "IESNA:LM-63-2002\nTILT=NONE\n";
-    EXPECT_EQ(error(""), "lamp.ies: line 1: there is no line that begins with TILT=");
+    EXPECT_EQ(error(""), "lamp.ies: line 1: the file is empty");
+    EXPECT_EQ(error("IESNA91\n"), "lamp.ies: line 2: there is no line that begins with TILT=");
     EXPECT_EQ(error("IESNA91\nTILT=lamp.tlt\n"),
               "lamp.ies: line 3: TILT names a file: only NONE and INCLUDE are supported");
     EXPECT_EQ(error(head + "1 1000 x"), "lamp.ies: line 3: the candela multiplier is not a number");
