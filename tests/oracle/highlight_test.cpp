@@ -155,7 +155,6 @@ TEST(Highlight, OfABroadLobeIsNotDimmedAtFirst) {
     const double exact = exact_highlight(floor, camera.eye, luminance);
     EXPECT_LT(error, 0.1 * exact);  // the test can tell 30 %
     EXPECT_NEAR(mean, exact, 3.0 * error);
-    std::printf("%g %g +- %g\n", exact, mean, error);
 }
 
 }  // namespace

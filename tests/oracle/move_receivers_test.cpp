@@ -97,9 +97,9 @@ TEST(MoveReceivers, AMoveBeforeTheFirstIterationStaysFinite) {
 }
 
 /// Against the solver that leaves the light as it was. At equal work (a pair of bundles counts as
-/// two iterations) both are as good by now, since what was kept is judged at each patch: 0.14 beside
-/// 0.13 and 0.14, and 0.11, 0.09 beside 0.08, 0.08 after 32 iterations more. What the phase brings
-/// is the new light before anything has been iterated.
+/// two iterations) both are as good by now, since what was kept is judged at each patch: 0.14
+/// beside 0.13 and 0.14, and 0.11, 0.09 beside 0.08, 0.08 after 32 iterations more. What the phase
+/// brings is the new light before anything has been iterated.
 TEST(MoveReceivers, ThePhaseBringsTheNewLightAtOnce) {
     const SceneBuilder b = room_with_box(first_place);
     const SceneBuilder moved = room_with_box(second_place);
