@@ -252,6 +252,7 @@ void ZoneBalance::balance(const Means& means) {
             means_of_zone.since = zone.reflected;
             means_of_zone.since_weight = zone.emitted.x / std::max(zone.area, 1e-30);
             means_of_zone.area = zone.area;
+            means_of_zone.loose = zone.loose;
             if (zone.emitted.y > 0.0) {
                 means_of_zone.bounded_difference = zone.emitted.z / zone.emitted.y;
             }
