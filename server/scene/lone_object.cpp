@@ -7,9 +7,10 @@
 #include <bit>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 #include <vector>
+
+#include "scene/disjoint_sets.h"
 
 namespace raybundle {
 namespace {
@@ -19,24 +20,6 @@ constexpr std::size_t fewest_triangles = 8;  // a quad or two is no thing
 /// A part that spans this share of the scene in two axes is a wall, a floor or the whole building.
 constexpr float structure_share = 0.5F;
 constexpr float nothing_to_move = 0.7F;
-
-class Sets {
-  public:
-    explicit Sets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 struct Part {
     std::vector<std::uint32_t> triangles;
@@ -57,7 +40,7 @@ struct PositionHash {
 
 /// Triangles that share corners belong together, whatever normals the file gives these.
 std::vector<Part> connected_parts(const Scene& scene) {
-    Sets sets(scene.vertices.size());
+    DisjointSets sets(scene.vertices.size());
     std::unordered_map<glm::vec3, std::uint32_t, PositionHash> first;
     for (std::uint32_t i = 0; i < scene.vertices.size(); ++i) {
         const auto [known, added] = first.emplace(scene.vertices[i].position, i);

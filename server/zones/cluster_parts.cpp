@@ -2,35 +2,13 @@
 #include "zones/cluster_parts.h"
 
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "scene/disjoint_sets.h"
 
 namespace raybundle {
 
 namespace {
-
-/// Sets that are joined step by step; each is known by its least member.
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[a < b ? b : a] = a < b ? a : b;
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 constexpr std::uint32_t nothing = 0xffffffffU;  // is what a patch sees whose rays are all lost
 

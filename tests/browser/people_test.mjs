@@ -159,7 +159,7 @@ describe('saving', () => {
 describe('dark and light', () => {
     it('are chosen by a button, and kept', async () => {
         const {page} = await openPage({}, {colorScheme: 'dark'});
-        const shade = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue('--panel').trim());
+        const shade = () => page.evaluate(() => getComputedStyle(document.querySelector('#panel')).backgroundColor);
         const dark = await shade();
         await page.click('#theme');
         const light = await shade();
