@@ -14,6 +14,7 @@ import {completeTransform, length, matrixVector, sub} from './vector.js';
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./protocol.js').SceneChanged} SceneChanged
  * @typedef {import('./scene_model.js').SceneModel} SceneModel
+ * @typedef {import('./protocol.js').Transform} Transform
  * @typedef {object} LogEntry
  * @property {Date} time
  * @property {number} epoch
@@ -59,6 +60,7 @@ export class ChangeList extends EventTarget {
     /** Changes that are done, oldest first. @returns {LogEntry[]} */
     get entries() {
         const own = this.app.client.welcome?.viewer;
+        const loaded = this.#loadedTransforms();
         return this.#changes
             .filter(({moveObject}) => moveObject?.final !== false)
             .map((change) => ({
@@ -67,8 +69,23 @@ export class ChangeList extends EventTarget {
                 before: (change.firstEpoch ?? change.epoch) - 1,
                 by: change.by === 0 ? 'The server' : nameOf({viewer: change.by, name: change.byName ?? ''}),
                 mine: this.#isOwn(change, own),
-                text: describeChange(this.app.scene, change),
+                text: describeChange(this.app.scene, change, loaded.get(change.moveObject?.object ?? 0)),
             }));
+    }
+
+    /**
+     * Where objects stood before all changes that are known: what `welcome` brings may be a restarted scene.
+     *
+     * @returns {Map<number, Required<Transform>>}
+     */
+    #loadedTransforms() {
+        const loaded = new Map();
+        for (const {moveObject, objectBefore} of this.#changes) {
+            if (moveObject && objectBefore && !loaded.has(moveObject.object)) {
+                loaded.set(moveObject.object, completeTransform(objectBefore.transform));
+            }
+        }
+        return loaded;
     }
 
     /**
@@ -155,11 +172,13 @@ export function timeText(time) {
 /**
  * @param {SceneModel | null} scene
  * @param {SceneChanged} change
+ * @param {Required<Transform>} [loaded]  of the object that has moved; absent: as when the page opened
  * @returns {string} e.g. "dimmed LED panel: 100 → 50 %"
  */
-export function describeChange(scene, {moveObject, setLight, setMaterial, objectBefore, lightBefore, materialBefore}) {
+export function describeChange(scene, change, loaded) {
+    const {moveObject, setLight, setMaterial, objectBefore, lightBefore, materialBefore} = change;
     if (moveObject) {
-        return describeMove(scene?.object(moveObject.object) ?? null, moveObject, objectBefore);
+        return describeMove(scene?.object(moveObject.object) ?? null, moveObject, objectBefore, loaded);
     }
     if (setLight) {
         return describeLight(scene?.lights.find(({id}) => id === setLight.light), setLight, lightBefore);
@@ -172,13 +191,14 @@ export function describeChange(scene, {moveObject, setLight, setMaterial, object
  * @param {import('./scene_model.js').PlacedObject | null} object
  * @param {import('./protocol.js').MoveObject} to
  * @param {import('./protocol.js').MoveObject | undefined} from
+ * @param {Required<Transform>} [loaded]
  */
-function describeMove(object, to, from) {
+function describeMove(object, to, from, loaded) {
     if (!object || !from) {
         return `moved ${object?.name ?? 'an object'}`;
     }
     const [before, after] = [completeTransform(from.transform), completeTransform(to.transform)];
-    const deed = deedOf(before, after, object.original);
+    const deed = deedOf(before, after, loaded ?? object.original);
     if (deed === 'put back') {
         return `put back ${object.name}`;
     }

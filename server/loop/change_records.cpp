@@ -54,6 +54,17 @@ void ChangeRecords::add(v1::SceneChanged change) {
     }
 }
 
+void ChangeRecords::tell_beginning(v1::SceneChanged& newest) const {
+    if (!newest.has_move_object() || goes_on(newest) || records_.empty()) {
+        return;
+    }
+    const v1::SceneChanged& record = records_.back();
+    take_before(record, newest);
+    if (record.has_first_epoch()) {
+        newest.set_first_epoch(record.first_epoch());
+    }
+}
+
 void ChangeRecords::fill(v1::ChangeHistory* message) const {
     for (const v1::SceneChanged& record : records_) {
         v1::SceneChanged* const out = message->add_changes();

@@ -16,6 +16,9 @@ class ChangeRecords {
     /// A change with all fields of SceneChanged, the newest one.
     void add(v1::SceneChanged change);
 
+    /// The newest change with where the drag began that it ends, for who has not heard its steps.
+    void tell_beginning(v1::SceneChanged& newest) const;
+
     /// Oldest first.
     void fill(v1::ChangeHistory* message) const;
 

@@ -111,6 +111,7 @@ bool RenderLoop::record(PendingChange& pending) {
     after.set_epoch(epoch_);
     log_.note_states(before, after);
     set_before(before, pending.change);
+    log_.records().tell_beginning(pending.change);
     return true;
 }
 

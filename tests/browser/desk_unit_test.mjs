@@ -46,6 +46,9 @@ describe('a change in the history', () => {
         assert.equal(says(moved), 'moved table by 0.50 m: 0.00 0.00 0.00 → 0.50 0.00 0.00');
         const back = {objectBefore: moved.moveObject, moveObject: {object: 1, transform: {}}};
         assert.equal(says(back), 'put back table');
+        const elsewhere = {translation: {x: -4, y: 0, z: 0}, rotation: {x: 0, y: 0, z: 0, w: 1}, scale: {x: 1, y: 1, z: 1}};
+        const opened = describeChange(SCENE, {epoch: 1, by: 1, ...back}, elsewhere);
+        assert.match(opened, /^moved table/, 'where a page finds an object is not where the file has it');
         const rough = {materialBefore: {material: 1, roughness: 1}, setMaterial: {material: 1, roughness: 0.25}};
         assert.equal(says(rough), 'set the roughness of paint: 1.00 → 0.25');
     });

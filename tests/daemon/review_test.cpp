@@ -205,7 +205,12 @@ TEST_F(ReviewTest, WhoComesLaterHearsWhoChangedWhatFromWhatAlsoAfterARestart) {
         EXPECT_NEAR(dimmed.at("lightBefore").at("intensity").get<double>(), intensity, 1e-2);
         ann.request(move(2.0, false));
         ann.request(move(2.5, false));
-        ann.request(move(3.0, true));
+        const Json dragged = ann.request(move(3.0, true)).at("sceneChanged");
+        const Json start = welcome.at("scene").at("objects").at(kShortBox - 1).at("transform");
+        EXPECT_EQ(dragged.at("objectBefore").at("transform").at("translation"),
+                  start.value("translation", point(0, 0, 0)))
+            << "where the drag began: " << dragged;
+        EXPECT_EQ(dragged.at("firstEpoch"), 2);
         ann.request({{"undo", {{"epoch", 1}}}});
     }
     for (const bool restarted : {false, true}) {
