@@ -241,7 +241,7 @@ void ZoneBalance::balance(const Means& means) {
         s.flux /= unit;
         s.squares /= unit * unit;
     }
-    const std::vector<ZoneLevel> levels =
+    std::vector<ZoneLevel> levels =
         levels_.solve(zones, read_exchange(sums.subspan(first_pair)), sky);
     std::vector<KeptLevel> kept(partition_.count);
     if (means.kept != nullptr) {
@@ -262,6 +262,10 @@ void ZoneBalance::balance(const Means& means) {
         kept = kept_.judge(light, levels_);
         for (unsigned zone = 0; first && zone < partition_.count; ++zone) {
             younger_[zone] = std::max(iterate_age_ - kept[zone].limit, 0.0);
+            if (kept[zone].anew) {
+                levels[zone] = {.scale = glm::dvec3(0.0), .offset = glm::dvec3(0.0)};
+                levels_.skip_group();
+            }
         }
     }
     upload(levels, kept);

@@ -52,6 +52,17 @@ class Joiner {
         }
     }
     void add_sent(std::uint32_t a, float flux) { sent_[a] += flux; }
+    /// Clusters that no ray starts on send what they receive, by reciprocity.
+    void complete_sent() {
+        for (std::size_t a = 0; a < count_; ++a) {
+            if (sent_[a] > 0.0F) {
+                continue;
+            }
+            for (std::size_t b = 0; b < count_; ++b) {
+                sent_[a] += flux_[a * count_ + b];
+            }
+        }
+    }
 
     std::vector<Join> join_all() {
         std::vector<Join> joins;
@@ -225,6 +236,7 @@ ClusterZones join_clusters(std::size_t clusters, std::span<const ClusterRay> ray
             joiner.add(ray.from, ray.to, ray.area);
         }
     }
+    joiner.complete_sent();
     const std::vector<Join> joins = joiner.join_all();
     const Cut cut(joins, std::move(count), most);
     return {cut.zones(), cut.zone_of_clusters()};

@@ -41,6 +41,7 @@ KeptLevel first_level(const glm::dvec3& kept, const glm::dvec3& wanted, double w
         level.scale[c] = std::max(1.0 + share * (std::min(factor, 1.0 / model_error) - 1.0), 0.0);
     }
     level.limit = worth(share * std::abs(has - target) / std::max(target, has * model_error));
+    level.anew = target < has && level.limit < 1.0;
     return level;
 }
 

@@ -30,6 +30,9 @@ struct KeptLevel {
     /// Squared relative deviation of samples of its patches from their means, by what both means
     /// differ in most places.
     double sample_variance = 0.16;
+    /// Next to nothing of the zone's light is left: its iterate starts from the dark, since the
+    /// distribution of the light that went would last longer than a new solve takes.
+    bool anew = false;
 };
 
 /// Squared relative deviation of samples whose normally distributed differences have this mean of

@@ -58,6 +58,8 @@ class ZoneLevels {
 
     /// Everything that is known of d is of another scene, or of another light.
     void forget();
+    /// Something else than levels changes the iterate: the running group tells nothing of d.
+    void skip_group() { solved_ = false; }
     /// All light is multiplied by a factor.
     void scale(const glm::vec3& factor);
     /// After a group of iterations: share of each zone's iterate that is older than the group. No

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct ChangeCase {
     float patch_size = 0.3F;      ///< m
     double bright = 100.0;        ///< lx: order of the light before or after, the brighter of both
 };
+
+/// Names the case in lists and failures of tests.
+inline void PrintTo(const ChangeCase& c, std::ostream* out) { *out << c.name; }
 
 /// The cases of numerics.md (second part, Changes) that fit into some seconds each.
 std::vector<ChangeCase> change_cases();

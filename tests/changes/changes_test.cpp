@@ -99,7 +99,8 @@ class HeavyChanges : public testing::TestWithParam<ChangeCase> {};
 
 /// Root mean square errors of the 25 points over 20 seeds of a change and of a new solve. The truth
 /// for one seed is the mean of the new solves of the others after 1000 iterations; where the light
-/// goes out, errors below a thousandth of what there was before count for none.
+/// goes out, errors below a thousandth of what there was before count for none. 20 seeds tell a
+/// ratio to +-0.15 or so.
 TEST_P(HeavyChanges, AreNoWorseThanANewSolve) {
     const ChangeCase& c = GetParam();
     std::vector<std::vector<Served> > fresh;
@@ -133,7 +134,8 @@ TEST_P(HeavyChanges, AreNoWorseThanANewSolve) {
         std::printf("%s after %llu: new %.4f, changed %.4f, ratio %.3f\n", c.name.c_str(),
                     static_cast<unsigned long long>(after[k]), std::sqrt(of_fresh / seeds),
                     std::sqrt(of_changed / seeds), ratio);
-        EXPECT_TRUE(ratio <= 1.1 || std::sqrt(of_changed / seeds) < 1e-2)
+        const double none = mean_of(truth_without(0)) < scale ? 1.0 : 1e-2;
+        EXPECT_TRUE(ratio <= 1.1 || std::sqrt(of_changed / seeds) < none)
             << after[k] << ": " << ratio;
     }
 }

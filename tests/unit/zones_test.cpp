@@ -158,6 +158,55 @@ TEST(Zones, AreTheRoomsOfABuilding) {
     }
 }
 
+/// Four patches have one ray between them: those without any belong to the rooms that they are in,
+/// not to what lies outside.
+TEST(Zones, HoldPatchesWithoutRays) {
+    Rooms rooms;
+    std::vector<std::size_t> first;
+    for (int i = 0; i < 16; ++i) {
+        first.push_back(rooms.mesh.patch_count());
+        const float x = 3.2F * static_cast<float>(i % 4);
+        const float z = 4.2F * static_cast<float>(i / 4);
+        rooms.room({x, 0, z}, {x + 3, 3, z + 4}, false, 37);
+    }
+    first.push_back(rooms.mesh.patch_count());
+    const ExchangeRays rays = rooms.rays();
+    const std::vector<ExchangeRay> traced = rays.trace();
+    ASSERT_GT(rooms.mesh.patch_count(), 4 * traced.size() / 2);
+    const ZonePartition zones = find_zones(rays, traced);
+    EXPECT_FALSE(zones.loose.has_value());
+    std::vector<std::size_t> room_of(zones.count, first.size());
+    std::size_t strays = 0;
+    for (std::size_t room = 0; room + 1 < first.size(); ++room) {
+        for (std::size_t patch = first[room]; patch < first[room + 1]; ++patch) {
+            std::size_t& owner = room_of[zones.zone[patch]];
+            owner = owner == first.size() ? room : owner;
+            strays += owner != room ? 1U : 0U;
+        }
+    }
+    EXPECT_LT(strays, rooms.mesh.patch_count() / 1000);
+}
+
+/// A patch whose only ray goes out through a door belongs to its room all the same.
+TEST(Zones, HoldPatchesWhoseFewRaysAreLost) {
+    Rooms rooms;
+    for (int i = 0; i < 16; ++i) {
+        const float x = 8.0F * static_cast<float>(i % 4);
+        const float z = 8.0F * static_cast<float>(i / 4);
+        rooms.room({x, 0, z}, {x + 3, 3, z + 4}, true, 37);
+    }
+    const ExchangeRays rays = rooms.rays();
+    const std::vector<ExchangeRay> traced = rays.trace();
+    const auto lost = std::count_if(traced.begin(), traced.end(), [](const ExchangeRay& ray) {
+        return ray.to == ExchangeRay::lost;
+    });
+    ASSERT_GT(static_cast<double>(lost), 0.02 * static_cast<double>(traced.size()));
+    const ZonePartition zones = find_zones(rays, traced);
+    const auto loose = zones.loose ? std::count(zones.zone.begin(), zones.zone.end(), *zones.loose)
+                                   : std::ptrdiff_t{0};
+    EXPECT_LT(static_cast<double>(loose), 0.01 * static_cast<double>(rooms.mesh.patch_count()));
+}
+
 /// X = (emitted + rho X) in a closed zone: the level is exact, whatever the iterate was.
 TEST(ZoneLevels, OfAClosedRoomAreThoseOfEnergyConservation) {
     ZoneLevels levels(1);
