@@ -76,10 +76,23 @@ class Clusters {
             high = std::max(high, coordinate(patch, axis));
         }
         const float scale = high > low ? steps / (high - low) : 0.0F;
-        std::stable_sort(patches.begin(), patches.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::lround((coordinate(a, axis) - low) * scale) <
-                   std::lround((coordinate(b, axis) - low) * scale);
-        });
+        std::vector<std::uint32_t> keys;
+        keys.reserve(patches.size());
+        for (const std::uint32_t patch : patches) {
+            keys.push_back(
+                static_cast<std::uint32_t>((coordinate(patch, axis) - low) * scale + 0.5F));
+        }
+        // Counting, which keeps the order of what is equal.
+        std::vector<std::uint32_t> first(static_cast<std::size_t>(steps) + 2, 0);
+        for (const std::uint32_t key : keys) {
+            ++first[key + 1];
+        }
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<std::uint32_t> sorted(patches.size());
+        for (std::size_t i = 0; i < patches.size(); ++i) {
+            sorted[first[keys[i]]++] = patches[i];
+        }
+        patches.swap(sorted);
     }
 
     void split(std::vector<std::uint32_t> patches, std::size_t most) {
