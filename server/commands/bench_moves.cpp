@@ -97,6 +97,7 @@ class Run {
         while (solver_.correcting()) {
             step();
         }
+        iterate(GROUP_SIZE);  // judges what was kept, and serves both means
     }
     [[nodiscard]] Picture picture() {
         Picture result;

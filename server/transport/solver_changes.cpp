@@ -130,6 +130,9 @@ void Solver::rehearse_move(std::uint32_t object, const glm::mat4& world_from_obj
     while (correcting()) {
         step(receivers);
     }
+    zones_.set_iterate_age(iterate_age());
+    store_.refresh_power();  // judges what was kept
+    store_.serve();
     changes_ = 0;
     special_bundles_ = 0;
     store_.forget_checkpoint();
