@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "net/scene_name.h"
+#include "net/http/scene_name.h"
 #include "options/cli_options.h"
 
 namespace raybundle {

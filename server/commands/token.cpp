@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/command.h"
-#include "net/access_tokens.h"
+#include "net/access/access_tokens.h"
 
 namespace raybundle {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "journal/change_sum.h"
-#include "net/client_event.h"
+#include "net/ws/client_event.h"
 
 namespace raybundle {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "net/metrics_text.h"
+#include "net/http/metrics_text.h"
 
 namespace raybundle {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/egl_context.h"
-#include "net/wire_codec.h"
+#include "net/ws/wire_codec.h"
 
 namespace raybundle {
 

@@ -3,7 +3,7 @@
 #include "loop/memory_room.h"
 #include "loop/render_loop.h"
 #include "loop/scene_messages.h"
-#include "net/wire_codec.h"
+#include "net/ws/wire_codec.h"
 #include "view/picture_limits.h"
 
 namespace raybundle {

@@ -8,7 +8,7 @@
 #include "gpu/egl_context.h"
 #include "loop/picture_refusal.h"
 #include "loop/render_loop.h"
-#include "net/wire_codec.h"
+#include "net/ws/wire_codec.h"
 #include "stream/elapsed.h"
 
 namespace raybundle {

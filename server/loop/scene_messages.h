@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "net/client_event.h"
+#include "net/ws/client_event.h"
 #include "raybundle.pb.h"
 #include "scene/effects_plan.h"
 #include "scene/scene.h"

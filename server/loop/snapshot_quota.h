@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "net/client_event.h"
+#include "net/ws/client_event.h"
 
 namespace raybundle {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "net/client_event.h"
+#include "net/ws/client_event.h"
 #include "raybundle.pb.h"
 #include "stream/congestion_window.h"
 #include "stream/depth_code.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "net/listen_address.h"
-#include "net/tls_certificate.h"
+#include "net/access/listen_address.h"
+#include "net/access/tls_certificate.h"
 
 namespace raybundle {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "net/server_settings.h"
-#include "net/upgrade_check.h"
+#include "net/ws/upgrade_check.h"
 
 struct ssl_ctx_st;
 

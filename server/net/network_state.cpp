@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "net/clock.h"
-#include "net/metrics_text.h"
+#include "net/http/metrics_text.h"
 
 namespace raybundle {
 namespace {

@@ -7,12 +7,12 @@
 #include <mutex>
 #include <string>
 
-#include "net/gate.h"
-#include "net/inbox.h"
+#include "net/access/gate.h"
+#include "net/http/snapshot_store.h"
+#include "net/http/upload.h"
 #include "net/server_settings.h"
-#include "net/snapshot_store.h"
-#include "net/upload.h"
-#include "net/viewer_table.h"
+#include "net/ws/inbox.h"
+#include "net/ws/viewer_table.h"
 
 namespace raybundle {
 

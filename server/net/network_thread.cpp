@@ -9,9 +9,9 @@
 #include <exception>
 #include <string_view>
 
-#include "net/http_request.h"
+#include "net/access/peer_name.h"
+#include "net/http/http_request.h"
 #include "net/network_context.h"
-#include "net/peer_name.h"
 
 namespace raybundle {
 namespace {

@@ -10,12 +10,12 @@
 #include <string_view>
 #include <thread>
 
-#include "net/address_count.h"
-#include "net/http_service.h"
-#include "net/mask_check.h"
+#include "net/access/address_count.h"
+#include "net/access/tls_certificate.h"
+#include "net/http/http_service.h"
 #include "net/network_state.h"
-#include "net/tls_certificate.h"
-#include "net/viewer_connection.h"
+#include "net/ws/mask_check.h"
+#include "net/ws/viewer_connection.h"
 
 struct lws;
 struct lws_context;

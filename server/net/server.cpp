@@ -3,11 +3,11 @@
 
 #include <utility>
 
+#include "net/access/listen_address.h"
+#include "net/access/tls_certificate.h"
 #include "net/clock.h"
-#include "net/listen_address.h"
 #include "net/network_state.h"
 #include "net/network_thread.h"
-#include "net/tls_certificate.h"
 
 namespace raybundle {
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "net/client_event.h"
-#include "net/inbox.h"
+#include "net/http/upload.h"
 #include "net/server_settings.h"
-#include "net/upload.h"
+#include "net/ws/client_event.h"
+#include "net/ws/inbox.h"
 
 namespace raybundle {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "net/gate.h"
-#include "net/wire_codec.h"
+#include "net/access/gate.h"
+#include "net/ws/wire_codec.h"
 #include "stream/congestion_window.h"
 
 namespace raybundle {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "net/access_tokens.h"
+#include "net/access/access_tokens.h"
 #include "reference/reference_method.h"
 #include "transport/iteration_schedule.h"
 

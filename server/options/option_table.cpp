@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options/option_table.h"
-#include "net/peer_name.h"
+#include "net/access/peer_name.h"
 
 #include <fmt/core.h>
 

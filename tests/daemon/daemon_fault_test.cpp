@@ -13,7 +13,7 @@
 
 #include "daemon.h"
 #include "json_viewer.h"
-#include "net/access_tokens.h"
+#include "net/access/access_tokens.h"
 
 namespace raybundle {
 namespace {

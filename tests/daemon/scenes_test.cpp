@@ -8,7 +8,7 @@
 
 #include "daemon.h"
 #include "json_viewer.h"
-#include "net/access_tokens.h"
+#include "net/access/access_tokens.h"
 #include "test_folder.h"
 
 namespace raybundle {

@@ -2,7 +2,7 @@
 // A whole connection: messages in lines, cut into fragments, with acknowledgements and frames
 // between them. Queues stay bounded whatever a client does.
 #include "fuzz_target.h"
-#include "net/session.h"
+#include "net/ws/session.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary messages: whatever comes is either a valid message or a refusal that can be sent.
 #include "fuzz_target.h"
-#include "net/wire_codec.h"
+#include "net/ws/wire_codec.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace raybundle;

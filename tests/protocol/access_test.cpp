@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "net/gate.h"
-#include "net/session.h"
+#include "net/access/gate.h"
+#include "net/ws/session.h"
 
 namespace raybundle {
 namespace {

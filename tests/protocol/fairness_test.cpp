@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "loop/snapshot_quota.h"
-#include "net/peer_name.h"
-#include "net/receive_slice.h"
+#include "net/access/peer_name.h"
+#include "net/access/wrong_tokens.h"
 #include "net/server.h"
-#include "net/session.h"
-#include "net/wrong_tokens.h"
+#include "net/ws/receive_slice.h"
+#include "net/ws/session.h"
 #include "raw_client.h"
 
 namespace raybundle {

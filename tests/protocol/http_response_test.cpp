@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/http_response.h"
+#include "net/http/http_response.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/inbox.h"
+#include "net/ws/inbox.h"
 
 #include <gtest/gtest.h>
 

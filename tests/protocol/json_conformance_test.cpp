@@ -7,8 +7,8 @@
 #include <iterator>
 #include <string>
 
-#include "net/json_scan.h"
-#include "net/wire_codec.h"
+#include "net/ws/json_scan.h"
+#include "net/ws/wire_codec.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/message_validation.h"
+#include "net/ws/message_validation.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "loop/loop_metrics.h"
 #include "metrics_check.h"
-#include "net/metrics_text.h"
+#include "net/http/metrics_text.h"
 #include "net/network_state.h"
 
 namespace raybundle {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "net/scene_name.h"
-#include "net/snapshot_store.h"
-#include "net/upload_check.h"
+#include "net/http/scene_name.h"
+#include "net/http/snapshot_store.h"
+#include "net/http/upload_check.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/upgrade_check.h"
+#include "net/ws/upgrade_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/viewer_link.h"
+#include "net/ws/viewer_link.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/wire_codec.h"
+#include "net/ws/wire_codec.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "net/http/http_response.h"
+
+struct lws;
+
+namespace raybundle {
+
+struct RequestLine {
+    HttpMethod method = HttpMethod::other;
+    std::string path;  ///< decoded, without query
+};
+
+/// What an HTTP request asks for.
+RequestLine request_line(lws* connection);
+
+/// Value of a header by its lws_token_indexes; empty where it is absent.
+std::string request_header(lws* connection, int token);
+
+/// Whether the headers that libwebsockets knows by name, the cookie among them, have more than
+/// kMaxHeaderBytes.
+bool has_large_headers(lws* connection);
+
+/// Who sent a request, see peer_name().
+std::string request_peer(lws* connection, const std::vector<std::string>& trusted_proxies);
+
+/// 431, which says so.
+HttpResponse large_headers_response();
+
+}  // namespace raybundle

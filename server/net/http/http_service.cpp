@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/http/http_service.h"
+
+#include <libwebsockets.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "net/clock.h"
+#include "net/http/http_request.h"
+#include "net/ws/upgrade_check.h"
+
+namespace raybundle {
+namespace {
+
+/// Answers after which nobody reads what the client may still send.
+bool ends_connection(int status) {
+    constexpr int kTimeout = 408;
+    constexpr int kTooLarge = 413;
+    return status == kTimeout || status == kTooLarge;
+}
+
+}  // namespace
+
+bool HttpService::is_event(int reason) {
+    return reason == LWS_CALLBACK_HTTP || reason == LWS_CALLBACK_HTTP_BODY ||
+           reason == LWS_CALLBACK_HTTP_BODY_COMPLETION || reason == LWS_CALLBACK_HTTP_WRITEABLE ||
+           reason == LWS_CALLBACK_CLOSED_HTTP || reason == LWS_CALLBACK_HTTP_CONFIRM_UPGRADE;
+}
+
+int HttpService::on_event(lws* connection, int reason, void* in, std::size_t size) {
+    switch (reason) {
+        case LWS_CALLBACK_HTTP:
+            return on_request(connection);
+        case LWS_CALLBACK_HTTP_WRITEABLE:
+            return on_writable(connection);
+        case LWS_CALLBACK_HTTP_BODY:
+            return on_body(connection, {static_cast<const char*>(in), size});
+        case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+            uploads_.complete(connection);
+            return 0;
+        case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+            return confirm_upgrade(connection) ? 0 : -1;
+        default:
+            forget(connection);
+            return 0;
+    }
+}
+
+int HttpService::on_timer(lws* connection) {
+    if (auto held = held_.extract(connection)) {
+        return answer(connection, std::move(held.mapped()));
+    }
+    auto late = uploads_.expire(connection);
+    return late ? answer(connection, std::move(*late)) : 0;
+}
+
+void HttpService::forget(lws* connection) {
+    uploads_.forget(connection);
+    transfers_.erase(connection);
+    held_.erase(connection);
+}
+
+/// Refuses with an HTTP answer where the handshake is not for us.
+bool HttpService::confirm_upgrade(lws* connection) {
+    const UpgradeRequest request{request_header(connection, WSI_TOKEN_GET_URI),
+                                 request_header(connection, WSI_TOKEN_ORIGIN),
+                                 request_header(connection, WSI_TOKEN_HOST),
+                                 request_header(connection, WSI_TOKEN_VERSION),
+                                 request_header(connection, WSI_TOKEN_KEY),
+                                 request_header(connection, WSI_TOKEN_PROTOCOL)};
+    auto refusal = has_large_headers(connection)
+                       ? std::optional(large_headers_response())
+                       : refuse_upgrade(request, state_.gate.access()->origins);
+    if (!refusal) {
+        return true;
+    }
+    ++state_.counters.connections_refused;
+    spdlog::warn("refused a WebSocket connection of {} to {} from origin {}: {}",
+                 request_peer(connection, state_.settings.trusted_proxies), request.path,
+                 request.origin, refusal->status);
+    write_refusal(connection, *refusal);
+    return false;
+}
+
+/// A wrong token is noted, as one in hello is.
+HttpService::Caller HttpService::caller(lws* connection, std::string_view where) {
+    const std::string token = request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION);
+    Caller result{state_.gate.role_of(token)};
+    if (!result.role && !token.empty()) {
+        result.delay_ms = state_.gate.note_wrong_token(
+            request_peer(connection, state_.settings.trusted_proxies), where, server_time_ms());
+    }
+    return result;
+}
+
+int HttpService::on_request(lws* connection) {
+    const auto [method, path] = request_line(connection);
+    if (has_large_headers(connection)) {
+        return answer(connection, large_headers_response());
+    }
+    if (method == HttpMethod::put) {
+        return on_upload(connection, path);
+    }
+    HttpContent content{client_files(), state_.ready, {}, true, &state_.snapshots};
+    content.encoded = &encoded_files_;
+    content.editable = state_.editable();
+    content.accept_encoding = request_header(connection, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
+    content.if_none_match = request_header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);
+    Caller client;
+    if (path == "/metrics") {
+        client = caller(connection, path);
+        content.metrics_allowed = client.role.has_value();
+    }
+    if (path == "/metrics" && content.metrics_allowed) {
+        content.metrics = state_.metrics();
+    }
+    return answer_in(client.delay_ms, connection, http_response(method, path, content));
+}
+
+int HttpService::on_upload(lws* connection, const std::string& path) {
+    const Caller client = caller(connection, path);
+    const UploadRequest request{
+        path, request_header(connection, WSI_TOKEN_ORIGIN),
+        request_header(connection, WSI_TOKEN_HOST), client.role,
+        parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
+    auto refusal = uploads_.begin(connection, request);
+    return refusal ? answer_in(client.delay_ms, connection, std::move(*refusal)) : 0;
+}
+
+int HttpService::on_body(lws* connection, std::string_view bytes) {
+    auto problem = uploads_.write(connection, bytes);
+    return problem ? answer(connection, std::move(*problem)) : 0;
+}
+
+int HttpService::answer(lws* connection, HttpResponse response) {
+    auto& transfer = transfers_[connection];
+    transfer = std::make_unique<HttpTransfer>(std::move(response));
+    if (!transfer->begin(connection)) {
+        return -1;
+    }
+    return transfer->done() ? end_transfer(connection) : 0;
+}
+
+/// Holds the answer back for a while.
+int HttpService::answer_in(double delay_ms, lws* connection, HttpResponse response) {
+    if (delay_ms <= 0.0) {
+        return answer(connection, std::move(response));
+    }
+    constexpr double kMicrosecondsPerMs = 1000.0;
+    held_.insert_or_assign(connection, std::move(response));
+    lws_set_timer_usecs(connection, static_cast<lws_usec_t>(kMicrosecondsPerMs * delay_ms));
+    return 0;
+}
+
+void HttpService::answer_uploads() {
+    for (auto& [connection, response] : uploads_.finished()) {
+        if (answer(connection, std::move(response)) != 0) {
+            lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+        }
+    }
+}
+
+int HttpService::on_writable(lws* connection) {
+    const auto transfer = transfers_.find(connection);
+    if (transfer == transfers_.end()) {
+        return 0;
+    }
+    if (!transfer->second->write(connection)) {
+        return -1;
+    }
+    return transfer->second->done() ? end_transfer(connection) : 0;
+}
+
+/// The connection stays open for the next request where the client wants that.
+int HttpService::end_transfer(lws* connection) {
+    const bool close = ends_connection(transfers_.at(connection)->status());
+    transfers_.erase(connection);
+    if (close) {
+        return -1;
+    }
+    return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "net/ws/message_validation.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+
+#include "net/http/scene_name.h"
+
+namespace raybundle {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr double kMaxNumber = 1e9;     ///< metres, seconds, photometric units: keeps squares finite
+constexpr float kMaxNear = 1e9F;       // m, as the coordinates of a Vec3
+constexpr double kMinLength = 1e-6;    ///< of a direction, an axis, a distance
+constexpr float kMinFov = 0.001F;      ///< radians
+constexpr float kMaxFov = 3.14F;       ///< radians
+constexpr std::size_t kMaxName = 64;   ///< characters
+constexpr std::size_t kMaxText = 500;  ///< characters of a pin
+constexpr std::size_t kMaxToken = 1024;
+constexpr float kMaxExposure = 30.0F;  ///< EV
+constexpr float kMaxSeconds = 86400.0F;
+constexpr std::uint64_t kMaxGridPoints = 1024;
+constexpr std::uint32_t kMaxDepthColumns = 512;
+
+/// Collects the first violation; later checks are skipped.
+class Checker {
+  public:
+    explicit Checker(const WireLimits& limits) : limits_(limits) {}
+
+    void require(bool holds, std::string_view field, std::string_view reason) {
+        if (!holds && !refusal_) {
+            refusal_ = Refusal{v1::Error::INVALID_ARGUMENT,
+                               std::string(field) + ": " + std::string(reason), std::nullopt};
+        }
+    }
+
+    [[nodiscard]] std::optional<Refusal> result() const { return refusal_; }
+
+    /// Of a viewport, or of a snapshot.
+    template <typename Size>
+    void size(const Size& size, bool viewport, const std::string& field) {
+        const std::uint32_t most = viewport ? limits_.max_viewport : limits_.max_picture;
+        require(size.width() >= 1 && size.width() <= most, field + ".width",
+                "must be 1.." + std::to_string(most));
+        require(size.height() >= 1 && size.height() <= most, field + ".height",
+                "must be 1.." + std::to_string(most));
+    }
+
+    void colour(const v1::Vec3& colour, float max, std::string_view field, std::string_view range) {
+        const auto inside = [max](float value) { return value >= 0.0F && value <= max; };
+        require(inside(colour.x()) && inside(colour.y()) && inside(colour.z()), field, range);
+    }
+
+    void share(float value, std::string_view field) {
+        require(value >= 0.0F && value <= 1.0F, field, "must be 0..1");
+    }
+
+  private:
+    const WireLimits& limits_;
+    std::optional<Refusal> refusal_;
+};
+
+glm::dvec3 to_vector(const v1::Vec3& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+std::size_t characters(const std::string& utf8) {
+    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char byte) {
+        return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+    }));
+}
+
+double number(const Message& message, const FieldDescriptor& field) {
+    const auto* const reflection = message.GetReflection();
+    switch (field.cpp_type()) {
+        case FieldDescriptor::CPPTYPE_FLOAT:
+            return reflection->GetFloat(message, &field);
+        case FieldDescriptor::CPPTYPE_DOUBLE:
+            return reflection->GetDouble(message, &field);
+        default:
+            return 0.0;
+    }
+}
+
+/// Every float and double of the message and its parts is finite and of a size one can square.
+/// The depth is that of the schema, which is not recursive.
+void check_numbers(const Message& message, const std::string& path, Checker& check) {
+    const auto* const reflection = message.GetReflection();
+    std::vector<const FieldDescriptor*> fields;
+    reflection->ListFields(message, &fields);
+    for (const auto* field : fields) {
+        const std::string name = path + (path.empty() ? "" : ".") + field->json_name();
+        if (field->is_repeated()) {
+            continue;  // only codecs
+        }
+        if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+            check_numbers(reflection->GetMessage(message, field), name, check);
+        } else {
+            const double value = number(message, *field);
+            check.require(std::isfinite(value), name, "must be a finite number");
+            check.require(std::abs(value) <= kMaxNumber, name, "must be at most 1e9");
+        }
+    }
+}
+
+void check_body(const v1::Hello& hello, Checker& check) {
+    check.require(!hello.protocol().empty(), "hello.protocol", "is missing");
+    check.require(characters(hello.name()) <= kMaxName, "hello.name",
+                  "must be at most 64 characters");
+    check.require(hello.token().size() <= kMaxToken, "hello.token", "must be at most 1024 bytes");
+    if (hello.has_viewport()) {
+        check.size(hello.viewport(), true, "hello.viewport");
+    }
+}
+
+/// Where a camera stands: SetCamera or SaveViewpoint, called `name` in complaints.
+template <typename View>
+void check_view(const View& view, const std::string& name, Checker& check) {
+    check.require(view.has_eye(), name + ".eye", "is missing");
+    check.require(view.has_target(), name + ".target", "is missing");
+    const glm::dvec3 sight = to_vector(view.target()) - to_vector(view.eye());
+    check.require(glm::length(sight) >= kMinLength, name + ".target", "must differ from eye");
+    const glm::dvec3 up = view.has_up() ? to_vector(view.up()) : glm::dvec3(0, 1, 0);
+    check.require(glm::length(up) >= kMinLength, name + ".up", "must not be zero");
+    const double sine = glm::length(glm::cross(glm::normalize(sight), glm::normalize(up)));
+    check.require(sine >= kMinLength, name + ".up", "must not lie along the line of sight");
+}
+
+void check_fov(float fov, const std::string& field, Checker& check) {
+    check.require(fov >= kMinFov && fov <= kMaxFov, field, "must be 0.001..3.14 radians");
+}
+
+void check_body(const v1::SetCamera& camera, Checker& check) {
+    check_view(camera, "setCamera", check);
+    if (camera.has_vertical_fov()) {
+        check_fov(camera.vertical_fov(), "setCamera.verticalFov", check);
+    }
+    if (camera.has_near()) {
+        check.require(camera.near() >= 0.0F && camera.near() <= kMaxNear, "setCamera.near",
+                      "must be 0..1e9 m");
+    }
+}
+
+void check_body(const v1::GetWalkMap& map, Checker& check) {
+    check.require(map.has_eye(), "getWalkMap.eye", "is missing");
+}
+
+void check_body(const v1::SetViewport& viewport, Checker& check) {
+    check.size(viewport, true, "setViewport");
+}
+
+void check_body(const v1::SetTarget& target, Checker& check) {
+    if (target.has_relative_error()) {
+        const float error = target.relative_error();
+        check.require(error > 0.0F && error <= 1.0F, "setTarget.relativeError",
+                      "must be above 0 and at most 1");
+    }
+    if (target.has_seconds()) {
+        const float seconds = target.seconds();
+        check.require(seconds > 0.0F && seconds <= kMaxSeconds, "setTarget.seconds",
+                      "must be above 0 and at most 86400");
+    }
+}
+
+void check_body(const v1::SetDisplay& display, Checker& check) {
+    check.require(display.ByteSizeLong() > 0, "setDisplay",
+                  "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines, "
+                  "scaleUnit or linearScale");
+    if (display.has_mode()) {
+        check.require(v1::SetDisplay::Mode_IsValid(display.mode()) &&
+                          display.mode() != v1::SetDisplay::MODE_UNSPECIFIED,
+                      "setDisplay.mode", "must be PHOTO, FALSE_LUMINANCE or FALSE_ILLUMINANCE");
+    }
+    check.require(std::abs(display.exposure()) <= kMaxExposure, "setDisplay.exposure",
+                  "must be -30..30");
+    check.require(display.scale_maximum() >= 0.0F, "setDisplay.scaleMaximum",
+                  "must not be negative");
+    check.require(!display.has_scale_unit() || display.scale_unit() > 0.0F, "setDisplay.scaleUnit",
+                  "must be above 0");
+}
+
+void check_body(const v1::SetDepths& depths, Checker& check) {
+    const std::uint32_t columns = depths.columns();
+    check.require(columns == 0 || (columns >= 2 && columns <= kMaxDepthColumns),
+                  "setDepths.columns", "must be 0 or 2..512");
+}
+
+void check_body(const v1::MoveObject& move, Checker& check) {
+    check.require(move.object() >= 1, "moveObject.object", "is missing");
+    check.require(move.has_transform(), "moveObject.transform", "is missing");
+    const auto& transform = move.transform();
+    if (transform.has_rotation()) {
+        const auto& q = transform.rotation();
+        const double length = glm::length(glm::dvec4(q.x(), q.y(), q.z(), q.w()));
+        check.require(length >= kMinLength, "moveObject.transform.rotation", "must not be zero");
+    }
+    if (transform.has_scale()) {
+        const glm::dvec3 scale = glm::abs(to_vector(transform.scale()));
+        check.require(std::min({scale.x, scale.y, scale.z}) >= kMinLength,
+                      "moveObject.transform.scale", "must not be zero");
+    }
+}
+
+void check_body(const v1::SetLight& light, Checker& check) {
+    check.require(light.light() >= 1, "setLight.light", "is missing");
+    check.require(light.has_intensity() || light.has_on() || light.has_colour(), "setLight",
+                  "changes nothing: needs intensity, on or colour");
+    check.require(light.intensity() >= 0.0F, "setLight.intensity", "must not be negative");
+    if (light.has_colour()) {
+        check.colour(light.colour(), static_cast<float>(kMaxNumber), "setLight.colour",
+                     "must not be negative");
+        check.require(glm::length(to_vector(light.colour())) >= kMinLength, "setLight.colour",
+                      "must not be black");
+    }
+}
+
+void check_body(const v1::SetMaterial& material, Checker& check) {
+    check.require(material.material() >= 1, "setMaterial.material", "is missing");
+    check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
+                  "setMaterial", "changes nothing: needs baseColour, roughness or metallic");
+    check.colour(material.base_colour(), 1.0F, "setMaterial.baseColour", "must be 0..1");
+    check.share(material.roughness(), "setMaterial.roughness");
+    check.share(material.metallic(), "setMaterial.metallic");
+}
+
+void check_body(const v1::Probe& probe, Checker& check) {
+    check.require(probe.where_case() != v1::Probe::WHERE_NOT_SET, "probe",
+                  "needs a pixel or a ray");
+    if (probe.has_pixel()) {
+        check.require(probe.pixel().x() >= 0.0F && probe.pixel().y() >= 0.0F, "probe.pixel",
+                      "must not be negative");
+    }
+    if (probe.has_ray()) {
+        check.require(probe.ray().has_origin(), "probe.ray.origin", "is missing");
+        check.require(glm::length(to_vector(probe.ray().direction())) >= kMinLength,
+                      "probe.ray.direction", "must not be zero");
+    }
+}
+
+void check_body(const v1::AddPin& pin, Checker& check) {
+    const std::size_t length = characters(pin.text());
+    check.require(length >= 1 && length <= kMaxText, "addPin.text", "must be 1..500 characters");
+    check.require(pin.has_position(), "addPin.position", "is missing");
+}
+
+void check_body(const v1::RemovePin& pin, Checker& check) {
+    check.require(pin.pin() >= 1, "removePin.pin", "is missing");
+}
+
+void check_body(const v1::SaveViewpoint& viewpoint, Checker& check) {
+    const std::size_t length = characters(viewpoint.name());
+    check.require(length >= 1 && length <= kMaxName, "saveViewpoint.name",
+                  "must be 1..64 characters");
+    check_view(viewpoint, "saveViewpoint", check);
+    check_fov(viewpoint.vertical_fov(), "saveViewpoint.verticalFov", check);
+}
+
+void check_body(const v1::RemoveViewpoint& viewpoint, Checker& check) {
+    check.require(viewpoint.viewpoint() >= 1, "removeViewpoint.viewpoint", "is missing");
+}
+
+void check_body(const v1::PointAt& point, Checker& check) {
+    check.require(point.has_position(), "pointAt.position", "is missing");
+}
+
+void check_body(const v1::ProbeGrid& grid, Checker& check) {
+    check.require(grid.has_origin(), "probeGrid.origin", "is missing");
+    const glm::dvec3 x = to_vector(grid.step_x());
+    const glm::dvec3 y = to_vector(grid.step_y());
+    check.require(glm::length(x) >= kMinLength, "probeGrid.stepX", "must not be zero");
+    check.require(glm::length(y) >= kMinLength, "probeGrid.stepY", "must not be zero");
+    const double sine = glm::length(glm::cross(glm::normalize(x), glm::normalize(y)));
+    check.require(sine >= kMinLength, "probeGrid.stepY", "must not lie along stepX");
+    const std::uint64_t points = std::uint64_t{grid.columns()} * grid.rows();
+    check.require(points >= 1 && points <= kMaxGridPoints, "probeGrid.columns",
+                  "columns times rows must be 1..1024");
+}
+
+void check_body(const v1::Ack& ack, Checker& check) {
+    check.require(ack.decode_ms() >= 0.0, "ack.decodeMs", "must not be negative");
+}
+
+void check_body(const v1::Snapshot& snapshot, Checker& check) {
+    check.size(snapshot, false, "snapshot");
+    check.require(snapshot.relative_error() > 0.0F && snapshot.relative_error() <= 1.0F,
+                  "snapshot.relativeError", "must be above 0 and at most 1");
+    check.require(snapshot.format() == v1::Snapshot::EXR || snapshot.format() == v1::Snapshot::PNG,
+                  "snapshot.format", "must be EXR or PNG");
+}
+
+void check_body(const v1::OpenScene& open, Checker& check) {
+    const std::string problem = scene_name_problem(open.name());
+    check.require(problem.empty(), "openScene.name", problem);
+}
+
+void check_message(const v1::ClientMessage& message, Checker& check) {
+    using Body = v1::ClientMessage::BodyCase;
+    switch (message.body_case()) {
+        case Body::kHello:
+            return check_body(message.hello(), check);
+        case Body::kSetCamera:
+            return check_body(message.set_camera(), check);
+        case Body::kSetViewport:
+            return check_body(message.set_viewport(), check);
+        case Body::kSetTarget:
+            return check_body(message.set_target(), check);
+        case Body::kSetDisplay:
+            return check_body(message.set_display(), check);
+        case Body::kMoveObject:
+            return check_body(message.move_object(), check);
+        case Body::kSetLight:
+            return check_body(message.set_light(), check);
+        case Body::kSetMaterial:
+            return check_body(message.set_material(), check);
+        case Body::kProbe:
+            return check_body(message.probe(), check);
+        case Body::kAddPin:
+            return check_body(message.add_pin(), check);
+        case Body::kAck:
+            return check_body(message.ack(), check);
+        case Body::kSnapshot:
+            return check_body(message.snapshot(), check);
+        case Body::kRemovePin:
+            return check_body(message.remove_pin(), check);
+        case Body::kSaveViewpoint:
+            return check_body(message.save_viewpoint(), check);
+        case Body::kRemoveViewpoint:
+            return check_body(message.remove_viewpoint(), check);
+        case Body::kPointAt:
+            return check_body(message.point_at(), check);
+        case Body::kProbeGrid:
+            return check_body(message.probe_grid(), check);
+        case Body::kOpenScene:
+            return check_body(message.open_scene(), check);
+        case Body::kSetDepths:
+            return check_body(message.set_depths(), check);
+        case Body::kGetWalkMap:
+            return check_body(message.get_walk_map(), check);
+        case Body::kSetHidden:
+        case Body::kFollow:
+        case Body::kPing:
+        case Body::kUndo:
+        case Body::kListChanges:
+        case Body::kListScenes:
+        case Body::kMeasureEffects:
+        case Body::kCancelSnapshot:
+        case Body::BODY_NOT_SET:
+            return;
+    }
+}
+
+}  // namespace
+
+std::optional<Refusal> validate(const v1::ClientMessage& message, const WireLimits& limits) {
+    Checker check(limits);
+    check_numbers(message, "", check);
+    check_message(message, check);
+    return check.result();
+}
+
+}  // namespace raybundle
