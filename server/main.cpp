@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/signal_watch.h"
 #include "commands/command.h"
-#include "commands/signal_watch.h"
 #include "gpu/egl_context.h"
 #include "options/cli_options.h"
 #include "options/log_settings.h"

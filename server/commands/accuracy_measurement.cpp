@@ -11,8 +11,8 @@
 
 #include "accuracy/error_map.h"
 #include "accuracy/scene_fingerprint.h"
+#include "app/render_job.h"
 #include "commands/accuracy_reference.h"
-#include "commands/render_job.h"
 #include "journal/session_journal.h"
 #include "reference/emitter_pixels.h"
 #include "scene/effect_removal.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "accuracy/reference_cache.h"
-#include "commands/progress.h"
+#include "app/progress.h"
 
 namespace raybundle {
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "commands/render_job.h"
+#include "app/render_job.h"
 #include "reference/reference_method.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"

@@ -7,8 +7,8 @@
 
 #include "accuracy/error_curve.h"
 #include "accuracy/picture_store.h"
+#include "app/progress.h"
 #include "commands/accuracy_job.h"
-#include "commands/progress.h"
 #include "reference/ray_scene.h"
 
 namespace raybundle {

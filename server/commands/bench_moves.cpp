@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "commands/render_job.h"
+#include "app/render_job.h"
 #include "plot/line_plot.h"
 #include "reference/image_metrics.h"
 #include "transport/solver.h"

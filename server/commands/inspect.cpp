@@ -5,9 +5,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/contact_sheet.h"
+#include "app/effect_costs.h"
 #include "commands/command.h"
-#include "commands/contact_sheet.h"
-#include "commands/effect_costs.h"
 #include "gpu/egl_context.h"
 #include "scene/scene_report.h"
 

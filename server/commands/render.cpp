@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "app/render_job.h"
 #include "commands/command.h"
-#include "commands/render_job.h"
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
 #include "transport/solver.h"

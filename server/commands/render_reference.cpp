@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/render_job.h"
 #include "commands/command.h"
-#include "commands/render_job.h"
 #include "reference/emitter_pixels.h"
 #include "reference/reference_method.h"
 #include "view/image_file.h"

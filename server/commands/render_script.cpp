@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/render_job.h"
 #include "bundle/low_discrepancy.h"
 #include "commands/command.h"
-#include "commands/render_job.h"
 #include "gpu/egl_context.h"
 #include "scene/animation_script.h"
 #include "transport/solver.h"

@@ -10,14 +10,14 @@
 #include <optional>
 #include <thread>
 
+#include "app/effect_bench.h"
+#include "app/journal_choice.h"
+#include "app/metrics_source.h"
+#include "app/preparation.h"
+#include "app/scene_opener.h"
+#include "app/scene_watch.h"
+#include "app/signal_watch.h"
 #include "commands/command.h"
-#include "commands/effect_bench.h"
-#include "commands/journal_choice.h"
-#include "commands/metrics_source.h"
-#include "commands/preparation.h"
-#include "commands/scene_opener.h"
-#include "commands/scene_watch.h"
-#include "commands/signal_watch.h"
 #include "gpu/egl_context.h"
 #include "loop/change_log.h"
 #include "loop/render_loop.h"

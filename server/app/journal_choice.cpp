@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/journal_choice.h"
+#include "app/journal_choice.h"
 
 #include <spdlog/spdlog.h>
 

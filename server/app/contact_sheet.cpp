@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/contact_sheet.h"
+#include "app/contact_sheet.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "commands/effect_trial.h"
+#include "app/effect_trial.h"
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
 #include "view/image_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/scene_opener.h"
+#include "app/scene_opener.h"
 
 #include <spdlog/spdlog.h>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "commands/stopwatch.h"
+#include "app/stopwatch.h"
 
 namespace raybundle {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
-#include "commands/command.h"
-#include "commands/opening_times.h"
-#include "commands/scene_library.h"
+#include "app/load_scene.h"
+#include "app/opening_times.h"
+#include "app/scene_library.h"
 #include "net/server.h"
 
 namespace raybundle {

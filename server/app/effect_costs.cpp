@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/effect_costs.h"
+#include "app/effect_costs.h"
 
 #include <algorithm>
 
-#include "commands/effect_trial.h"
+#include "app/effect_trial.h"
 #include "gpu/egl_context.h"
 
 namespace raybundle {

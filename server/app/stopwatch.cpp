@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/stopwatch.h"
+#include "app/stopwatch.h"
 
 #include <cstdlib>
 

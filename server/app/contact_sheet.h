@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "commands/command.h"
+#include "app/load_scene.h"
 #include "options/cli_options.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/preparation.h"
+#include "app/preparation.h"
 
 #include <spdlog/spdlog.h>
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "commands/progress.h"
+#include "app/progress.h"
 #include "options/cli_options.h"
 #include "scene/scene.h"
 #include "view/final_picture.h"

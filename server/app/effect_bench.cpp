@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/effect_bench.h"
+#include "app/effect_bench.h"
 
 #include <spdlog/spdlog.h>
 
-#include "commands/effect_costs.h"
+#include "app/effect_costs.h"
 #include "loop/scene_messages.h"
 
 namespace raybundle {

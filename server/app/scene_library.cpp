@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/scene_library.h"
+#include "app/scene_library.h"
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/opening_times.h"
+#include "app/opening_times.h"
 
 #include <algorithm>
 

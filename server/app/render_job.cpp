@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/render_job.h"
+#include "app/render_job.h"
 
 #include <fmt/core.h>
 

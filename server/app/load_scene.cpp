@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "commands/command.h"
+#include "app/load_scene.h"
 #include "journal/session_journal.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_loader.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/progress.h"
+#include "app/progress.h"
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>

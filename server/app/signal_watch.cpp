@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/signal_watch.h"
+#include "app/signal_watch.h"
 
 #include <sys/syscall.h>
 #include <unistd.h>

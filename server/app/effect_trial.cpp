@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/effect_trial.h"
+#include "app/effect_trial.h"
 
 #include <epoxy/gl.h>
 
-#include "commands/render_job.h"
+#include "app/render_job.h"
 #include "scene/effect_removal.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "commands/command.h"
+#include "app/load_scene.h"
 
 namespace raybundle {
 
