@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "accuracy/accuracy_report.h"
 #include "commands/accuracy_measurement.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
+#include "research/accuracy/accuracy_report.h"
 
 namespace raybundle {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/error_curve.h"
 #include "options/cli_options.h"
+#include "research/accuracy/error_curve.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"
 

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <thread>
 
-#include "accuracy/error_map.h"
-#include "accuracy/scene_fingerprint.h"
 #include "app/render_job.h"
 #include "commands/accuracy_reference.h"
 #include "journal/session_journal.h"
 #include "reference/emitter_pixels.h"
+#include "research/accuracy/error_map.h"
+#include "research/accuracy/scene_fingerprint.h"
 #include "scene/effect_removal.h"
 #include "scene/effects_plan.h"
 #include "view/tone_curve.h"

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/accuracy_report.h"
-#include "accuracy/reference_cache.h"
 #include "commands/accuracy_runs.h"
 #include "commands/command.h"
+#include "research/accuracy/accuracy_report.h"
+#include "research/accuracy/reference_cache.h"
 
 namespace raybundle {
 

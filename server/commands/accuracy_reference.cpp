@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/error_curve.h"
+#include "research/accuracy/error_curve.h"
 
 namespace raybundle {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "accuracy/reference_cache.h"
 #include "app/progress.h"
+#include "research/accuracy/reference_cache.h"
 
 namespace raybundle {
 

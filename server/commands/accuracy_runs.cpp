@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "app/render_job.h"
-#include "reference/reference_method.h"
+#include "research/reference_method.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"
 

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "accuracy/error_curve.h"
-#include "accuracy/picture_store.h"
 #include "app/progress.h"
 #include "commands/accuracy_job.h"
 #include "reference/ray_scene.h"
+#include "research/accuracy/error_curve.h"
+#include "research/accuracy/picture_store.h"
 
 namespace raybundle {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/render_job.h"
-#include "plot/line_plot.h"
 #include "reference/image_metrics.h"
+#include "research/plot/line_plot.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -11,7 +11,7 @@
 #include "app/render_job.h"
 #include "commands/command.h"
 #include "reference/emitter_pixels.h"
-#include "reference/reference_method.h"
+#include "research/reference_method.h"
 #include "view/image_file.h"
 #include "view/tone_curve.h"
 

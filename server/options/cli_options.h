@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "net/access/access_tokens.h"
-#include "reference/reference_method.h"
+#include "research/reference_method.h"
 #include "transport/iteration_schedule.h"
 
 namespace CLI {

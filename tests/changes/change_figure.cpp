@@ -15,7 +15,7 @@
 
 #include "changed_scene.h"
 #include "gpu/egl_context.h"
-#include "plot/line_plot.h"
+#include "research/plot/line_plot.h"
 
 namespace raybundle {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "../oracle/methods.h"
 #include "../reference/rooms.h"
-#include "reference/single_ray.h"
+#include "research/single_ray.h"
 #include "transport/solver.h"
 
 namespace raybundle {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/reference_picture.h"
+#include "research/accuracy/reference_picture.h"
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "view/final_picture.h"

@@ -4,7 +4,7 @@
 #include "oracle/oracle_solve.h"
 #include "reference/light_sampling.h"
 #include "reference/ray_scene.h"
-#include "reference/single_ray.h"
+#include "research/single_ray.h"
 
 namespace raybundle {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "reference/reference_method.h"
-#include "reference/single_ray.h"
+#include "research/reference_method.h"
+#include "research/single_ray.h"
 #include "rooms.h"
 
 namespace raybundle {

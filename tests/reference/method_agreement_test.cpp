@@ -17,8 +17,8 @@
 
 #include "agreement_views.h"
 #include "lit_room.h"
-#include "reference/reference_method.h"
 #include "reference/specular_walk.h"
+#include "research/reference_method.h"
 #include "rooms.h"
 
 namespace raybundle {

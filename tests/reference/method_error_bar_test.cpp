@@ -11,7 +11,7 @@
 #include "lit_room.h"
 #include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
-#include "reference/reference_method.h"
+#include "research/reference_method.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/photon_map.h"
+#include "research/photon_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/photon_tracer.h"
+#include "research/photon_tracer.h"
 #include "rooms.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/primary_sample.h"
+#include "research/primary_sample.h"
 
 #include <gtest/gtest.h>
 

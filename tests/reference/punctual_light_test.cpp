@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lit_room.h"
-#include "reference/single_ray.h"
+#include "research/single_ray.h"
 #include "rooms.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "accuracy/reference_picture.h"
+#include "research/accuracy/reference_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "accuracy/reference_cache.h"
-#include "accuracy/scene_fingerprint.h"
 #include "reference/emitter_pixels.h"
 #include "reference/image_metrics.h"
+#include "research/accuracy/reference_cache.h"
+#include "research/accuracy/scene_fingerprint.h"
 #include "rooms.h"
 
 namespace raybundle {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single-ray transport against closed forms and against path tracing. Batch means give 15 degrees
 // of freedom: a deviation of 6.5 standard errors is passed by chance once in 100 000.
-#include "reference/single_ray.h"
+#include "research/single_ray.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

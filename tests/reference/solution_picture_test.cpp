@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/reference_method.h"
+#include "research/reference_method.h"
 #include "rooms.h"
 
 namespace raybundle {

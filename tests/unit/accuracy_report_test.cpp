@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "accuracy/accuracy_report.h"
+#include "research/accuracy/accuracy_report.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <set>
 
-#include "accuracy/error_map.h"
-#include "accuracy/picture_store.h"
+#include "research/accuracy/error_map.h"
+#include "research/accuracy/picture_store.h"
 #include "xml_check.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "accuracy/error_curve.h"
+#include "research/accuracy/error_curve.h"
 
 #include <gtest/gtest.h>
 

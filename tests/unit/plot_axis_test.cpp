@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "plot/axis.h"
-#include "plot/plot_labels.h"
+#include "research/plot/axis.h"
+#include "research/plot/plot_labels.h"
 
 namespace raybundle {
 namespace {

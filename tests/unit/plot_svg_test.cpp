@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "plot/line_plot.h"
-#include "plot/svg_text.h"
+#include "research/plot/line_plot.h"
+#include "research/plot/svg_text.h"
 #include "xml_check.h"
 
 namespace raybundle {
