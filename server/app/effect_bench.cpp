@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/effect_costs.h"
-#include "loop/scene_messages.h"
+#include "session/scene_messages.h"
 
 namespace raybundle {
 

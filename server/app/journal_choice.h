@@ -5,8 +5,8 @@
 #include <string>
 
 #include "journal/state_folder.h"
-#include "loop/change_log.h"
 #include "options/cli_options.h"
+#include "session/changes/change_log.h"
 
 namespace raybundle {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "loop/change_log.h"
-#include "loop/render_loop.h"
 #include "net/server.h"
+#include "session/changes/change_log.h"
+#include "session/render_loop.h"
 
 namespace raybundle {
 

@@ -19,13 +19,13 @@
 #include "app/signal_watch.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
-#include "loop/change_log.h"
-#include "loop/render_loop.h"
 #include "net/server.h"
 #include "options/config_file.h"
 #include "options/log_settings.h"
 #include "options/serve_settings.h"
 #include "scene/gltf_confinement.h"
+#include "session/changes/change_log.h"
+#include "session/render_loop.h"
 
 namespace raybundle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop/change_gate.h"
+#include "session/changes/change_gate.h"
 
 #include <gtest/gtest.h>
 

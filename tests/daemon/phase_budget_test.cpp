@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop/phase_budget.h"
+#include "session/phase_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The board of pins and viewpoints by itself, without a server.
-#include "loop/review_board.h"
+#include "session/review/review_board.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets by viewers' names, by themselves, with and without a journal.
-#include "loop/target_book.h"
+#include "session/viewers/target_book.h"
 
 #include <gtest/gtest.h>
 

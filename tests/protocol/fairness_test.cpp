@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "loop/snapshot_quota.h"
 #include "net/access/peer_name.h"
 #include "net/access/wrong_tokens.h"
 #include "net/server.h"
 #include "net/ws/receive_slice.h"
 #include "net/ws/session.h"
 #include "raw_client.h"
+#include "session/snapshots/snapshot_quota.h"
 
 namespace raybundle {
 namespace {

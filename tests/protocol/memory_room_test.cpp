@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whose picture there is memory for.
-#include "loop/memory_room.h"
+#include "session/memory_room.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "loop/loop_metrics.h"
 #include "metrics_check.h"
 #include "net/http/metrics_text.h"
 #include "net/network_state.h"
+#include "session/loop_metrics.h"
 
 namespace raybundle {
 namespace {

@@ -2,8 +2,8 @@
 // Changes on their way to the solver: joined, in order, none lost; and the way back.
 #include <gtest/gtest.h>
 
-#include "loop/change_queue.h"
-#include "loop/scene_history.h"
+#include "session/changes/change_queue.h"
+#include "session/changes/scene_history.h"
 
 namespace raybundle {
 namespace {

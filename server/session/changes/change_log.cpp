@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/changes/change_log.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "session/scene_messages.h"
+
+namespace raybundle {
+
+namespace {
+
+/// What the journal keeps of a change for its history: the state before it, and who made it when.
+v1::SceneChanged signed_state(v1::SceneChanged before, const v1::SceneChanged& change) {
+    before.set_by(change.by());
+    before.set_by_name(change.by_name());
+    before.set_at_ms(change.at_ms());
+    if (before.has_move_object() && change.move_object().has_final()) {
+        before.mutable_move_object()->set_final(change.move_object().final());
+    }
+    return before;
+}
+
+/// The state alone.
+v1::SceneChanged unsigned_state(v1::SceneChanged state) {
+    state.clear_by();
+    state.clear_by_name();
+    state.clear_at_ms();
+    if (state.has_move_object()) {
+        state.mutable_move_object()->clear_final();
+    }
+    return state;
+}
+
+/// The change that led from one state to the other. signature: of signed_state().
+v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChanged after) {
+    set_before(unsigned_state(signature), after);
+    after.set_by(signature.by());
+    after.set_by_name(signature.by_name());
+    after.set_at_ms(signature.at_ms());
+    if (after.has_move_object() && signature.move_object().has_final()) {
+        after.mutable_move_object()->set_final(signature.move_object().final());
+    }
+    return after;
+}
+
+}  // namespace
+
+ChangeLog::ChangeLog(const JournalSettings& settings) : settings_(settings), required_(true) {
+    open();
+    epoch_ = journal_ ? journal_->epoch() : 0;
+}
+
+void ChangeLog::resume() {
+    if (required_) {
+        open();
+    }
+}
+
+void ChangeLog::open() {
+    try {
+        journal_.emplace(settings_);
+        working_ = true;
+        problem_.clear();
+        if (journal_->set_aside()) {
+            spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
+                          *journal_->set_aside());
+        }
+    } catch (const JournalError& error) {
+        working_ = false;
+        if (problem_ != error.what()) {  // each change tries again
+            problem_ = error.what();
+            spdlog::error("the scene cannot be changed, since changes cannot be saved: {}",
+                          problem_);
+        }
+    }
+}
+
+/// Takes up a journal that could not be used before, if it goes on where this scene is.
+void ChangeLog::open_again() {
+    open();
+    if (journal_ && journal_->epoch() != epoch_) {
+        spdlog::error("the journal can be used again, but has changes that are not shown: restart");
+        journal_.reset();
+        working_ = false;
+    }
+}
+
+void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
+    if (!journal_) {
+        return;
+    }
+    std::vector<v1::SceneChanged> changes;
+    try {
+        changes = journal_->changes();
+    } catch (const JournalError& error) {
+        working_ = false;
+        journal_.reset();
+        spdlog::error("the scene is shown without the changes made to it and cannot be changed: {}",
+                      error.what());
+        return;
+    }
+    std::vector<std::uint32_t> materials(scene.materials.size());
+    std::iota(materials.begin(), materials.end(), 0U);
+    bool surfaces = false;
+    for (const v1::SceneChanged& change : changes) {
+        if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET) {
+            spdlog::error("change {} of the journal cannot be read and is lost", change.epoch());
+            continue;
+        }
+        if (problem_of(scene, change).code() != v1::Error::CODE_UNSPECIFIED) {
+            spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
+            continue;
+        }
+        apply(scene, change);
+        surfaces |= !change.has_move_object();
+    }
+    if (surfaces) {
+        refresh_surfaces(scene, materials, mesh);
+    }
+    restore_history(scene);
+    spdlog::info("the session goes on at epoch {}", epoch_);
+}
+
+/// What can be gone back to in this session. scene: at its present state.
+void ChangeLog::restore_history(const Scene& scene) {
+    history_ = SceneHistory(epoch_);
+    std::vector<v1::SceneChanged> past;
+    try {
+        past = journal_->past();
+    } catch (const JournalError& error) {
+        spdlog::error("changes before the restart cannot be undone: {}", error.what());
+    }
+    const bool fits = std::all_of(past.begin(), past.end(), [&scene](const auto& before) {
+        return problem_of(scene, before).code() == v1::Error::CODE_UNSPECIFIED;
+    });
+    if (past.empty() || !fits) {
+        return;
+    }
+    // After a change its subject is what it is before its next one.
+    std::vector<v1::SceneChanged> after(past.size());
+    std::map<ChangeSubject, v1::SceneChanged> later;
+    for (std::size_t i = past.size(); i-- > 0;) {
+        const auto known = later.find(subject_of(past[i]));
+        after[i] = known != later.end() ? unsigned_state(known->second) : state_of(scene, past[i]);
+        after[i].set_epoch(past[i].epoch());
+        later[subject_of(past[i])] = past[i];
+    }
+    history_ = SceneHistory(past.front().epoch() - 1);
+    for (std::size_t i = 0; i < past.size(); ++i) {
+        history_.note(unsigned_state(past[i]), after[i]);
+        records_.add(change_between(past[i], after[i]));
+    }
+}
+
+bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before) {
+    change.set_epoch(epoch_ + 1);
+    if (required_ && !journal_) {
+        open_again();
+    }
+    if (required_ && !journal_) {
+        ++failures_;
+        return false;
+    }
+    try {
+        if (journal_) {
+            journal_->append(change, signed_state(before, change));
+        }
+    } catch (const JournalError& error) {
+        ++failures_;
+        working_ = false;
+        spdlog::error("a change was refused, since it could not be saved: {}", error.what());
+        return false;
+    }
+    working_ = true;
+    ++epoch_;
+    v1::SceneChanged record = change;
+    set_before(before, record);
+    records_.add(std::move(record));
+    return true;
+}
+
+bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (required_ && !journal_) {
+        open_again();
+    }
+    if (required_ && !journal_) {
+        ++failures_;
+        return false;
+    }
+    try {
+        if (journal_ && body.empty()) {
+            journal_->drop_note(kind, number);
+        } else if (journal_) {
+            journal_->keep_note(kind, number, body);
+        }
+    } catch (const JournalError& error) {
+        ++failures_;
+        working_ = false;
+        spdlog::error("a note was refused, since it could not be saved: {}", error.what());
+        return false;
+    }
+    return true;
+}
+
+void ChangeLog::remember_scene(const std::string& started_with, const std::string& shown) {
+    try {
+        if (journal_) {
+            journal_->remember_scene(started_with, shown);
+        }
+    } catch (const JournalError& error) {
+        spdlog::error("after a restart another scene will be shown: {}", error.what());
+    }
+}
+
+std::vector<std::string> ChangeLog::notes(NoteKind kind) {
+    try {
+        return journal_ ? journal_->notes(kind) : std::vector<std::string>();
+    } catch (const JournalError& error) {
+        spdlog::error("notes are missing: {}", error.what());
+        return {};
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/changes/change_queue.h"
+
+#include <utility>
+
+namespace raybundle {
+
+namespace {
+constexpr std::size_t max_requests = 64;  // of one change; a further one waits for its own
+}
+
+v1::SceneChanged change_of(const ClientEvent& event) {
+    v1::SceneChanged change;
+    change.set_by(event.viewer);
+    const v1::ClientMessage& message = event.message;
+    if (message.has_move_object()) {
+        *change.mutable_move_object() = message.move_object();
+    } else if (message.has_set_light()) {
+        *change.mutable_set_light() = message.set_light();
+    } else if (message.has_set_material()) {
+        *change.mutable_set_material() = message.set_material();
+    }
+    return change;
+}
+
+void ChangeQueue::add(const ClientEvent& event) {
+    const v1::SceneChanged change = change_of(event);
+    PendingChange* waiting = nullptr;
+    for (PendingChange& pending : pending_) {
+        if (pending.is_undo()) {
+            waiting = nullptr;
+        } else if (subject_of(pending.change) == subject_of(change)) {
+            waiting = &pending;
+        }
+    }
+    const bool undo = change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
+    if (undo || waiting == nullptr || waiting->requests.size() >= max_requests) {
+        pending_.push_back({change, {event}, false});
+        return;
+    }
+    add_change(change, waiting->change);
+    waiting->requests.push_back(event);
+}
+
+void ChangeQueue::add_undone(const std::vector<v1::SceneChanged>& changes,
+                             const PendingChange& undo) {
+    pending_.push_front(undo);
+    pending_.front().undone = true;
+    for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
+        pending_.push_front({*change, {}, false});
+        pending_.front().change.set_by(undo.change.by());
+    }
+}
+
+PendingChange ChangeQueue::take() {
+    PendingChange first = std::move(pending_.front());
+    pending_.pop_front();
+    return first;
+}
+
+std::vector<ClientEvent> ChangeQueue::take_requests() {
+    std::vector<ClientEvent> requests;
+    for (const PendingChange& pending : pending_) {
+        requests.insert(requests.end(), pending.requests.begin(), pending.requests.end());
+    }
+    pending_.clear();
+    return requests;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/loop_metrics.h"
+
+#include <limits>
+
+#include "net/http/metrics_text.h"
+
+namespace raybundle {
+
+void LoopMetrics::count_frame(std::size_t bytes) {
+    ++frames_;
+    frame_bytes_ += bytes;
+}
+
+void LoopMetrics::note_step(std::optional<Strategy> strategy, double milliseconds) {
+    const std::lock_guard lock(mutex_);
+    Steps& steps = !strategy                            ? special_
+                   : *strategy == Strategy::perspective ? perspective_
+                                                        : layered_;
+    ++steps.count;
+    steps.seconds += milliseconds / 1000.0;
+}
+
+void LoopMetrics::publish(const LoopFigures& figures, Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    const double elapsed = std::chrono::duration<double>(now - published_).count();
+    const std::uint64_t frames = frames_;
+    if (elapsed > 0.0) {
+        frames_per_second_ = static_cast<double>(frames - frames_before_) / elapsed;
+    }
+    frames_before_ = frames;
+    published_ = now;
+    figures_ = figures;
+}
+
+std::string LoopMetrics::text() const {
+    const std::lock_guard lock(mutex_);
+    const LoopFigures& f = figures_;
+    MetricsText out;
+    out.counter("raybundle_iterations_total", "Solver iterations since loading",
+                static_cast<double>(f.iterations));
+    out.gauge("raybundle_iterations_per_second", "Solver iterations per second",
+              f.iterations_per_second);
+    out.family("raybundle_iteration_seconds", "summary",
+               "Time of the GL thread in one step of the solver");
+    for (const auto& [name, steps] :
+         {std::pair("perspective", perspective_), std::pair("layered", layered_),
+          std::pair("special", special_)}) {
+        const std::string label = "strategy=\"" + std::string(name) + "\"";
+        out.sample("raybundle_iteration_seconds_sum", label, steps.seconds);
+        out.sample("raybundle_iteration_seconds_count", label, static_cast<double>(steps.count));
+    }
+    out.counter("raybundle_special_phases_total",
+                "Special iteration phases: changes that waited together pass one",
+                static_cast<double>(phases_));
+    out.counter("raybundle_loop_turns_total",
+                "Turns of the render loop: 20 a second while it has nothing to do",
+                static_cast<double>(turns_));
+    out.gauge("raybundle_settled", "Part of the last change already worked in, 0 to 1", f.settled);
+    out.gauge("raybundle_relative_error", "Largest estimated relative error of a viewer's picture",
+              f.relative_error.value_or(std::numeric_limits<double>::quiet_NaN()));
+    out.gauge("raybundle_epoch", "Scene changes applied", f.epoch);
+    out.gauge("raybundle_rendered_viewers", "Viewers with a picture", f.viewers);
+    out.gauge("raybundle_moving_viewers", "Viewers whose picture moves", f.moving);
+    out.gauge("raybundle_paused_viewers", "Viewers that acknowledge nothing", f.paused);
+    out.counter("raybundle_viewers_refused_total", "Viewers refused because time is short",
+                static_cast<double>(refused_));
+    out.gauge("raybundle_frames_per_second", "Frames encoded per second, all viewers",
+              frames_per_second_);
+    out.counter("raybundle_frames_total", "Frames encoded", static_cast<double>(frames_));
+    out.counter("raybundle_frame_bytes_total", "Bytes of encoded frames",
+                static_cast<double>(frame_bytes_));
+    out.counter("raybundle_non_finite_total", "Contributions dropped because not finite",
+                static_cast<double>(f.non_finite));
+    out.gauge("raybundle_gl_memory_bytes", "OpenGL buffers and textures",
+              static_cast<double>(f.gl_bytes));
+    out.counter("raybundle_journal_failures_total", "Changes refused because not saved",
+                static_cast<double>(f.journal_failures));
+    out.gauge("raybundle_journal_working", "0 after a change could not be saved",
+              f.journal_working ? 1.0 : 0.0);
+    return out.text();
+}
+
+}  // namespace raybundle

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "raybundle.pb.h"
+#include "session/changes/change_log.h"
+
+namespace raybundle {
+
+/// A pin and what its light is compared with.
+struct Pin {
+    v1::PinChanged message;
+    std::uint32_t patch = 0;
+    /// Mean irradiance of the patch when the pin was set, lx; follows the solution as it refines
+    /// until the scene changes.
+    float patch_illuminance = 0.0F;
+    std::uint64_t next_look = 0;  ///< iterations from which on it is worth measuring better
+};
+
+/// What the viewers of a session leave for each other: pins and viewpoints. Each is in the journal
+/// before it is here. Knows neither GL nor the network.
+class ReviewBoard {
+  public:
+    static constexpr std::size_t max_pins = 256;
+    static constexpr std::size_t max_viewpoints = 64;
+
+    /// Takes up what the journal holds. Notes of patches that the mesh lacks keep their text.
+    ReviewBoard(ChangeLog& log, std::uint32_t patch_count);
+
+    /// Numbers a pin and stores it. Nothing where the board is full or it cannot be stored; the
+    /// reason is in refusal().
+    const Pin* add_pin(Pin pin);
+    const v1::ViewpointChanged* add_viewpoint(v1::ViewpointChanged viewpoint);
+
+    /// Takes a note away; false where there is none (NOT_FOUND) or that cannot be stored.
+    bool remove_pin(std::uint32_t number);
+    bool remove_viewpoint(std::uint32_t number);
+    [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
+
+    /// Stores what is known of the light at a pin, so that it is known after a restart. A failure
+    /// is logged: the next value tries again.
+    void keep(const Pin& pin);
+
+    /// The next pin whose light is to be looked at again, in turn; null where there is none.
+    Pin* next_pin();
+
+    /// What a newcomer is told.
+    void fill_welcome(v1::Welcome* welcome) const;
+
+    [[nodiscard]] const std::map<std::uint32_t, Pin>& pins() const { return pins_; }
+
+  private:
+    bool refuse(v1::Error::Code code, const std::string& reason);
+
+    ChangeLog& log_;
+    std::map<std::uint32_t, Pin> pins_;
+    std::map<std::uint32_t, v1::ViewpointChanged> viewpoints_;
+    std::uint32_t next_pin_number_ = 1;
+    std::uint32_t next_viewpoint_number_ = 1;
+    std::uint32_t last_checked_ = 0;
+    v1::Error refusal_;
+};
+
+/// Compares the light at a pin with what it was. `illuminance`: of its patch now, lx. True where
+/// `change` in its message is new or differs by more than 2 % of what was said last.
+bool update_change(Pin& pin, float illuminance, std::uint32_t epoch);
+
+}  // namespace raybundle

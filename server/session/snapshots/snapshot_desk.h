@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "gpu/egl_context.h"
+#include "net/server.h"
+#include "session/changes/earlier_scene.h"
+#include "stream/time_share.h"
+#include "view/picture_tiles.h"
+#include "view/viewer_image.h"
+
+namespace raybundle {
+
+/// Pictures that viewers have asked for, rendered off-screen one after the other. A picture takes
+/// part in whole groups of iterations, a large one tile by tile (PictureTiles); while anybody
+/// moves, only as often as keeps what it costs below a share of the time. One of an earlier epoch
+/// has iterations of its own: while somebody moves in the same share of the time, while all rest in
+/// turns with the present scene, and all of the time where nobody needs it. Thread of the GL
+/// context.
+class SnapshotDesk {
+  public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr double time_share = 0.18;  ///< of the solver's time while somebody moves
+    static constexpr std::uint64_t least_samples = 32;  ///< before an error is believed
+
+    /// Makes the scene as it was after a change; null where that is not known any more.
+    using MakeEarlier = std::function<std::unique_ptr<EarlierScene>(std::uint32_t epoch)>;
+
+    SnapshotDesk(Server& server, MakeEarlier make_earlier);
+    ~SnapshotDesk();
+    SnapshotDesk(const SnapshotDesk&) = delete;
+    SnapshotDesk& operator=(const SnapshotDesk&) = delete;
+
+    /// Takes a request for what `camera` sees, or refuses it. look: of PNG.
+    void add(const ClientEvent& request, const Camera& camera, const PictureLook& look);
+    /// Whether picture_of() a viewer is that of its request with this id.
+    [[nodiscard]] bool is_making(ViewerId viewer, std::uint32_t request) const;
+    /// Takes a request back that the viewer has made; what is_making() it is destroyed.
+    void cancel(const ClientEvent& request);
+    /// A viewer has left: what it has asked for is dropped.
+    void forget(ViewerId viewer);
+    /// The picture that is being made for a viewer, null where there is none. forget() destroys it.
+    [[nodiscard]] const ViewerImage* picture_of(ViewerId viewer) const;
+    /// The scene has changed, or another solver has it: a picture of it begins anew.
+    void restart();
+    /// Answers all that waits: the server is stopping.
+    void refuse_all();
+
+    [[nodiscard]] bool waiting() const { return !requests_.empty(); }
+    /// What is rendered now needs no iterations of the present solution.
+    [[nodiscard]] bool apart() const { return apart_; }
+
+    /// Between two groups of iterations: delivers the picture where it is done, else says whether
+    /// it takes part in the next group. Null where it does not. undisturbed: nobody moves.
+    ViewerImage* next_receiver(const GpuScene& scene, const RadianceStore& store,
+                               const ViewPrograms& programs, std::uint32_t epoch, bool undisturbed);
+    /// Tells those who wait how far their pictures are, once a second.
+    void report();
+    /// An iteration has taken so long, ms.
+    void note_iteration(double cost_ms);
+
+  private:
+    struct Request {
+        ClientEvent event;
+        Camera camera;
+        PictureLook look;
+        Clock::time_point since = Clock::now();
+
+        [[nodiscard]] double error() const {
+            return static_cast<double>(event.message.snapshot().relative_error());
+        }
+    };
+    struct Finished;
+
+    /// Encodes and delivers on a thread of its own; one picture at a time.
+    class Delivery {
+      public:
+        explicit Delivery(Server& server);
+        ~Delivery();
+        Delivery(const Delivery&) = delete;
+        Delivery& operator=(const Delivery&) = delete;
+        void submit(std::unique_ptr<Finished> picture);
+        [[nodiscard]] bool busy();
+
+      private:
+        void work(const std::stop_token& token);
+
+        Server& server_;
+        std::mutex mutex_;
+        std::condition_variable_any changed_;
+        std::unique_ptr<Finished> next_;
+        bool running_ = false;
+        std::jthread thread_;
+    };
+
+    bool begin(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs);
+    [[nodiscard]] bool wants_earlier(std::uint32_t epoch) const;
+    bool prepare_earlier();
+    void work_on_earlier();
+    bool finish_earlier();
+    void refresh_statistics();
+    void charge_since(Clock::time_point start);
+    [[nodiscard]] v1::SnapshotProgress progress_of_first() const;
+    void drop_picture();
+    [[nodiscard]] bool done();
+    void deliver(std::uint32_t epoch);
+    void drop(const GpuError& error);
+    static void encode(Finished& picture, Server& server);
+
+    Server& server_;
+    MakeEarlier make_earlier_;
+    std::deque<Request> requests_;           ///< the first one is being rendered
+    std::unique_ptr<EarlierScene> earlier_;  ///< kept for a while: who compares looks around
+    Clock::time_point earlier_used_;
+    bool apart_ = false;                  ///< image_ is, or will be, of earlier_
+    std::optional<PictureTiles> tiles_;   ///< of the picture that is being made
+    std::unique_ptr<ViewerImage> image_;  ///< its next tile
+    Clock::time_point begun_;             ///< image_
+    bool taking_part_ = false;
+    bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
+    Clock::time_point last_report_;
+    Clock::time_point last_statistics_;
+    TimeShare share_{time_share};
+    Delivery delivery_{server_};
+};
+
+}  // namespace raybundle

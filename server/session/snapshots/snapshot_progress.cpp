@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What those who wait for snapshots hear.
+#include <cmath>
+
+#include "session/snapshots/snapshot_desk.h"
+#include "stream/elapsed.h"
+#include "view/error_interval.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr std::chrono::seconds report_interval(1);
+
+}  // namespace
+
+/// What is known of the picture that is being made.
+v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
+    v1::SnapshotProgress progress;
+    if (!image_ || image_->samples() < least_samples || !image_->statistics().known) {
+        return progress;
+    }
+    const ImageStatistics& statistics = image_->statistics();
+    progress.set_relative_error(static_cast<float>(statistics.error_high));
+    const double factor =
+        samples_factor(statistics.noise, statistics.discretisation, requests_.front().error(),
+                       statistics.samples, image_->sample_order());
+    if (std::isfinite(factor)) {
+        const double spent = seconds(Clock::now() - begun_);
+        const auto after = static_cast<double>(tiles_->count() - tiles_->done() - 1);
+        progress.set_seconds_left(static_cast<float>((factor - 1.0 + factor * after) * spent));
+    }
+    return progress;
+}
+
+void SnapshotDesk::report() {
+    const auto now = Clock::now();
+    if (requests_.empty() || now - last_report_ < report_interval) {
+        return;
+    }
+    last_report_ = now;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        const ClientEvent& event = requests_[i].event;
+        if (!event.message.has_id() || now - requests_[i].since < report_interval) {
+            continue;
+        }
+        v1::ServerMessage message;
+        v1::SnapshotProgress& progress = *message.mutable_snapshot_progress();
+        if (i == 0) {
+            progress = progress_of_first();
+        }
+        progress.set_request(event.message.id());
+        progress.set_ahead(static_cast<std::uint32_t>(i));
+        server_.send(event.viewer, message);
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "raybundle.pb.h"
+#include "session/changes/change_log.h"
+
+namespace raybundle {
+
+/// What viewers want to wait for, by their names, so that who comes back after the server was
+/// killed need not say it again. Each is in the journal before it is here. Viewers without a name
+/// are not remembered. Knows neither GL nor the network.
+class TargetBook {
+  public:
+    static constexpr std::size_t max_targets = 64;  ///< what was set longest ago is forgotten first
+
+    /// Takes up what the journal holds.
+    explicit TargetBook(ChangeLog& log);
+
+    /// Remembers a target; one without a goal is forgotten. False: it could not be stored, and
+    /// nothing has changed.
+    [[nodiscard]] bool keep(const std::string& name, const v1::SetTarget& target);
+
+    /// The target of that name; null where there is none.
+    [[nodiscard]] const v1::SetTarget* of(const std::string& name) const;
+
+  private:
+    bool drop(const std::string& name);
+
+    ChangeLog& log_;
+    std::map<std::string, v1::JournalTarget> targets_;  ///< numbers grow with time
+    std::uint32_t next_number_ = 1;
+};
+
+}  // namespace raybundle
