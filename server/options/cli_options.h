@@ -13,7 +13,7 @@
 
 #include "net/access/access_tokens.h"
 #include "research/reference_method.h"
-#include "transport/iteration_schedule.h"
+#include "transport/strategy_probabilities.h"
 
 namespace CLI {
 class App;

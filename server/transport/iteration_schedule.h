@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "bundle/low_discrepancy.h"
+#include "transport/strategy_probabilities.h"
 
 namespace raybundle {
 
 enum class Strategy { layered, plane, perspective };
-
-/// Probabilities of the strategies (ch. 6.2): the densities of all receivers use the same numbers.
-struct StrategyProbabilities {
-    float layered = 0.3F;      ///< P1
-    float plane = 0.0F;        ///< P2
-    float perspective = 0.7F;  ///< P3
-};
 
 /// The random numbers of one iteration.
 struct IterationSample {
