@@ -101,10 +101,10 @@ export const plusMinusCell = (standardError) =>
  * @param {number} value
  * @param {string} unit
  * @param {StandardError} standardError
- * @returns {string} e.g. "482 lx", or "≈ 500 lx" where it is hardly known
+ * @returns {string} e.g. "482 lx", or "≈ 500 lx" where its error is large, or not known
  */
 export function estimated(value, unit, standardError) {
-    const number = hopeless(standardError) ? `≈ ${oneDigit(value)}` : threeDigits(value);
+    const number = hopeless(standardError) || !estimatedAtAll(standardError) ? `≈ ${oneDigit(value)}` : threeDigits(value);
     return `${number} ${unit}`.trimEnd();
 }
 

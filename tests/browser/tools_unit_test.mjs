@@ -419,9 +419,10 @@ describe('colours and units', () => {
         assert.equal(units.plusMinus(0.6), 'still uncertain');
         assert.equal(units.measured(482.1, 'lx', 0.012), '482 lx ± 2.4 %');
         assert.equal(units.measured(482.1, 'lx', 0.6), '≈ 500 lx, still uncertain');
-        assert.equal(units.measured(107.639, 'fc', undefined), '10.0 fc, error not yet known');
+        assert.equal(units.measured(107.639, 'fc', undefined), '≈ 10 fc, error not yet known');
         assert.equal(units.estimated(38.2, '', 0.6), '≈ 40');
         assert.equal(units.estimated(38.2, '', 0.1), '38.2');
+        assert.equal(units.estimated(38.2, '', undefined), '≈ 40', 'no more digits than anybody knows of');
         assert.deepEqual([0.1, 0.6, -1].map(units.noteOf), ['', 'still uncertain', 'error not yet known']);
     });
 });
