@@ -2,13 +2,13 @@
 // What has been changed in the scene, by whom, when, from what to what: everybody's, also before this page came.
 
 import {nameOf} from './arrivals.js';
-import {toHex, temperatureOf} from './colour.js';
+import {luminance, toHex, temperatureOf} from './colour.js';
 import {byId, replaceRows, showValue} from './elements.js';
 import {metres} from './format.js';
 import {subjectOf} from './history.js';
 import {deedOf} from './placement.js';
 import {threeDigits} from './units.js';
-import {completeTransform, length, matrixVector, sub} from './vector.js';
+import {completeTransform, length, matrixVector, scale, sub} from './vector.js';
 
 /**
  * @typedef {import('./app.js').RaybundleApp} RaybundleApp
@@ -104,7 +104,14 @@ export class ChangeList extends EventTarget {
         const answer = await this.app.client.request({listChanges: {}}).answer.catch(() => null);
         if (answer?.changeHistory) {
             this.#changes = answer.changeHistory.changes;
+            for (const [id, transform] of this.#loadedTransforms()) {
+                const object = this.app.scene?.object(id);
+                if (object) {
+                    object.loaded = transform;
+                }
+            }
             this.#show();
+            this.app.dispatchEvent(new CustomEvent('history'));
         }
     }
 
@@ -213,12 +220,12 @@ function describeMove(object, to, from, loaded) {
         const half = Math.min(Math.abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w), 1);
         return `turned ${object.name} by ${Math.round((360 / Math.PI) * Math.acos(half))}°`;
     }
-    const place = (/** @type {import('./protocol.js').Vec3} */ at) => {
-        const {x, y, z} = matrixVector(object.worldFromParent, at);
+    const place = (/** @type {Required<Transform>} */ transform) => {
+        const {x, y, z} = object.baseAt(transform);
         return [x, y, z].map((value) => value.toFixed(2).replace('-', '−')).join(' ');
     };
     const by = length(matrixVector(object.worldFromParent, sub(after.translation, before.translation)));
-    return `moved ${object.name} by ${metres(by)}: ${place(before.translation)} → ${place(after.translation)}`;
+    return `moved ${object.name} by ${metres(by)}: ${place(before)} → ${place(after)}\u00a0m`;
 }
 
 /**
@@ -264,7 +271,7 @@ function describeMaterial(name, to, from) {
     }
     const parts = [];
     if (to.baseColour && from.baseColour && !sameColour(to.baseColour, from.baseColour)) {
-        parts.push(`painted ${name}: ${toHex(from.baseColour)} → ${toHex(to.baseColour)}`);
+        parts.push(`painted ${name}: ${paintText(from.baseColour, to.baseColour)}`);
     }
     for (const part of /** @type {const} */ (['roughness', 'metallic'])) {
         const [before, after] = [from[part], to[part]];
@@ -273,6 +280,20 @@ function describeMaterial(name, to, from) {
         }
     }
     return parts.join(', ') || `set ${name} as it was`;
+}
+
+/**
+ * Reflectances, as the card of a material has them, and the colours where these differ in more.
+ *
+ * @param {import('./protocol.js').Vec3} before
+ * @param {import('./protocol.js').Vec3} after
+ */
+function paintText(before, after) {
+    const percent = (/** @type {import('./protocol.js').Vec3} */ colour) => (100 * luminance(colour)).toFixed(0);
+    const sameHue = sameColour(scale(before, luminance(after)), scale(after, luminance(before)));
+    return sameHue && percent(before) !== percent(after)
+        ? `${percent(before)} → ${percent(after)}\u00a0%`
+        : `${toHex(before)} → ${toHex(after)}, ${percent(before)} → ${percent(after)}\u00a0%`;
 }
 
 /** Relative difference of numbers that are the same but for single precision. */

@@ -109,6 +109,8 @@ export class PlacedObject {
         this.earlier = this.transform;
         /** World bounds at `transform`. */
         this.bounds = bounds;
+        /** Local transform before all changes, where somebody has moved it before this page came. @type {Transform | null} */
+        this.loaded = null;
         /** Somebody has said that this part of the building may be moved. */
         this.unlocked = false;
         /** What it turns about, in its own space, where somebody has said so. @type {Vec3 | null} */
@@ -202,15 +204,24 @@ export class PlacedObject {
         return centre(movedBounds(this.#originalBounds, this.#originalTransform, transform, this.worldFromParent));
     }
 
-    /** Local transform as this page was told first. */
-    get original() {
-        return completeTransform(this.#originalTransform);
+    /**
+     * Where the object stands on its base, as the panel tells it, were it placed otherwise.
+     *
+     * @param {Transform} transform  local
+     * @returns {Vec3}
+     */
+    baseAt(transform) {
+        return basePoint(movedBounds(this.#originalBounds, this.#originalTransform, transform, this.worldFromParent));
     }
 
-    /** Where it has been moved to since the scene was loaded into this page, metres. */
+    /** Local transform in the file, as far as it is known; else as this page was told first. */
+    get original() {
+        return completeTransform(this.loaded ?? this.#originalTransform);
+    }
+
+    /** Where it has been moved to since the scene was loaded, metres. */
     get shift() {
-        const original = completeTransform(this.#originalTransform).translation;
-        return matrixVector(this.worldFromParent, sub(this.transform.translation, original));
+        return matrixVector(this.worldFromParent, sub(this.transform.translation, this.original.translation));
     }
 }
 

@@ -113,6 +113,7 @@ export class ScenePanel {
         app.on('welcome', () => this.#showScene());
         app.on('selection', () => this.#showSelection());
         app.on('moved', () => this.#showPlace());
+        app.on('history', () => this.#showPlace());
     }
 
     /** @param {import('./grabbing.js').Grabbing} grabbing */

@@ -43,7 +43,7 @@ describe('a change in the history', () => {
         const off = {lightBefore: {...light, intensity: 1000}, setLight: {light: 1, on: false}};
         assert.equal(says(off), 'switched off LED panel');
         const moved = {objectBefore: {object: 1, transform: {}}, moveObject: {object: 1, transform: {translation: vec3(0.5, 0, 0)}}};
-        assert.equal(says(moved), 'moved table by 0.50 m: 0.00 0.00 0.00 → 0.50 0.00 0.00');
+        assert.equal(says(moved), 'moved table by 0.50 m: 0.50 0.00 0.50 → 1.00 0.00 0.50\u00a0m', 'as the panel has it');
         const back = {objectBefore: moved.moveObject, moveObject: {object: 1, transform: {}}};
         assert.equal(says(back), 'put back table');
         const elsewhere = {translation: {x: -4, y: 0, z: 0}, rotation: {x: 0, y: 0, z: 0, w: 1}, scale: {x: 1, y: 1, z: 1}};
@@ -51,6 +51,15 @@ describe('a change in the history', () => {
         assert.match(opened, /^moved table/, 'where a page finds an object is not where the file has it');
         const rough = {materialBefore: {material: 1, roughness: 1}, setMaterial: {material: 1, roughness: 0.25}};
         assert.equal(says(rough), 'set the roughness of paint: 1.00 → 0.25');
+    });
+
+    it('has reflectances, as the card of a material, and colours where the hue changes', () => {
+        const grey = (share) => vec3(share, share, share);
+        const painted = (before, after) =>
+            says({materialBefore: {material: 1, baseColour: before}, setMaterial: {material: 1, baseColour: after}});
+        assert.equal(painted(grey(0.42), grey(0.8)), 'painted paint: 42 → 80\u00a0%');
+        assert.equal(painted(vec3(0.4, 0.2, 0.1), vec3(0.2, 0.1, 0.05)), 'painted paint: 24 → 12\u00a0%');
+        assert.match(painted(grey(0.5), vec3(1, 0, 0)), /^painted paint: #bcbcbc → #ff0000, 50 → 21\u00a0%$/);
     });
 
     it('of a server that does not tell, or of something unknown, still says what it was', () => {
