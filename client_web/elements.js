@@ -226,3 +226,29 @@ export function field(text, ...parts) {
     label.append(name, ...parts);
     return label;
 }
+
+/** An answer that comes sooner is waited for unseen, ms: at which a response still seems immediate to people. */
+const SOON_MS = 100;
+
+/**
+ * Marks a place while an answer about it is awaited, so that a click is not taken for lost.
+ *
+ * @template T
+ * @param {HTMLElement} parent
+ * @param {{x: number, y: number}} at  CSS pixels from its top left corner
+ * @param {Promise<T>} answer
+ * @returns {Promise<T>}
+ */
+export async function whileAsked(parent, {x, y}, answer) {
+    const mark = document.createElement('span');
+    mark.className = 'asked-at';
+    mark.style.left = `${x}px`;
+    mark.style.top = `${y}px`;
+    const timer = setTimeout(() => parent.append(mark), SOON_MS);
+    try {
+        return await answer;
+    } finally {
+        clearTimeout(timer);
+        mark.remove();
+    }
+}

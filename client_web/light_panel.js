@@ -155,6 +155,7 @@ export class LightPanel {
         });
         app.on('anew', () => {
             this.#scene = '';
+            this.pick(null);
         });
         app.on('welcome', () => this.#showScene());
         app.on('sceneChanged', () => this.#refresh.forEach((show) => show()));
@@ -285,7 +286,7 @@ export class LightPanel {
     pick(id) {
         const material = this.app.scene?.materials.find((one) => one.id === id);
         byId('picked', HTMLElement).hidden = !material;
-        byId('picked-material', HTMLElement).textContent = material ? material.name || `Material ${material.id}` : '';
+        byId('picked-material', HTMLElement).textContent = material ? material.name || `Material ${material.id}` : '–';
         for (const card of byId('materials', HTMLElement).children) {
             const ids = (/** @type {HTMLElement} */ (card).dataset.materials ?? '').split(' ');
             card.classList.toggle('picked', material !== undefined && ids.includes(String(id)));

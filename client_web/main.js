@@ -7,7 +7,7 @@ import {Compare} from './compare.js';
 import {DisplayPanel} from './display_panel.js';
 import {swung} from './doors.js';
 import {addEffects} from './effects.js';
-import {announce, byId, fileName, returnFocus, saveFile} from './elements.js';
+import {announce, byId, fileName, returnFocus, saveFile, whileAsked} from './elements.js';
 import {Gizmo} from './gizmo.js';
 import {Grabbing} from './grabbing.js';
 import {GridPanel} from './grid_panel.js';
@@ -59,8 +59,8 @@ const app = new RaybundleApp({
 const history = new History();
 const marks = new Marks(app);
 const display = new DisplayPanel(app);
-const walking = new Walking(app);
 const collisions = new Collisions(app);
+const walking = new Walking(app, collisions);
 const gizmo = new Gizmo(app);
 const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
@@ -86,9 +86,9 @@ new MeasuredStrip(app, measuring, () => {
     byId('tab-measure', HTMLElement).focus({preventScroll: true});
 });
 new ScenePanel(app, grabbing, history);
-const plans = new Plans(app);
+const plans = new Plans(app, collisions);
 const saving = new SavingState(app);
-new SceneFiles(app, () => ({changes: app.scene?.epoch ?? 0, pins: pins.pins.size, forgets: saving.forgets}));
+new SceneFiles(app, () => ({changes: changes.entries.length || (app.scene?.epoch ?? 0), pins: pins.pins.size, forgets: saving.forgets}));
 new SnapshotPanel(app);
 const lightPanel = new LightPanel(app, history, () => {
     setPanel(true);
@@ -131,7 +131,7 @@ async function clickAt(at) {
     } else {
         selectedBefore = [...selectedBefore.slice(-1), app.selected?.id ?? null];
         const click = ++clicks;
-        const object = await app.pickAt(at.x, at.y);
+        const object = await whileAsked(app.picture.element, at, app.pickAt(at.x, at.y));
         if (click === clicks) {
             app.select(object?.movable || object?.kind === 'STRUCTURE' ? object.id : null);
             lightPanel.pick(app.picker.material);

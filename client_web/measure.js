@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measuring by clicking: values with their error that stay at their points.
 
-import {announce, byId, fileName, saveFile, smallButton} from './elements.js';
+import {announce, byId, fileName, saveFile, smallButton, whileAsked} from './elements.js';
 import {csvCell} from './grid.js';
 import {Anchor} from './scene_model.js';
 import {estimated, inUnit, measured, noteOf, plusMinus, plusMinusCell} from './units.js';
@@ -118,7 +118,7 @@ export class Measuring extends EventTarget {
      * @param {Point} at
      */
     async measureAt(at) {
-        const probe = await this.app.probeAt(at);
+        const probe = await whileAsked(this.app.picture.element, at, this.app.probeAt(at));
         if (!probe?.position) {
             this.app.status.notify('There is no surface at this point of the picture.');
             return;

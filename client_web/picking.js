@@ -44,6 +44,7 @@ export class Picker {
         this.material = null;
         client.addEventListener('welcome', () => {
             this.probes = true;
+            this.material = null;
         });
     }
 
