@@ -16,6 +16,8 @@ const STEPS = {
     READING: '1 of 3: reading',
     PREPARING: '2 of 3: preparing surfaces',
     COMPILING: '3 of 3: preparing light. The picture pauses',
+    // Connections are closed and come back; its light is still being prepared.
+    READY: '3 of 3: preparing light. The picture pauses',
 };
 
 /**
@@ -26,9 +28,6 @@ const STEPS = {
  * @returns {string} empty where it is over
  */
 export function progressText({name, byName, stage}, mine) {
-    if (stage === 'READY') {
-        return `${name} is ready: coming back to it.`;
-    }
     const who = mine ? 'Opening' : byName ? `${byName} opens` : 'The server is preparing';
     return STEPS[stage] ? `${who} ${name} (${STEPS[stage]}).` : '';
 }
@@ -84,7 +83,8 @@ export class OpeningCard {
         byId('preparing-text', HTMLElement).textContent = opening ? progressText(opening, mine) : FIRST_PICTURE;
         this.#steps.hidden = opening === null;
         const items = [...this.#steps.children].map((item) => /** @type {HTMLElement} */ (item));
-        const at = items.findIndex((item) => item.dataset.stage === opening?.stage);
+        const step = opening?.stage === 'READY' ? 'COMPILING' : opening?.stage;
+        const at = items.findIndex((item) => item.dataset.stage === step);
         items.forEach((item, i) => {
             item.dataset.state = at < 0 || i < at ? 'done' : i === at ? 'now' : 'next';
         });

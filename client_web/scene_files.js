@@ -140,6 +140,9 @@ export class SceneFiles {
             if (sceneOpening?.by) {
                 this.#opening(sceneOpening);
             } else if (sceneOpening) {
+                if (this.#coming) {
+                    this.#say('');  // the card says how far it is
+                }
                 this.app.status.showOpening(sceneOpening, false);
             }
             if (presence) {

@@ -134,7 +134,7 @@ export class Status {
         }
         this.#connection.dataset.state = state;
         byId('app', HTMLElement).classList.toggle('offline', state !== 'connected');
-        byId('connection-text', HTMLElement).textContent = STATE_TEXTS[state];
+        this.#showState();
         const {title, retry, asksForToken} = bannerOf(change, hasPicture, this.#card.name);
         byId('banner-title', HTMLElement).textContent = title;
         this.#showBanner();
@@ -168,6 +168,13 @@ export class Status {
             ` (${welcome.renderer ?? ''})`;
     }
 
+    /** The server answers already while it prepares a scene: nothing is wrong with the connection. */
+    #showState() {
+        const {state, reason} = this.#shown;
+        const prepares = this.#card.name !== '' && (state === 'connecting' || state === 'reconnecting') && reason !== '';
+        byId('connection-text', HTMLElement).textContent = prepares ? 'Preparing' : STATE_TEXTS[state];
+    }
+
     /** Where the card says how far a scene is, that is all. */
     #showBanner() {
         const {state, code} = this.#shown;
@@ -188,6 +195,7 @@ export class Status {
     showOpening(opening, mine) {
         this.#card.show(opening, mine);
         this.#card.visible = opening !== null;
+        this.#showState();
         this.#showBanner();
     }
 
