@@ -8,7 +8,7 @@ import {
     carriedGrid, faceName, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf,
     typicalError, uniformityText,
 } from './grid.js';
-import {SETTLED} from './readouts.js';
+import {SETTLED} from './light_state.js';
 import {Anchor} from './scene_model.js';
 import {NOT_YET, UNCERTAIN, estimated, inUnit, plusMinus} from './units.js';
 import {corners, length, sub} from './vector.js';

@@ -5,6 +5,7 @@
 import {announce, byId, showValue} from './elements.js';
 import {drawErrorPlot} from './error_plot.js';
 import {count, interval, milliseconds, percent, pictureError, progress, rate} from './format.js';
+import {lightState} from './light_state.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
 
 /**
@@ -13,12 +14,6 @@ import {ErrorHistory, RateMeter, Samples} from './meters.js';
  */
 
 const REFRESH_MS = 250;
-
-/** From here on the light counts as settled. */
-export const SETTLED = 0.85;
-
-/** From this error on a picture is rough, however far its light has settled. */
-const ROUGH = 0.1;
 
 export class Readouts {
     #frames = new RateMeter();
@@ -126,17 +121,14 @@ export class Readouts {
         showValue('redraw', measured ? `${warping}, ${milliseconds(stats.redrawMs)}` : warping);
         showValue('settled', this.#header || this.#solution ? progress(settled) : '–');
         this.#bar.value = settled;
-        this.#bar.classList.toggle('done', settled >= SETTLED);
-        const done = settled >= SETTLED;
+        const {mark, text} = lightState(stats, known);
+        this.#bar.classList.toggle('done', mark === 'yes');
         const before = this.#state.dataset.settled;
-        const rough = stats.relativeError === null || stats.relativeError >= ROUGH;
-        this.#state.dataset.settled = known && done ? (rough ? 'rough' : 'yes') : 'no';
-        if (known && done && before === 'no') {
+        this.#state.dataset.settled = mark;
+        if (mark === 'yes' && before !== 'yes') {
             announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
         }
-        const settledText = rough ? 'First result, still noisy' : 'Light has settled';
-        const text = done ? settledText : `Light is settling, ${progress(settled)}`;
-        showValue('settledState', known ? text : 'Waiting for light');
+        showValue('settledState', text);
         this.#showFormat();
         drawErrorPlot(this.#plot, this.#history.samples, this.target);
     }

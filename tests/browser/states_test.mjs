@@ -29,6 +29,28 @@ const refuseOnce = (code, message, closeCode) => {
     };
 };
 
+describe('the state of the light', () => {
+    it('is green when the number is good, and no sooner', async () => {
+        const {page} = await openPage((request, send) => send(request.hello ? {welcome: WELCOME} : {ok: {}}));
+        await page.waitForFunction(() => window.raybundle?.client.state === 'connected');
+        const shown = async (/** @type {number} */ error, /** @type {number} */ errorHigh, /** @type {string} */ end) => {
+            const figures = {relativeError: error, errorLow: error / 2, errorHigh};
+            const solution = {epoch: 0, iterations: 8, iterationsPerSecond: 8, settled: 1, ...figures};
+            await page.evaluate((detail) => window.raybundle.client.dispatchEvent(new CustomEvent('solution', {detail})), solution);
+            await page.waitForFunction(
+                (text) => document.querySelector('[data-value="errorInterval"]').textContent.endsWith(text),
+                end,
+            );
+            const state = page.locator('#summary-state');
+            return [await state.getAttribute('data-settled'), await state.textContent(),
+                await page.locator('#settled').evaluate((bar) => bar.classList.contains('done'))];
+        };
+        assert.deepEqual(await shown(0.2, 0.31, '31 %'), ['rough', 'First result, still noisy: error up to 31 %', false]);
+        assert.deepEqual(await shown(0.08, 0.12, '12 %'), ['rough', 'First result, still noisy: error up to 12 %', false]);
+        assert.deepEqual(await shown(0.012, 0.02, '2.0 %'), ['yes', 'Light has settled', true]);
+    });
+});
+
 describe('the page without its server', () => {
     it('asks for a token where its own is refused, and comes in with it', async () => {
         const answer = refuseOnce('UNAUTHENTICATED', 'hello.token: wrong');

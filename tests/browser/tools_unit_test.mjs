@@ -17,6 +17,7 @@ import {stateOf} from '../../client_web/grid_panel.js';
 import {History, subjectOf} from '../../client_web/history.js';
 import {layOutStrip} from '../../client_web/legend.js';
 import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/light_panel.js';
+import {lightState} from '../../client_web/light_state.js';
 import {DarkViews} from '../../client_web/lost.js';
 import {avatarTexts, frustumOf} from '../../client_web/people.js';
 import {changeOf} from '../../client_web/pins.js';
@@ -783,5 +784,23 @@ describe('a controller', () => {
         assert.equal(outsideDeadZone(0.1), 0);
         assert.equal(outsideDeadZone(-1), -1);
         close(outsideDeadZone(0.575), 0.5, 1e-9);
+    });
+});
+
+describe('lightState', () => {
+    const state = (settled, relativeError, errorHigh, known = true) => lightState({settled, relativeError, errorHigh}, known);
+
+    it('is green for a picture whose error is known to be small alone', () => {
+        assert.deepEqual(state(1, 0.05, 0.08), {mark: 'yes', text: 'Light has settled'});
+        assert.equal(state(1, 0.05, 0.12).mark, 'rough');
+        assert.equal(state(1, 0.05, 0.12).text, 'First result, still noisy: error up to 12 %');
+        assert.equal(state(1, 0.6, 1.5).text, 'First result, still noisy: error up to 100 %');
+        assert.equal(state(1, null, null).text, 'First result, still noisy');
+        assert.equal(state(1, null, null).mark, 'rough');
+    });
+
+    it('says first what a change still brings', () => {
+        assert.deepEqual(state(0.5, 0.05, 0.08), {mark: 'no', text: 'Light is settling, 50 %'});
+        assert.deepEqual(state(0, null, null, false), {mark: 'no', text: 'Waiting for light'});
     });
 });
