@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "commands/accuracy_early.h"
 #include "commands/accuracy_measurement.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
@@ -60,6 +61,9 @@ void create_folder(const std::string& path) {
 }  // namespace
 
 int run_accuracy(const Options& options) {
+    if (options.early) {
+        return run_accuracy_early(options);
+    }
     const AccuracyJob job = plan_accuracy(options);
     std::optional<EglContext> context;
     if (job.needs_gl()) {

@@ -224,6 +224,10 @@ void add_accuracy(CLI::App& app, Options& o) {
     app.add_flag("--knobs", o.knobs,
                  "Also vary patch size, bundle resolution, strategy probabilities, bias for noise, "
                  "gloss and variants of the iteration, one at a time");
+    app.add_flag("--early", o.early,
+                 "Instead measure a viewer's pictures after 8 to 256 iterations, since nothing and "
+                 "since a turn of the camera")
+        ->excludes("--methods", "--knobs");
     app.add_option("--reference", o.reference,
                    "Reference to compare with, .exr (default: path-traced, kept in the folder)");
     app.add_option("--reference-seconds", o.reference_seconds,

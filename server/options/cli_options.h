@@ -114,6 +114,7 @@ struct Options {
     std::optional<double> reference_seconds;
     std::size_t repeats = 1;
     bool knobs = false;
+    bool early = false;
 
     // inspect
     bool costs = false;

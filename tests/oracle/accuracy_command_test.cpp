@@ -46,6 +46,32 @@ TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
     fs::remove_all(folder);
 }
 
+/// What viewers see first, counted in iterations.
+TEST(AccuracyCommand, MeasuresTheFirstPicturesOfAViewer) {
+    const fs::path folder = fs::path(testing::TempDir()) / "raybundle_accuracy_early";
+    fs::remove_all(folder);
+    const std::string command = ACCURACY RAYBUNDLE_SCENES
+                                "/cornell_box.gltf --early --size 32x24 --patch-size 0.5 "
+                                "--reference-seconds 2 -o '" +
+                                folder.string() + "' >/dev/null 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream stream(folder / "early.json");
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    ASSERT_TRUE(json.is_object());
+    const auto& first = json["sinceNothing"];
+    ASSERT_EQ(first.size(), 6U);
+    EXPECT_EQ(first.front()["iterations"], 8);
+    EXPECT_LT(first.back()["relRMSE"].get<double>(), first.front()["relRMSE"].get<double>());
+    EXPECT_GT(first.back()["ssim"].get<double>(), first.front()["ssim"].get<double>());
+    const auto& turned = json["sinceTurn"];
+    ASSERT_EQ(turned.size(), 7U);
+    EXPECT_EQ(turned.front()["iterations"], 0);
+    for (const char* name : {"early.svg", "reference.png", "nothing_0008.png", "turn_0000.png"}) {
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+    }
+    fs::remove_all(folder);
+}
+
 /// By default methods are left out that know no glass (single rays) or do not see what is behind it
 /// (light tracing). Named, the one runs and the other is an error.
 TEST(AccuracyCommand, MeasuresASceneWithGlassByTheMethodsThatKnowIt) {
