@@ -12,7 +12,7 @@
 #include "app/render_job.h"
 #include "commands/accuracy_reference.h"
 #include "journal/session_journal.h"
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 #include "research/accuracy/error_map.h"
 #include "research/accuracy/scene_fingerprint.h"
 #include "scene/effect_removal.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/render_job.h"
-#include "reference/image_metrics.h"
+#include "reference/measures/image_metrics.h"
 #include "research/plot/line_plot.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

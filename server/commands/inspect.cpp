@@ -5,8 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/contact_sheet.h"
-#include "app/effect_costs.h"
+#include "app/effects/contact_sheet.h"
+#include "app/effects/effect_costs.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "scene/scene_report.h"

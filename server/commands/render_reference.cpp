@@ -10,7 +10,7 @@
 
 #include "app/render_job.h"
 #include "commands/command.h"
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 #include "research/reference_method.h"
 #include "view/image_file.h"
 #include "view/tone_curve.h"

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/effect_bench.h"
+#include "app/effects/effect_bench.h"
 #include "app/journal_choice.h"
 #include "app/metrics_source.h"
 #include "app/preparation.h"

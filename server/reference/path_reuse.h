@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 #include "reference/path_tracer.h"
 
 namespace raybundle {

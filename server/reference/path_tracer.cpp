@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "reference/next_event.h"
+#include "reference/sampling/next_event.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"
 

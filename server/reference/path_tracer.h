@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "reference/albedo_tables.h"
-#include "reference/light_sampling.h"
-#include "reference/random.h"
 #include "reference/ray_scene.h"
-#include "reference/roulette.h"
-#include "reference/russian_roulette.h"
+#include "reference/sampling/light_sampling.h"
+#include "reference/sampling/random.h"
+#include "reference/sampling/roulette.h"
+#include "reference/sampling/russian_roulette.h"
 #include "reference/scattering.h"
 
 namespace raybundle {

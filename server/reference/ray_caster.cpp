@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/ray_caster.h"
 
-#include "reference/next_event.h"
+#include "reference/sampling/next_event.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"
 

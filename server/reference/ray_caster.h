@@ -3,9 +3,9 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/light_sampling.h"
-#include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
+#include "reference/sampling/random.h"
 #include "reference/scattering.h"
 
 namespace raybundle {

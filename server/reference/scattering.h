@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "reference/directions.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/directions.h"
 #include "scene/brdf.h"
 
 namespace raybundle {

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 
 namespace raybundle {
 namespace {

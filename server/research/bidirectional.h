@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 #include "research/path_vertices.h"
 
 namespace raybundle {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reference/roulette.h"
+#include "reference/sampling/roulette.h"
 #include "reference/scattering.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "reference/camera_rays.h"
-#include "reference/image_estimate.h"
-#include "reference/light_sampling.h"
-#include "reference/random.h"
+#include "reference/measures/image_estimate.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/discrete_distribution.h"
+#include "reference/sampling/discrete_distribution.h"
 
 namespace raybundle {
 namespace {

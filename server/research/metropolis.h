@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/camera_rays.h"
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 #include "reference/path_tracer.h"
 #include "research/primary_sample.h"
 

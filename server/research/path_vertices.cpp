@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/roulette.h"
+#include "reference/sampling/roulette.h"
 
 namespace raybundle {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "reference/camera_rays.h"
-#include "reference/light_sampling.h"
-#include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
+#include "reference/sampling/random.h"
 #include "reference/scattering.h"
 #include "reference/specular_walk.h"
 

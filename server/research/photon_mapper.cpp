@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "research/photon_mapper.h"
 
-#include "reference/next_event.h"
-#include "reference/roulette.h"
+#include "reference/sampling/next_event.h"
+#include "reference/sampling/roulette.h"
 #include "scene/environment.h"
 
 namespace raybundle {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "reference/random.h"
-#include "reference/roulette.h"
+#include "reference/sampling/random.h"
+#include "reference/sampling/roulette.h"
 #include "reference/specular_walk.h"
 
 namespace raybundle {

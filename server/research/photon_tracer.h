@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "reference/light_sampling.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
 #include "research/photon_map.h"
 
 namespace raybundle {

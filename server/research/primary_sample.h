@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/random.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 #include "reference/path_reuse.h"
 #include "reference/path_tracer.h"
 #include "reference/ray_caster.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 #include "reference/ray_scene.h"
 #include "scene/scene.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "reference/roulette.h"
+#include "reference/sampling/roulette.h"
 #include "reference/scattering.h"
 
 namespace raybundle {

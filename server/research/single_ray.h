@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "reference/albedo_tables.h"
-#include "reference/incoming_sample.h"
-#include "reference/light_sampling.h"
-#include "reference/random.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/incoming_sample.h"
+#include "reference/sampling/light_sampling.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "reference/emitter_pixels.h"
-#include "reference/image_metrics.h"
+#include "reference/measures/emitter_pixels.h"
+#include "reference/measures/image_metrics.h"
 #include "scene/gltf_loader.h"
 #include "transport/solver.h"
 

@@ -2,8 +2,8 @@
 #include "methods.h"
 
 #include "oracle/oracle_solve.h"
-#include "reference/light_sampling.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
 #include "research/single_ray.h"
 
 namespace raybundle {

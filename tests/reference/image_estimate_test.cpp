@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 #include "rooms.h"
 
 namespace raybundle {

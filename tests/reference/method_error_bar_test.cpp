@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lit_room.h"
-#include "reference/emitter_pixels.h"
-#include "reference/image_metrics.h"
+#include "reference/measures/emitter_pixels.h"
+#include "reference/measures/image_metrics.h"
 #include "research/reference_method.h"
 
 namespace raybundle {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 #include "rooms.h"
 
 namespace raybundle {

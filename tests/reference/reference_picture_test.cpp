@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reference/emitter_pixels.h"
-#include "reference/image_metrics.h"
+#include "reference/measures/emitter_pixels.h"
+#include "reference/measures/image_metrics.h"
 #include "research/accuracy/reference_cache.h"
 #include "research/accuracy/scene_fingerprint.h"
 #include "rooms.h"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "reference/discrete_distribution.h"
+#include "reference/sampling/discrete_distribution.h"
 
 namespace raybundle {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "reference/russian_roulette.h"
+#include "reference/sampling/russian_roulette.h"
 #include "rooms.h"
 
 namespace raybundle {

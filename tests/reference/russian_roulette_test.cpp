@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chapter 3: survival probabilities keep the mean, and have the variance that the chapter says.
-#include "reference/russian_roulette.h"
+#include "reference/sampling/russian_roulette.h"
 
 #include <gtest/gtest.h>
 

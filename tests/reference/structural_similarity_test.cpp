@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/structural_similarity.h"
+#include "reference/measures/structural_similarity.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/image_metrics.h"
+#include "reference/measures/image_metrics.h"
 #include "research/accuracy/reference_picture.h"
 
 namespace raybundle {

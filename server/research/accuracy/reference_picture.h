@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "reference/image_estimate.h"
-#include "reference/light_sampling.h"
+#include "reference/measures/image_estimate.h"
 #include "reference/path_reuse.h"
 #include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
 
 namespace raybundle {
 

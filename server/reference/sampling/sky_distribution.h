@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
-#include "reference/discrete_distribution.h"
+#include "reference/sampling/discrete_distribution.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/effect_trial.h"
+#include "app/effects/effect_trial.h"
 
 #include <epoxy/gl.h>
 

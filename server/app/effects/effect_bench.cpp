@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/effect_bench.h"
+#include "app/effects/effect_bench.h"
 
 #include <spdlog/spdlog.h>
 
-#include "app/effect_costs.h"
+#include "app/effects/effect_costs.h"
 #include "session/scene_messages.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/next_event.h"
+#include "reference/sampling/next_event.h"
 
 #include <optional>
 

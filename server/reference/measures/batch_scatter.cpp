@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/batch_scatter.h"
+#include "reference/measures/batch_scatter.h"
 
 #include <algorithm>
 #include <cmath>

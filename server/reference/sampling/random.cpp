@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/random.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/emitter_pixels.h"
+#include "reference/measures/emitter_pixels.h"
 
 #include <tbb/parallel_for.h>
 
 #include <cstdint>
 #include <optional>
 
-#include "reference/image_metrics.h"
+#include "reference/measures/image_metrics.h"
 #include "reference/solution_picture.h"
 #include "reference/specular_walk.h"
 #include "scene/environment.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/russian_roulette.h"
+#include "reference/sampling/russian_roulette.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "reference/albedo_tables.h"
-#include "reference/random.h"
-#include "reference/roulette.h"
+#include "reference/sampling/random.h"
+#include "reference/sampling/roulette.h"
 #include "scene/environment.h"
 
 namespace raybundle {

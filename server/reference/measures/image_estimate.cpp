@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/image_estimate.h"
+#include "reference/measures/image_estimate.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "reference/directions.h"
-#include "reference/discrete_distribution.h"
 #include "reference/ray_scene.h"
-#include "reference/sky_distribution.h"
+#include "reference/sampling/directions.h"
+#include "reference/sampling/discrete_distribution.h"
+#include "reference/sampling/sky_distribution.h"
 
 namespace raybundle {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/contact_sheet.h"
+#include "app/effects/contact_sheet.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "app/effect_trial.h"
+#include "app/effects/effect_trial.h"
 #include "gpu/egl_context.h"
 #include "scene/effects_plan.h"
 #include "view/image_file.h"

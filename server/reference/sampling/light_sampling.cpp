@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/light_sampling.h"
+#include "reference/sampling/light_sampling.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/sky_distribution.h"
+#include "reference/sampling/sky_distribution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/image_metrics.h"
+#include "reference/measures/image_metrics.h"
 
 #include <algorithm>
 #include <cmath>

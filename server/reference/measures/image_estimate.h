@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "reference/batch_scatter.h"
 #include "reference/camera_rays.h"
-#include "reference/random.h"
+#include "reference/measures/batch_scatter.h"
+#include "reference/sampling/random.h"
 
 namespace raybundle {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/effect_costs.h"
+#include "app/effects/effect_costs.h"
 
 #include <algorithm>
 
-#include "app/effect_trial.h"
+#include "app/effects/effect_trial.h"
 #include "gpu/egl_context.h"
 
 namespace raybundle {
