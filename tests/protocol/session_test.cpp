@@ -165,6 +165,26 @@ TEST_F(SessionTest, AFloodIsAnsweredAndDropped) {
     EXPECT_NE(sent().find("pong"), std::string::npos);
 }
 
+TEST_F(SessionTest, ACameraThatNewerOnesReplaceIsAnsweredHoweverLongNobodyTakesThem) {
+    receive(kFirstHello);
+    inbox_.drain();
+    while (!sent().empty()) {
+    }
+    for (int id = 101; id <= 112; ++id) {
+        receive(R"({"id":)" + std::to_string(id) +
+                R"(,"setCamera":{"eye":{"x":1},"target":{},"up":{"y":1},"verticalFov":1}})");
+    }
+    int answered = 0;
+    for (std::string answer = sent(); !answer.empty(); answer = sent()) {
+        EXPECT_NE(answer.find(R"("ok":{})"), std::string::npos) << answer;
+        ++answered;
+    }
+    const auto events = inbox_.drain();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].message.id(), 112U);
+    EXPECT_EQ(answered + events[0].superseded.size() + 1U, 12U);
+}
+
 TEST_F(SessionTest, LeavingIsReported) {
     receive(kFirstHello);
     inbox_.drain();

@@ -61,18 +61,19 @@ Inbox::Events::iterator Inbox::find_mergeable(ViewerId viewer, const v1::ClientM
     return events_.end();
 }
 
-bool Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
+Inbox::Pushed Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
+    Pushed pushed{true, std::nullopt};
     {
         const std::lock_guard lock(mutex_);
         ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role};
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {
-                if (event.superseded.size() >= max_waiting_) {
-                    old->superseded = std::move(event.superseded);
-                    return false;
-                }
                 event.superseded.push_back(old->message.id());
+            }
+            if (event.superseded.size() > max_waiting_) {
+                pushed.replaced = event.superseded.front();
+                event.superseded.erase(event.superseded.begin());
             }
             events_.erase(old);
         } else {
@@ -80,13 +81,13 @@ bool Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
                 events_.begin(), events_.end(),
                 [viewer](const ClientEvent& other) { return other.viewer == viewer; });
             if (static_cast<std::size_t>(waiting) >= max_waiting_) {
-                return false;
+                return {};
             }
         }
         events_.push_back(std::move(event));
     }
     changed_.notify_one();
-    return true;
+    return pushed;
 }
 
 void Inbox::left(ViewerId viewer) {

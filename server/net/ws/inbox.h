@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -19,12 +20,21 @@ namespace raybundle {
 /// Bounded queue of client events from the network thread to the render thread.
 ///
 /// Of one viewer's setCamera, setViewport and unfinished moves of one object only the newest waits:
-/// it takes over the ids of those it replaces. Any other message of that viewer is a barrier, so
-/// that for example a probe sees the camera that was set before it. What cannot be merged counts
-/// against a limit for each viewer; joining and leaving always fit, since one viewer does both
-/// once.
+/// it takes over the ids of those it replaces, as many as the limit allows; the oldest beyond them
+/// is to be answered at once. Any other message of that viewer is a barrier, so that for example a
+/// probe sees the camera that was set before it. What cannot be merged counts against a limit for
+/// each viewer; joining and leaving always fit, since one viewer does both once.
 class Inbox {
   public:
+    /// What has become of a message.
+    struct Pushed {
+        bool taken = false;
+        /// Id of a request that newer ones have replaced; nobody else answers it.
+        std::optional<std::uint32_t> replaced;
+
+        explicit operator bool() const { return taken; }
+    };
+
     explicit Inbox(std::size_t max_waiting_per_viewer = 64)
         : max_waiting_(max_waiting_per_viewer) {}
 
@@ -34,8 +44,9 @@ class Inbox {
     /// has been queued. Set it before the network starts.
     void set_on_joined(std::function<void(ViewerId)> call) { on_joined_ = std::move(call); }
 
-    /// False where the viewer has too many requests waiting; the message is not taken then.
-    [[nodiscard]] bool push(ViewerId viewer, v1::ClientMessage message, v1::Role role = v1::EDITOR);
+    /// Not taken where the viewer has too many requests waiting that cannot be merged.
+    [[nodiscard]] Pushed push(ViewerId viewer, v1::ClientMessage message,
+                              v1::Role role = v1::EDITOR);
 
     /// Forgets what waits of this viewer; if the render thread has not heard of it yet, it never
     /// will.

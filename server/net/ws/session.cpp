@@ -73,10 +73,7 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
         if (id) {
-            v1::ServerMessage answer;
-            answer.set_reply_to(*id);
-            answer.mutable_ok();
-            link_.send(answer);
+            answer_ok(*id);
         }
     } else if (message.has_ping()) {
         v1::ServerMessage answer;
@@ -85,9 +82,21 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         }
         answer.mutable_pong()->set_server_time_ms(server_time_ms());
         link_.send(answer);
-    } else if (!inbox_.push(link_.viewer(), std::move(message), pass_->role)) {
-        refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
+    } else {
+        const auto pushed = inbox_.push(link_.viewer(), std::move(message), pass_->role);
+        if (!pushed) {
+            refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
+        } else if (pushed.replaced) {
+            answer_ok(*pushed.replaced);
+        }
     }
+}
+
+void Session::answer_ok(std::uint32_t id) {
+    v1::ServerMessage answer;
+    answer.set_reply_to(id);
+    answer.mutable_ok();
+    link_.send(answer);
 }
 
 /// Refuses a hello in a version that is not spoken here.

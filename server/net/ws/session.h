@@ -56,6 +56,7 @@ class Session {
     void on_hello(v1::ClientMessage message, double now_ms);
     [[nodiscard]] bool speaks_our_version(const v1::ClientMessage& message);
     void on_denied(const Denial& denial, bool wrong_token, double now_ms);
+    void answer_ok(std::uint32_t id);
     void refuse(const Refusal& refusal);
     void refuse_and_close(const Refusal& refusal, CloseCode code);
 
