@@ -81,6 +81,15 @@ export class Collisions {
     }
 
     /**
+     * Height of what is straight below an eye, metres: of the floor of the storey, of the ground, not of the whole scene.
+     *
+     * @param {Vec3} eye
+     */
+    floorUnder(eye) {
+        return this.#grid?.under(eye) ?? this.app.scene?.bounds.min.y ?? 0;
+    }
+
+    /**
      * A view after a step, as far as there is room.
      *
      * @param {View} view  after the step, if nothing were in the way
@@ -138,7 +147,7 @@ export class Collisions {
         const {eye} = app.view;
         const off = this.#grid && sub(eye, this.#grid.middle);
         const near = off && Math.hypot(off.x, off.z) < ASK_AFTER_M && Math.abs(off.y - this.#middleEye) < ASK_AFTER_HEIGHT_M;
-        if (this.#asking || this.#unknown || (near && !this.#stale) || app.client.state !== 'connected') {
+        if (this.#asking || this.#unknown || app.view.near || (near && !this.#stale) || app.client.state !== 'connected') {
             return;
         }
         this.#asking = true;
@@ -148,6 +157,7 @@ export class Collisions {
             if (walkMap) {
                 this.#grid = new WalkGrid(walkMap);
                 this.#middleEye = eye.y - this.#grid.middle.y;
+                app.dispatchEvent(new CustomEvent('surroundings'));
             } else {
                 this.#unknown = true;
             }

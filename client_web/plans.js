@@ -2,7 +2,6 @@
 // Plans and sections: the scene seen from so far away that parallels stay parallel, cut open by a near plane. Light is
 // that of the whole scene.
 
-import {EYE_HEIGHT} from './camera.js';
 import {byId, listRow} from './elements.js';
 import {UP, add, centre, scale, sub, vec3} from './vector.js';
 
@@ -45,17 +44,15 @@ export function planView(bounds, towards, up, cut, aspect) {
 }
 
 /**
- * Plan of a storey, or of what is at the height of somebody's feet.
+ * Plan of a storey, or of what is around somebody who stands on a floor.
  *
  * @param {Bounds} bounds
  * @param {number} aspect
- * @param {number} [eye]  height of his eyes, metres
+ * @param {number} [floor]  its height, metres
  * @returns {View & {near: number}}
  */
-export function planOf(bounds, aspect, eye) {
+export function planOf(bounds, aspect, floor = bounds.min.y) {
     const {x, z} = centre(bounds);
-    const inside = eye !== undefined && eye > bounds.min.y && eye < bounds.max.y;
-    const floor = inside ? Math.max(eye - EYE_HEIGHT, bounds.min.y) : bounds.min.y;
     const y = Math.min(floor + CUT_HEIGHT, (floor + bounds.max.y) / 2);
     return planView(bounds, vec3(0, -1, 0), vec3(0, 0, -1), vec3(x, y, z), aspect);
 }
@@ -80,9 +77,13 @@ export class Plans {
     #before = null;
     #list = byId('plans', HTMLUListElement);
 
-    /** @param {RaybundleApp} app */
-    constructor(app) {
+    /**
+     * @param {RaybundleApp} app
+     * @param {import('./collisions.js').Collisions} collisions
+     */
+    constructor(app, collisions) {
         this.app = app;
+        this.collisions = collisions;
         app.on('welcome', () => this.#showScene());
         app.on('view', () => {
             byId('leave-plan', HTMLElement).hidden = !app.view.near;
@@ -104,6 +105,14 @@ export class Plans {
         }
     }
 
+    /** Of the storey that somebody is in; from outside the lowest. */
+    #floor() {
+        const {eye} = this.#before ?? this.app.view;
+        const {min, max} = this.app.scene?.bounds ?? {min: eye, max: eye};
+        const inside = eye.x > min.x && eye.x < max.x && eye.y < max.y && eye.z > min.z && eye.z < max.z;
+        return inside ? Math.max(this.collisions.floorUnder(eye), min.y) : min.y;
+    }
+
     /** @param {View & {near: number}} view */
     #open(view) {
         this.#before = this.app.view.near ? this.#before : this.app.view;
@@ -123,7 +132,7 @@ export class Plans {
             listRow(`Plan of ${name}`, () => this.#open(planOf(bounds, app.picture.aspect))),
         );
         this.#list.replaceChildren(
-            ...(rows.length > 0 ? rows : [listRow('Plan', () => this.#open(planOf(scene.bounds, app.picture.aspect, (this.#before ?? app.view).eye.y)))]),
+            ...(rows.length > 0 ? rows : [listRow('Plan', () => this.#open(planOf(scene.bounds, app.picture.aspect, this.#floor())))]),
             listRow('Section, looking north (−z)', () => this.#open(sectionOf(scene.bounds, through(), 'z', app.picture.aspect))),
             listRow('Section, looking east (+x)', () => this.#open(sectionOf(scene.bounds, through(), 'x', app.picture.aspect))),
         );

@@ -224,6 +224,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} columns  along x and along z
  * @property {number} layers
  * @property {string} occupied  base64: 8 bytes a column, at z * columns + x; bit k: something is in layer k
+ * @property {number} [floor]  height of what is straight below the eye; absent: nothing is
  */
 
 /**

@@ -29,7 +29,7 @@ const FOLLOWING = 1.5;
 
 export class WalkGrid {
     /** @param {WalkMap} map */
-    constructor({origin, cell, layer, columns, layers, occupied}) {
+    constructor({origin, cell, layer, columns, layers, occupied, floor}) {
         this.origin = origin;
         this.cell = cell;
         this.layer = layer;
@@ -38,6 +38,23 @@ export class WalkGrid {
         const bytes = Uint8Array.from(atob(occupied), (c) => c.charCodeAt(0));
         /** Two words of 32 bits a column, the lower layers first. */
         this.words = new Uint32Array(bytes.buffer);
+        /** Exact height of what is straight below the eye that the cells were asked for. */
+        this.middleFloor = floor ?? null;
+    }
+
+    /**
+     * Height of what one would stand on under a point: exact under the middle, elsewhere as the cells differ from there.
+     *
+     * @param {Vec3} eye
+     * @returns {number | null} null: nothing is below, or it is not known
+     */
+    under(eye) {
+        const middle = this.middleFloor;
+        if (middle === null || !this.covers(eye)) {
+            return null;
+        }
+        const [here, there] = [this.floor(eye.x, eye.z, eye.y), this.floor(this.middle.x, this.middle.z, middle + this.layer)];
+        return here === null || there === null ? middle : middle + here - there;
     }
 
     /** Eye that the cells were asked for: the middle, in x and z. */

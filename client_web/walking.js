@@ -4,7 +4,7 @@
 
 import {EYE_HEIGHT, atHeight, goTo} from './camera.js';
 import {noMotion} from './camera_control.js';
-import {byId, returnFocus, showValue} from './elements.js';
+import {byId, returnFocus, showValue, whileAsked} from './elements.js';
 import {metres} from './format.js';
 import {clamp} from './vector.js';
 
@@ -38,15 +38,20 @@ export class Walking {
     #touch = matchMedia('(pointer: coarse)').matches;
     #polling = 0;
 
-    /** @param {RaybundleApp} app */
-    constructor(app) {
+    /**
+     * @param {RaybundleApp} app
+     * @param {import('./collisions.js').Collisions} collisions
+     */
+    constructor(app, collisions) {
         this.app = app;
+        this.collisions = collisions;
         this.#addButtons();
         this.#addMouseLook();
         this.#addStick();
         addEventListener('gamepadconnected', () => this.#poll());
         app.on('view', () => this.#showEye());
         app.on('welcome', () => this.#showEye());
+        app.on('surroundings', () => this.#showEye());
     }
 
     /** @param {Mode} mode */
@@ -68,8 +73,8 @@ export class Walking {
 
     /** Stands on the floor. */
     stand() {
-        const floor = this.app.scene?.bounds.min.y ?? 0;
-        this.app.camera.flyTo(atHeight(this.app.view, floor + EYE_HEIGHT));
+        const {view} = this.app;
+        this.app.camera.flyTo(atHeight(view, this.collisions.floorUnder(view.eye) + EYE_HEIGHT));
     }
 
     /** Looks with the mouse until Esc. */
@@ -87,7 +92,7 @@ export class Walking {
      * @param {Point} at
      */
     async goTo(at) {
-        const probe = await this.app.probeAt(at);
+        const probe = await whileAsked(this.app.picture.element, at, this.app.probeAt(at));
         if (probe?.position && probe.normal) {
             const walking = this.app.camera.mode === 'walk';
             const there = goTo(this.app.view, probe.position, probe.normal, walking);
@@ -186,8 +191,8 @@ export class Walking {
     }
 
     #showEye() {
-        const floor = this.app.scene?.bounds.min.y ?? 0;
-        showValue('eyeHeight', metres(this.app.view.eye.y - floor));
+        const {eye} = this.app.view;
+        showValue('eyeHeight', metres(eye.y - this.collisions.floorUnder(eye)));
     }
 }
 

@@ -96,6 +96,33 @@ bool overlap(const Bounds& a, const Bounds& b) {
     return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
+/// Whether something in the box may lie straight below a point.
+bool below(const Bounds& box, const glm::vec3& point) {
+    return box.min.x <= point.x && point.x <= box.max.x && box.min.z <= point.z &&
+           point.z <= box.max.z && box.min.y <= point.y;
+}
+
+/// Height at which the vertical line through a point meets a triangle below it.
+std::optional<float> height_below(const std::array<glm::vec3, 3>& corners, const glm::vec3& point) {
+    const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x);
+    };
+    const double all = area(corners[0], corners[1], corners[2]);
+    if (all == 0.0) {
+        return std::nullopt;  // upright
+    }
+    double height = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = area(point, corners[(k + 1) % 3], corners[(k + 2) % 3]) / all;
+        if (share < 0.0) {
+            return std::nullopt;
+        }
+        height += share * static_cast<double>(corners[k].y);
+    }
+    return height <= static_cast<double>(point.y) ? std::optional(static_cast<float>(height))
+                                                  : std::nullopt;
+}
+
 Bounds placed_bounds(const Object& object, const glm::mat4& world) {
     Bounds result;
     for (unsigned corner = 0; corner < 8 && !object.bounds.empty(); ++corner) {
@@ -109,7 +136,20 @@ Bounds placed_bounds(const Object& object, const glm::mat4& world) {
 
 }  // namespace
 
+std::vector<glm::mat4> object_places(const Scene& scene) {
+    std::vector<glm::mat4> worlds;
+    worlds.reserve(scene.objects.size());
+    for (const Object& object : scene.objects) {
+        worlds.push_back(object.world_from_object());
+    }
+    return worlds;
+}
+
 WalkMap make_walk_map(const Scene& scene, const glm::vec3& eye) {
+    return make_walk_map(scene, object_places(scene), eye);
+}
+
+WalkMap make_walk_map(const Scene& scene, std::span<const glm::mat4> worlds, const glm::vec3& eye) {
     WalkMap map;
     map.occupied.assign(std::size_t{WalkMap::columns} * WalkMap::columns, 0);
     const float half = 0.5F * WalkMap::columns * WalkMap::cell;
@@ -118,12 +158,11 @@ WalkMap make_walk_map(const Scene& scene, const glm::vec3& eye) {
     map.origin = glm::floor((eye - glm::vec3(half, WalkMap::below, half)) / grid) * grid;
     const glm::vec3 size(2.0F * half, WalkMap::layers * WalkMap::layer, 2.0F * half);
     const Bounds box{map.origin, map.origin + size};
-    std::vector<glm::mat4> worlds;
     std::vector<bool> near;
     for (const Object& object : scene.objects) {
-        worlds.push_back(object.world_from_object());
+        const Bounds bounds = placed_bounds(object, worlds[near.size()]);
         near.push_back(object.kind != ObjectKind::door &&
-                       overlap(placed_bounds(object, worlds.back()), box));
+                       (overlap(bounds, box) || below(bounds, eye)));
     }
     Filler filler(map);
     for (const Triangle& triangle : scene.triangles) {
@@ -134,11 +173,17 @@ WalkMap make_walk_map(const Scene& scene, const glm::vec3& eye) {
         std::array<glm::vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = glm::vec3(worlds[triangle.object] *
-                                   glm::vec4(scene.vertices[triangle.vertex[k]].position, 1.0F)) -
-                         map.origin;
-            bounds.add(corners[k] + map.origin);
+                                   glm::vec4(scene.vertices[triangle.vertex[k]].position, 1.0F));
+            bounds.add(corners[k]);
+        }
+        if (below(bounds, eye)) {
+            const auto height = height_below(corners, eye);
+            map.floor = height && (!map.floor || *height > *map.floor) ? height : map.floor;
         }
         if (overlap(bounds, box)) {
+            for (glm::vec3& corner : corners) {
+                corner -= map.origin;
+            }
             filler.fill(corners);
         }
     }

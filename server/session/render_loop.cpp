@@ -226,7 +226,7 @@ void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event
                 }
                 break;
             case v1::ClientMessage::kGetWalkMap:
-                answer_walk_map(event);
+                walk_maps_.ask(event, epoch_);
                 return;
             case v1::ClientMessage::kSetTarget:
                 if (!set_target(session, event)) {

@@ -23,6 +23,7 @@
 #include "session/viewers/check_desk.h"
 #include "session/viewers/target_book.h"
 #include "session/viewers/viewer_session.h"
+#include "session/walk_map_desk.h"
 #include "stream/cost_model.h"
 #include "stream/frame_encoder.h"
 #include "stream/frame_scheduler.h"
@@ -98,7 +99,8 @@ class RenderLoop {
     void draw_for_drag();
     void note_phase_end();
     bool set_hidden(ViewerSession& session, const ClientEvent& event);
-    void answer_walk_map(const ClientEvent& event);
+    void answer_walk_map(const ClientEvent& event, const std::optional<WalkMap>& map,
+                         std::uint32_t epoch) const;
     void answer_probe(ViewerSession& session, const ClientEvent& event);
     void cancel_snapshot(const ClientEvent& event);
     void add_snapshot(const ViewerSession& session, const ClientEvent& event);
@@ -201,6 +203,10 @@ class RenderLoop {
     Clock::time_point last_solution_, rate_since_;
     std::uint64_t rate_iterations_ = 0;
     double iterations_per_second_ = 0.0;
+    // Last, since its thread uses the others.
+    WalkMapDesk walk_maps_{scene_,
+                           [this](const ClientEvent& event, const std::optional<WalkMap>& map,
+                                  std::uint32_t epoch) { answer_walk_map(event, map, epoch); }};
 };
 
 }  // namespace raybundle

@@ -21,22 +21,30 @@ bool RenderLoop::set_hidden(ViewerSession& session, const ClientEvent& event) {
     return true;
 }
 
-void RenderLoop::answer_walk_map(const ClientEvent& event) {
-    const WalkMap map = make_walk_map(scene_, from_message(event.message.get_walk_map().eye()));
+void RenderLoop::answer_walk_map(const ClientEvent& event, const std::optional<WalkMap>& map,
+                                 std::uint32_t epoch) const {
+    if (!map) {
+        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED,
+                            "getWalkMap: a newer one has come before its turn");
+        return;
+    }
     v1::ServerMessage answer;
     v1::WalkMap& out = *answer.mutable_walk_map();
-    to_message(map.origin, out.mutable_origin());
+    to_message(map->origin, out.mutable_origin());
     out.set_cell(WalkMap::cell);
     out.set_layer(WalkMap::layer);
     out.set_columns(WalkMap::columns);
     out.set_layers(WalkMap::layers);
     std::string& bytes = *out.mutable_occupied();
-    for (const std::uint64_t column : map.occupied) {
+    for (const std::uint64_t column : map->occupied) {
         for (int byte = 0; byte < 8; ++byte) {
             bytes.push_back(static_cast<char>(column >> (8 * byte) & 0xffU));
         }
     }
-    out.set_epoch(epoch_);
+    if (map->floor) {
+        out.set_floor(*map->floor);
+    }
+    out.set_epoch(epoch);
     server_.reply(event, answer);
 }
 

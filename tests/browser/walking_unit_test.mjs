@@ -20,7 +20,7 @@ const CELL = 0.1;
 const LAYER = 0.05;
 
 /** Cells about (0, 1.6, 0), of what a function says is solid. */
-function gridOf(solid) {
+function gridOf(solid, floor = undefined) {
     const origin = vec3(-3.2, -0.8, -3.2);
     const bytes = new Uint8Array(8 * 64 * 64);
     for (let z = 0; z < 64; ++z) {
@@ -33,7 +33,7 @@ function gridOf(solid) {
             }
         }
     }
-    return new WalkGrid({origin, cell: CELL, layer: LAYER, columns: 64, layers: 64, occupied: btoa(String.fromCharCode(...bytes))});
+    return new WalkGrid({origin, cell: CELL, layer: LAYER, columns: 64, layers: 64, floor, occupied: btoa(String.fromCharCode(...bytes))});
 }
 
 const floor = ({y}) => y < 0;
@@ -87,6 +87,23 @@ describe('who walks', () => {
     });
 });
 
+describe('what is under an eye', () => {
+    const terrace = gridOf(({x, y}) => y < (x > 1 ? -0.4 : 0.03), 0.03);
+
+    it('is exact where the cells were asked for, and follows them elsewhere', () => {
+        assert.equal(terrace.under(start), 0.03);
+        assert.ok(Math.abs(terrace.under(vec3(-1, 1.7, 0.5)) - 0.03) < 1e-9, 'the same floor');
+        assert.ok(Math.abs(terrace.under(vec3(2, 1.6, 0)) + 0.4) <= LAYER, 'down the step');
+    });
+
+    it('is known high above it, and of nothing else', () => {
+        const high = gridOf(() => false, -12.5);
+        assert.equal(high.under(start), -12.5);
+        assert.equal(high.under(vec3(30, 1.6, 0)), null, 'beyond the cells');
+        assert.equal(gridOf(() => false).under(start), null, 'nothing is below');
+    });
+});
+
 describe('the way back', () => {
     const VIEW = {eye: start, target: vec3(1, 1.6, 0), up: vec3(0, 1, 0), verticalFov: 0.8};
 
@@ -115,7 +132,7 @@ describe('plans and sections', () => {
         assert.ok(Math.abs(near.depth - plan.near) < 1e-6 * plan.near, 'cut 1.2 m above the floor');
         assert.ok(at(vec3(5, 2.9, 3)).depth < plan.near, 'the ceiling is cut away');
         const tall = {min: vec3(0, -1.5, 0), max: vec3(10, 7, 6)};
-        const upstairs = planOf(tall, 1.5, 4.6);
+        const upstairs = planOf(tall, 1.5, 3);
         assert.ok(Math.abs(upstairs.eye.y - upstairs.near - 4.2) < 1e-6, 'of the floor on which one stands');
     });
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kBox = 2;  ///< id of the box of pin_point.gltf
 
-Json vector(double x, double y, double z) {
+Json xyz(double x, double y, double z) {
     return {{"x", x}, {"y", y}, {"z", z}};
 }
 
@@ -31,7 +31,7 @@ class ScaleTest : public testing::Test {
     ScaleTest() {
         viewer_.join("", 65, 65);
         viewer_.request(
-            {{"setCamera", {{"eye", vector(2.5, 1.0, 1.5)}, {"target", vector(2.5, 0.0, 3.0)}}}});
+            {{"setCamera", {{"eye", xyz(2.5, 1.0, 1.5)}, {"target", xyz(2.5, 0.0, 3.0)}}}});
     }
 
     /// Illuminance of the floor below the lamp, lx.
@@ -44,7 +44,7 @@ class ScaleTest : public testing::Test {
 
     /// Scales the board where it is between lamp and floor.
     Json scale(double factor) {
-        return viewer_.request(placed(between_, vector(factor, factor, factor)));
+        return viewer_.request(placed(between_, xyz(factor, factor, factor)));
     }
 
     /// Waits until the light is as it should be. False: only what hangs takes so long.
@@ -60,7 +60,7 @@ class ScaleTest : public testing::Test {
 
     Daemon daemon_{std::string(RAYBUNDLE_ROOT) + "/tests/cases/places/pin_point.gltf"};
     JsonViewer viewer_{daemon_.port()};
-    const Json between_ = vector(2.2, 1.2, 2.2);
+    const Json between_ = xyz(2.2, 1.2, 2.2);
 };
 
 TEST_F(ScaleTest, LightFollowsAnObjectThatShrinksAndGrows) {
@@ -92,13 +92,13 @@ TEST_F(ScaleTest, AMoveBeyondTheLimitsIsAnErrorAndChangesNothing) {
         Json request;
         const char* field;
     };
-    const Json one = vector(1, 1, 1);
+    const Json one = xyz(1, 1, 1);
     for (const Beyond& beyond : {
-             Beyond{placed(vector(2e5, 0, 0), one), "moveObject.transform.translation"},
-             Beyond{placed(vector(0, 0, -1e8), one), "moveObject.transform.translation"},
-             Beyond{placed(between_, vector(1e6, 1e6, 1e6)), "moveObject.transform."},
-             Beyond{placed(between_, vector(1, 1, 4e5)), "moveObject.transform."},
-             Beyond{placed(between_, vector(1, 0, 1)), "moveObject.transform.scale"},
+             Beyond{placed(xyz(2e5, 0, 0), one), "moveObject.transform.translation"},
+             Beyond{placed(xyz(0, 0, -1e8), one), "moveObject.transform.translation"},
+             Beyond{placed(between_, xyz(1e6, 1e6, 1e6)), "moveObject.transform."},
+             Beyond{placed(between_, xyz(1, 1, 4e5)), "moveObject.transform."},
+             Beyond{placed(between_, xyz(1, 0, 1)), "moveObject.transform.scale"},
          }) {
         const Json error = viewer_.request(beyond.request).at("error");
         EXPECT_EQ(error.at("code"), "INVALID_ARGUMENT");
@@ -106,7 +106,7 @@ TEST_F(ScaleTest, AMoveBeyondTheLimitsIsAnErrorAndChangesNothing) {
         EXPECT_TRUE(text.starts_with(beyond.field)) << text;
     }
     const std::string limit =
-        viewer_.request(placed(vector(2e5, 0, 0), one)).at("error").at("message");
+        viewer_.request(placed(xyz(2e5, 0, 0), one)).at("error").at("message");
     EXPECT_TRUE(has(limit, "the limit is 1677")) << limit;
     JsonViewer after(daemon_.port());
     const Json welcome = after.join().at("welcome");

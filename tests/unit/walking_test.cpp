@@ -66,6 +66,25 @@ TEST(StandingViews, AreNoneInWhatNobodyCanStandIn) {
     EXPECT_TRUE(standing_views(scene, WorldRays(scene), 4).empty());
 }
 
+TEST(WalkMapTest, KnowsWhatIsStraightBelowTheEyeHoweverFar) {
+    GltfBuilder builder = two_rooms();
+    add_box(builder, "table", {3, 0.7F, 1}, {4, 0.74F, 2});
+    builder.add_node({{"mesh", builder.add_box_mesh({-20, -4.3F, -20}, {20, -4, 20})},
+                      {"name", "ground"},
+                      {"rotation", {0.0F, 0.0F, 0.02F, 0.99980F}}});
+    const Scene scene = builder.load();
+    const auto floor = [&](const glm::vec3& eye) { return make_walk_map(scene, eye).floor; };
+    ASSERT_TRUE(floor({2, 1.6F, 2}));
+    EXPECT_NEAR(*floor({2, 1.6F, 2}), 0.0F, 1e-5F) << "floor of the room, not of the scene";
+    EXPECT_NEAR(*floor({2, 0.1F, 2}), 0.0F, 1e-5F) << "somebody lies on it";
+    EXPECT_NEAR(*floor({3.5F, 1.6F, 1.5F}), 0.74F, 1e-5F) << "table";
+    EXPECT_NEAR(*floor({2, 40.0F, 2}), 3.2F, 1e-5F) << "roof, far below";
+    ASSERT_TRUE(floor({15, 1.6F, 2}));
+    EXPECT_NEAR(*floor({15, 1.6F, 2}), -4.0F + 15.0F * 0.04F, 0.02F) << "sloping ground outside";
+    EXPECT_FALSE(floor({50, 1.6F, 2})) << "beyond it";
+    EXPECT_FALSE(floor({2, -9.0F, 2})) << "below all";
+}
+
 bool taken(const WalkMap& map, const glm::vec3& at) {
     const glm::vec3 off = at - map.origin;
     const auto column = static_cast<std::size_t>(off.z / WalkMap::cell) * WalkMap::columns +

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/walk_map_desk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "session/scene_messages.h"
+
+namespace raybundle {
+
+WalkMapDesk::WalkMapDesk(const Scene& scene, Answer answer)
+    : scene_(scene), answer_(std::move(answer)) {
+    thread_ = std::jthread([this](const std::stop_token& token) { run(token); });
+}
+
+void WalkMapDesk::ask(const ClientEvent& request, std::uint32_t epoch) {
+    Job job{request, object_places(scene_), epoch};
+    std::optional<ClientEvent> replaced;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto same = std::find_if(jobs_.begin(), jobs_.end(), [&](const Job& other) {
+            return other.request.viewer == request.viewer;
+        });
+        if (same != jobs_.end()) {
+            replaced = std::move(same->request);
+            *same = std::move(job);
+        } else {
+            jobs_.push_back(std::move(job));
+        }
+    }
+    changed_.notify_all();
+    if (replaced) {
+        answer_(*replaced, std::nullopt, epoch);
+    }
+}
+
+void WalkMapDesk::run(const std::stop_token& token) {
+    using Clock = std::chrono::steady_clock;
+    std::unique_lock lock(mutex_);
+    while (changed_.wait(lock, token, [this] { return !jobs_.empty(); })) {
+        const Job job = std::move(jobs_.front());
+        jobs_.pop_front();
+        lock.unlock();
+        const auto begun = Clock::now();
+        const glm::vec3 eye = from_message(job.request.message.get_walk_map().eye());
+        answer_(job.request, make_walk_map(scene_, job.worlds, eye), job.epoch);
+        const auto rested = Clock::now() + (Clock::now() - begun);
+        lock.lock();
+        changed_.wait_until(lock, token, rested, [] { return false; });
+    }
+}
+
+}  // namespace raybundle

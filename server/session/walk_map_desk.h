@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "net/ws/client_event.h"
+#include "scene/scene.h"
+#include "scene/walk_map.h"
+
+namespace raybundle {
+
+/// Works out what stands around viewers on a thread of its own, so that pictures go on meanwhile:
+/// one map after the other, in turn, half of the time at most. Of each viewer one request waits; a
+/// newer one replaces it.
+class WalkMapDesk {
+  public:
+    /// `answer` hears of each request on the desk's thread, of one that was replaced with no map on
+    /// the caller's. The scene must outlive the desk and keep its triangles, vertices and objects
+    /// but for their places.
+    using Answer = std::function<void(const ClientEvent& request, const std::optional<WalkMap>& map,
+                                      std::uint32_t epoch)>;
+    WalkMapDesk(const Scene& scene, Answer answer);
+
+    /// Takes a getWalkMap, with objects at their present places. On the thread that moves them.
+    void ask(const ClientEvent& request, std::uint32_t epoch);
+
+  private:
+    struct Job {
+        ClientEvent request;
+        std::vector<glm::mat4> worlds;
+        std::uint32_t epoch = 0;
+    };
+
+    void run(const std::stop_token& token);
+
+    const Scene& scene_;
+    const Answer answer_;
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::deque<Job> jobs_;
+    std::jthread thread_;
+};
+
+}  // namespace raybundle
