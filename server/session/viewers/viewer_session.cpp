@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "loop/exposure_follow.h"
 #include "net/server.h"
 #include "session/scene_messages.h"
 #include "stream/elapsed.h"
@@ -248,13 +249,13 @@ PictureLook ViewerSession::look() const {
     return {mode_, exposure, colour_scale(exposure)};
 }
 
-float ViewerSession::exposure(const ViewerImage& image) {
+float ViewerSession::exposure(const ViewerImage& image, double since_frame_s) {
     if (auto_exposure_ && shown_exposure_ && !image.brightness_known()) {
         return *shown_exposure_;  // of another size, or of other shaders: as bright as the last one
     }
     const float wanted = (auto_exposure_ ? image.automatic_exposure() : 0.0F) + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
-    const float follow = shown_exposure_ ? 0.15F : 1.0F;
+    const float follow = shown_exposure_ ? exposure_follow(since_frame_s) : 1.0F;
     const float before = shown_exposure_.value_or(wanted);
     shown_exposure_ = before + (wanted - before) * follow;
     return *shown_exposure_;
@@ -330,7 +331,7 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
         header_.set_error_high(static_cast<float>(statistics.error_high));
         header_.set_error_measured(&image == image_.get() && measured_.known());
     }
-    header_.set_exposure(exposure(image));
+    header_.set_exposure(exposure(image, seconds(now - last_frame_)));
     header_.set_server_time_ms(Server::now_ms());
     const ColourScale scale = colour_scale(header_.exposure());
     if (mode_ != DisplayMode::photo) {
