@@ -220,9 +220,16 @@ export class DisplayPanel {
         this.app.client.send({setDisplay: this.#wanted()});
     }
 
+    /** Whether the picture on screen shows illuminance: what has been asked for comes later. */
+    get showsIlluminance() {
+        const {scaleMaximum, scaleIlluminance} = this.app.frame ?? {};
+        // Servers of before do not tell.
+        return scaleMaximum !== undefined && (scaleIlluminance ?? this.mode === 'FALSE_ILLUMINANCE');
+    }
+
     /** Unit of the colour scale. */
     get legendUnit() {
-        return this.mode === 'FALSE_ILLUMINANCE' ? this.#unit : 'cd/m²';
+        return this.showsIlluminance ? this.#unit : 'cd/m²';
     }
 
     #drawLegend() {
@@ -234,7 +241,7 @@ export class DisplayPanel {
             this.#drawn = '';
             return;
         }
-        const lux = this.mode === 'FALSE_ILLUMINANCE';
+        const lux = this.showsIlluminance;
         const unit = this.legendUnit;
         const top = unit === 'fc' ? maximum / LUX_PER_FOOTCANDLE : maximum;
         if (this.#drawn === `${top} ${unit} ${linear}`) {

@@ -264,7 +264,7 @@ export class GridPanel {
             }
             const {grid, result, outdated} = this.shown;
             group.classList.toggle('outdated', outdated);
-            const scale = display.mode === 'FALSE_ILLUMINANCE' ? this.app.frame?.scaleMaximum : undefined;
+            const scale = display.showsIlluminance ? this.app.frame?.scaleMaximum : undefined;
             const linear = scale !== undefined && (this.app.frame?.scaleLinear ?? false);
             const top = scale ?? Math.max(...result.illuminance, 1e-3);
             const points = pointsOf(grid);

@@ -146,6 +146,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} exposure  EV (log2)
  * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
  * @property {boolean} [scaleLinear]  it begins at 0; absent or false: logarithmic
+ * @property {boolean} [scaleIlluminance]  it is one of illuminance, else of luminance
  * @property {number} serverTimeMs
  * @property {number} [depthBytes]  at the end of the message; absent: the frame has no depths
  * @property {number} [depthColumns]

@@ -166,6 +166,7 @@ describe('a review', () => {
         await page.selectOption('#scale-maximum', '2000');
         await page.waitForFunction(() => window.raybundle.frame.scaleMaximum === 2000);
         assert.match(await page.textContent('#legend-title'), /^Illuminance, lx$/);
+        assert.equal(await page.evaluate(() => window.raybundle.frame.scaleIlluminance), true, 'says the server');
         const ticks = await page.$$eval('#legend-ticks li', (all) => all.map((t) => t.textContent));
         assert.deepEqual([ticks[0], ticks.at(-1)], ['2\u202f000', '2']);
         assert.ok(difference(photo, await thumbnail(page)) > 20);

@@ -337,6 +337,7 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
     if (mode_ != DisplayMode::photo) {
         header_.set_scale_maximum(scale.maximum);
         header_.set_scale_linear(scale.linear);
+        header_.set_scale_illuminance(mode_ == DisplayMode::false_illuminance);
     }
     image.compose(mode_, header_.exposure(), frame_size, scale);
     changed_ = false;
