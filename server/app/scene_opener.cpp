@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "scene/gltf_confinement.h"
@@ -21,13 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double elapsed_s(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Size of a file; 0 where it is not known.
-double bytes_of(const std::string& file) {
-    std::error_code unknown;
-    const auto bytes = std::filesystem::file_size(file, unknown);
-    return unknown ? 0.0 : static_cast<double>(bytes);
 }
 
 }  // namespace
@@ -57,9 +49,11 @@ class SceneOpener::SceneUpload : public Upload {
     std::shared_ptr<NewSceneFile> file_;
 };
 
-SceneOpener::SceneOpener(const Options& options, Server& server, std::function<void()> opened)
+SceneOpener::SceneOpener(const Options& options, Server& server, const OpeningTimes& times,
+                         std::function<void()> opened)
     : options_(options),
       server_(server),
+      times_(times),
       library_(options.scenes),
       opened_(std::move(opened)),
       shown_(options.scene) {
@@ -168,13 +162,10 @@ void SceneOpener::announce(OpenedScene& scene, v1::SceneOpening::Stage stage) {
     v1::ServerMessage message;
     v1::SceneOpening& progress = *message.mutable_scene_opening();
     progress = scene.progress;
-    {
-        const std::lock_guard lock(mutex_);
-        const auto expected = times_.expected(scene.file, bytes_of(scene.file));
-        if (expected && stage != v1::SceneOpening::REJECTED) {
-            const double left = *expected - elapsed_s(scene.begun);
-            progress.set_seconds_left(static_cast<float>(std::max(left, 0.0)));
-        }
+    const auto expected = times_.expected(scene.file);
+    if (expected && stage != v1::SceneOpening::REJECTED) {
+        const double left = *expected - elapsed_s(scene.begun);
+        progress.set_seconds_left(static_cast<float>(std::max(left, 0.0)));
     }
     server_.broadcast(message);
 }
@@ -195,7 +186,6 @@ void SceneOpener::accept(OpenedScene& scene) {
     {
         const std::lock_guard lock(mutex_);
         opening_ = false;
-        times_.note(scene.file, bytes_of(scene.file), elapsed_s(scene.begun));
     }
     announce(scene, v1::SceneOpening::READY);
     server_.reply_ok(scene.request);

@@ -33,7 +33,8 @@ class SceneOpener {
   public:
     /// `opened` is called when take() has something. Throws UsageError where the folder of
     /// options.scenes is none.
-    SceneOpener(const Options& options, Server& server, std::function<void()> opened);
+    SceneOpener(const Options& options, Server& server, const OpeningTimes& times,
+                std::function<void()> opened);
     ~SceneOpener();
     SceneOpener(const SceneOpener&) = delete;
     SceneOpener& operator=(const SceneOpener&) = delete;
@@ -69,6 +70,7 @@ class SceneOpener {
 
     const Options options_;
     Server& server_;
+    const OpeningTimes& times_;
     const SceneLibrary library_;
     std::function<void()> opened_;
     std::mutex mutex_;
@@ -77,7 +79,6 @@ class SceneOpener {
     std::string shown_;
     bool opening_ = false;
     std::optional<OpenedScene> ready_;
-    OpeningTimes times_;
     std::jthread thread_;
 };
 

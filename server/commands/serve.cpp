@@ -59,12 +59,13 @@ ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& load
 
 /// Why a loop ends: `leave` is set last.
 struct Control {
-    explicit Control(Server& server) : preparation(server) {}
+    explicit Control(Server& server) : preparation(server, times) {}
 
     std::atomic<bool> stop{false};   ///< the program ends
     std::atomic<bool> leave{false};  ///< that, or another scene waits
     std::mutex serving_mutex;
     bool serving = false;  ///< a loop runs that looks at `leave`, or the program ends
+    OpeningTimes times;
     Preparation preparation;
     std::optional<SceneWatch> watch;
     std::optional<SceneOpener> opener;
@@ -147,7 +148,7 @@ class SceneServer {
     }
 
     void run() {
-        control_.preparation.begin(options_.scene);
+        control_.preparation.begin(options_.scene, std::nullopt);
         {
             const std::lock_guard lock(control_.serving_mutex);
             server_.start();
@@ -196,7 +197,7 @@ class SceneServer {
     /// Who comes now hears that a scene is being made ready; unless the program ends.
     void leave_loop() {
         if (!control_.stop) {
-            control_.preparation.begin(shown_file_);
+            control_.preparation.begin(shown_file_, std::nullopt);
             set_serving(false);
         }
     }
@@ -231,7 +232,7 @@ class SceneServer {
 
     /// Viewers that wait hear of it.
     LoadedScene load(const Options& options) {
-        control_.preparation.begin(options.scene);
+        control_.preparation.begin(options.scene, Preparation::Clock::now());
         return load_scene(options,
                           [this] { control_.preparation.reach(v1::SceneOpening::PREPARING); });
     }
@@ -263,7 +264,7 @@ class SceneServer {
 
     void open(OpenedScene& scene) {
         control_.opener->announce(scene, v1::SceneOpening::COMPILING);
-        control_.preparation.begin(scene.file);
+        control_.preparation.begin(scene.file, scene.begun);
         // On disk before anybody is told.
         const auto shown = [&](ChangeLog& log) {
             journals_.remember_scene(log, options_.scene, scene.progress.name());
@@ -274,6 +275,7 @@ class SceneServer {
             shown_file_ = scene.file;
             watch(scene.file);
         } else {
+            control_.preparation.begin(shown_file_, std::nullopt);
             control_.opener->reject(scene, problem);
         }
     }
@@ -378,7 +380,7 @@ int run_serve(const Options& options) {
         },
         [&] { reload_settings(options, server); });
     if (!options.scenes.empty()) {
-        control.opener.emplace(options, server, leave);
+        control.opener.emplace(options, server, control.times, leave);
     }
     const NetworkEnd network_end(control, server);  // before the opener, which uploads use
     SceneServer(options, server, control).run();

@@ -46,6 +46,20 @@ TEST_F(StartTest, HelloIsAnsweredWithProgressBeforeTheSceneIsReady) {
     EXPECT_EQ(first_message(another)["sceneOpening"].at("stage"), "COMPILING");
 }
 
+TEST_F(StartTest, SaysAgainThatItPreparesAsLongAsItDoes) {
+    const Daemon daemon(scene_file("cornell_box.gltf"));
+    JsonViewer viewer(daemon.port());
+    first_message(viewer);
+    const auto compiling = [](const Json& message) {
+        return message.contains("sceneOpening") &&
+               message.at("sceneOpening").at("stage") == "COMPILING";
+    };
+    for (int times = 0; times < 3; ++times) {
+        const Json news = viewer.next(compiling);
+        EXPECT_EQ(news.at("sceneOpening").at("name"), "cornell_box.gltf") << news.dump();
+    }
+}
+
 TEST_F(StartTest, EndsAtOnceBeforeTheSceneIsReady) {
     for (const int number : {SIGTERM, SIGINT}) {
         Daemon daemon(scene_file("cornell_box.gltf"));
