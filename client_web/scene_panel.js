@@ -5,6 +5,7 @@ import {LiveField, announce, byId, fieldNote, listRow, showValue} from './elemen
 import {ObjectList} from './object_list.js';
 import {basePoint, limitedSize, resizedAbout, turnBetween, turnedAbout} from './placement.js';
 import {shifted} from './scene_model.js';
+import {threeDigits} from './units.js';
 import {centre, completeTransform, sub} from './vector.js';
 
 /**
@@ -87,6 +88,23 @@ export function isOutside(object, scene) {
     return /** @type {const} */ (['x', 'y', 'z']).some(
         (axis) => object.min[axis] > scene.max[axis] || object.max[axis] < scene.min[axis],
     );
+}
+
+/** What is larger or higher than that is no building, metres; as the server's log has it. */
+const LARGEST = {scene: 1000, height: 100};
+
+/**
+ * What makes another unit likely.
+ *
+ * @param {Bounds} bounds  of a scene
+ * @returns {string} empty: nothing
+ */
+export function sizeHint({min, max}) {
+    const height = max.y - min.y;
+    const size = Math.max(max.x - min.x, height, max.z - min.z);
+    return size > LARGEST.scene || height > LARGEST.height
+        ? `This scene is ${threeDigits(size)} m large and ${threeDigits(height)} m high. If it was drawn in another unit, whoever runs the server can say so (--unit).`
+        : '';
 }
 
 export class ScenePanel {
@@ -199,6 +217,9 @@ export class ScenePanel {
         if (!scene) {
             return;
         }
+        const hint = byId('size-hint', HTMLElement);
+        hint.textContent = sizeHint(scene.bounds);
+        hint.hidden = hint.textContent === '';
         const cameras = scene.cameras.map(({name}, index) =>
             listRow(name || `Camera ${index + 1}`, () => this.app.flyTo(index)),
         );

@@ -7,6 +7,7 @@
 #include "journal/session_journal.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_loader.h"
+#include "scene/scene_report.h"
 
 namespace raybundle {
 
@@ -63,6 +64,9 @@ LoadedScene load_scene(const Options& options, const std::function<void()>& acce
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const std::string& notice : loaded.scene.notices) {
         spdlog::warn("{}: {}", loaded.scene.name, notice);
+    }
+    if (const auto hint = unit_hint(loaded.scene.bounds)) {
+        spdlog::warn("{}: {}", loaded.scene.name, *hint);
     }
     spdlog::info("{}: {} triangles, {} patches, {} objects, {} lights, {:.2f} s", loaded.scene.name,
                  loaded.scene.triangles.size(), loaded.mesh.patch_count(),

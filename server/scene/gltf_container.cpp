@@ -185,14 +185,22 @@ GltfContainer read_glb(const std::string& path, std::span<const std::uint8_t> wh
 
 }  // namespace
 
+void require_file(const std::string& path, const std::string& scene_file,
+                  const std::string& json_path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        const bool there = std::filesystem::exists(path, error);
+        throw SceneError(scene_file, json_path,
+                         there ? fmt::format("\"{}\" is no file", path)
+                               : fmt::format("file \"{}\" not found", path));
+    }
+}
+
 std::vector<std::uint8_t> read_file_bounded(const std::string& path, std::uint64_t max_bytes,
                                             const std::string& scene_file,
                                             const std::string& json_path) {
-    // A device or a pipe would never end: only regular files.
+    require_file(path, scene_file, json_path);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw SceneError(scene_file, json_path, fmt::format("file \"{}\" not found", path));
-    }
     const std::uint64_t size = std::filesystem::file_size(path, error);
     if (error || size > max_bytes) {
         throw SceneError(scene_file, json_path,

@@ -187,11 +187,7 @@ void check_uri(const std::string& scene_file, const std::string& json_path,
     if (uri.starts_with("data:")) {
         return;
     }
-    const std::string path = local_file(scene_file, json_path, uri);
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw SceneError(scene_file, json_path, fmt::format("file \"{}\" not found", path));
-    }
+    require_file(local_file(scene_file, json_path, uri), scene_file, json_path);
 }
 
 }  // namespace raybundle

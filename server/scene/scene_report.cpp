@@ -10,6 +10,8 @@ namespace raybundle {
 namespace {
 
 constexpr float largest_plausible = 1000.0F;  // m
+constexpr float largest_building = 100.0F;    // m, its height too
+constexpr float smallest_building = 2.0F;     // m, so that one can stand in it
 constexpr float smallest_plausible = 0.01F;   // m
 
 struct Unit {
@@ -31,15 +33,21 @@ double triangle_area(const Scene& scene, const Triangle& triangle, const glm::dm
 std::optional<std::string> unit_hint(const Bounds& bounds) {
     const glm::vec3 extent = bounds.extent();
     const float size = std::max({extent.x, extent.y, extent.z});
-    if (size > largest_plausible) {
-        // The largest unit that makes it a building of at most 100 m, else millimetres.
-        const auto* fits = std::find_if(
-            std::begin(smaller_units), std::end(smaller_units) - 1,
-            [&](const Unit& unit) { return size * unit.metres <= 0.1F * largest_plausible; });
+    if (size > largest_plausible || extent.y > largest_building) {
+        // Its size alone does not tell a hall drawn in centimetres from a room in millimetres.
+        std::string units;
+        for (const Unit& unit : smaller_units) {
+            const float metres = size * unit.metres;
+            const bool fits = metres <= largest_building && metres >= smallest_building;
+            if (fits || (units.empty() && &unit == std::end(smaller_units) - 1)) {
+                units += fmt::format("{}--unit {} ({:.4g} m)", units.empty() ? "" : ", ", unit.name,
+                                     metres);
+            }
+        }
         return fmt::format(
-            "the scene is {:.4g} m large: if it was drawn in another unit, try "
-            "--unit {}",
-            size, fits->name);
+            "the scene is {:.4g} m large and {:.4g} m high: if it was drawn in another unit, try "
+            "{}",
+            size, extent.y, units);
     }
     if (size < smallest_plausible && size > 0.0F) {
         return fmt::format(

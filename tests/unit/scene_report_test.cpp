@@ -19,10 +19,19 @@ Bounds cube(float size) {
 
 TEST(SceneReport, HintsAtWrongUnits) {
     EXPECT_FALSE(unit_hint(cube(5.0F)));
-    EXPECT_FALSE(unit_hint(cube(999.0F)));
+    EXPECT_FALSE(unit_hint(cube(99.0F)));
+    const auto box = [](const glm::vec3& size) { return Bounds{glm::vec3(0.0F), size}; };
+    EXPECT_FALSE(unit_hint(box({999.0F, 60.0F, 999.0F}))) << "a site";
     EXPECT_NE(unit_hint(cube(1600.0F))->find("--unit"), std::string::npos);
     EXPECT_NE(unit_hint(cube(9000.0F))->find("--unit cm"), std::string::npos);
     EXPECT_NE(unit_hint(cube(90'000.0F))->find("--unit mm"), std::string::npos);
+    EXPECT_NE(unit_hint(cube(9e6F))->find("--unit mm"), std::string::npos);
+    // A room of 6.5 x 10 m in millimetres, or a hall of 65 x 100 m in centimetres: both are named.
+    const std::string room = unit_hint(box({6483.0F, 2197.0F, 9995.0F})).value_or("");
+    EXPECT_NE(room.find("--unit mm (9.995 m)"), std::string::npos) << room;
+    EXPECT_NE(room.find("--unit cm (99.95 m)"), std::string::npos) << room;
+    EXPECT_NE(unit_hint(box({556.0F, 549.0F, 559.0F}))->find("--unit cm"), std::string::npos)
+        << "549 m high";
     EXPECT_NE(unit_hint(cube(0.005F))->find("--unit m"), std::string::npos);
 }
 

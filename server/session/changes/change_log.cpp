@@ -122,7 +122,9 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
         refresh_surfaces(scene, materials, mesh);
     }
     restore_history(scene);
-    spdlog::info("the session goes on at epoch {}", epoch_);
+    if (epoch_ > 0) {
+        spdlog::info("the session goes on after change {}", epoch_);
+    }
 }
 
 /// What can be gone back to in this session. scene: at its present state.
