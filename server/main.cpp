@@ -12,6 +12,7 @@
 #include "gpu/egl_context.h"
 #include "options/cli_options.h"
 #include "options/log_settings.h"
+#include "options/usage_message.h"
 #include "scene/gltf_loader.h"
 
 namespace {
@@ -73,6 +74,9 @@ int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Options options;
     raybundle::define_options(app, options);
+    app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+        return raybundle::usage_message(*failed, error);
+    });
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
