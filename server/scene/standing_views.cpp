@@ -23,7 +23,8 @@ constexpr float elbow_room = 0.35F;     // m, around a person
 constexpr float evenness = 0.02F;       // m: what a floor may rise within elbow_room
 constexpr float level_cosine = 0.95F;   // of a floor's slope
 constexpr int most_floors = 64;         // surfaces below one another
-constexpr int looks = 64;
+constexpr int looks_a_side = 8;
+constexpr int looks = looks_a_side * looks_a_side;
 constexpr int enclosing_hits = 52;  // of them: a wall of glass is no wall
 constexpr int turnings = 32;
 constexpr float step_back = 0.8F;      // share of the way to the wall behind
@@ -133,8 +134,30 @@ class Finder {
             return std::nullopt;
         }
         Standing standing = look_along_longest(eye);
+        const float shown = fronts_in_view(standing.camera);
+        if (shown <= 0.5F) {
+            return std::nullopt;
+        }
+        standing.worth *= shown;
         standing.worth *= lit(eye, emitting) ? 1.0F : in_the_dark;
         return standing;
+    }
+
+    /// Share of a picture that shows sides with light, or the sky: backs of walls are black.
+    [[nodiscard]] float fronts_in_view(const Camera& camera) const {
+        const glm::vec3 ahead = glm::normalize(camera.target - camera.eye);
+        const glm::vec3 right = glm::normalize(glm::cross(ahead, glm::vec3(0, 1, 0)));
+        const float half = std::tan(0.5F * camera.vertical_fov);
+        int shown = 0;
+        for (int i = 0; i < looks; ++i) {
+            const float u = (static_cast<float>(i % looks_a_side) + 0.5F) / looks_a_side;
+            const float v = (static_cast<float>(i / looks_a_side) + 0.5F) / looks_a_side;
+            const glm::vec3 way = ahead + (2.0F * u - 1.0F) * half * right +
+                                  (2.0F * v - 1.0F) * half * glm::vec3(0, 1, 0);
+            const WorldRays::Hit hit = rays_.trace(camera.eye, glm::normalize(way));
+            shown += (hit.met() ? hit.front : sky_) ? 1 : 0;
+        }
+        return static_cast<float>(shown) / looks;
     }
 
     [[nodiscard]] bool emits(const WorldRays::Hit& hit) const {
@@ -142,12 +165,13 @@ class Finder {
                glm::vec3(0.0F);
     }
 
-    /// Goes back from a place, and looks along the longest line through it that ends at a wall.
+    /// Goes back from a place, and looks along the longest line through it that ends at a
+    /// wall, at its lit side.
     [[nodiscard]] Standing look_along_longest(const glm::vec3& place) const {
         std::vector<float> length;
         for (int i = 0; i < turnings; ++i) {
-            const float distance = rays_.trace(place, turn(i)).distance;
-            length.push_back(std::isfinite(distance) ? std::min(distance, longest_view) : 0.0F);
+            const WorldRays::Hit hit = rays_.trace(place, turn(i));
+            length.push_back(hit.met() && hit.front ? std::min(hit.distance, longest_view) : 0.0F);
         }
         int best = 0;
         for (int i = 1; i < turnings; ++i) {

@@ -56,6 +56,37 @@ TEST(StandingViews, AreAtEyeHeightInsideWhereItIsLitAndLookFar) {
     EXPECT_NE(left(scene.cameras[0]), left(scene.cameras[1])) << "both in one room";
 }
 
+// Seen from where one can stand, half of what is around has light; along the longest line through
+// it, nearly all are backs: a shell modelled from outside.
+TEST(StandingViews, DoNotLookAtTheBacksOfWalls) {
+    GltfBuilder builder;
+    add_box(builder, "slab", {-0.2F, -0.2F, -0.2F}, {3.2F, 0.0F, 3.2F});
+    add_box(builder, "roof", {-0.2F, 3.0F, -0.2F}, {3.2F, 3.2F, 3.2F});
+    add_box(builder, "wall left", {-0.2F, 0, -0.2F}, {0, 3, 3.2F});
+    add_box(builder, "wall back", {0, 0, -0.2F}, {3.2F, 3, 0});
+    add_box(builder, "wall front", {0, 0, 3}, {3.2F, 3, 3.2F});
+    // What the room is open to, 9 m long: quads that face outwards.
+    const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                          const glm::vec3& d) {
+        builder.add_node({{"mesh", builder.add_triangle_mesh({a, b, c, a, c, d})}});
+    };
+    quad({3.2F, 0, 0}, {12, 0, 0}, {12, 0, 3}, {3.2F, 0, 3});  // floor, seen from below
+    quad({3.2F, 3, 0}, {3.2F, 3, 3}, {12, 3, 3}, {12, 3, 0});  // ceiling, from above
+    quad({3.2F, 0, 0}, {3.2F, 3, 0}, {12, 3, 0}, {12, 0, 0});  // walls, from outside
+    quad({3.2F, 0, 3}, {12, 0, 3}, {12, 3, 3}, {3.2F, 3, 3});
+    quad({12, 0, 0}, {12, 3, 0}, {12, 3, 3}, {12, 0, 3});
+    const Scene scene = builder.load();
+    const WorldRays rays(scene);
+    ASSERT_FALSE(rays.trace({2, 1.5F, 1.5F}, {1, 0, 0}).front);
+    ASSERT_NEAR(rays.trace({2, 1.5F, 1.5F}, {1, 0, 0}).distance, 10.0F, 0.01F);
+    const std::vector<Camera> views = standing_views(scene, rays, 8);
+    EXPECT_FALSE(views.empty()) << "the room itself";
+    for (const Camera& camera : views) {
+        const WorldRays::Hit hit = rays.trace(camera.eye, camera.target - camera.eye);
+        EXPECT_TRUE(hit.front) << camera.name;
+    }
+}
+
 TEST(StandingViews, AreNoneInWhatNobodyCanStandIn) {
     GltfBuilder builder;
     add_box(builder, "box", {0, 0, 0}, {1, 1, 1});
