@@ -157,6 +157,8 @@ export class LightPanel {
             this.#scene = '';
             this.pick(null);
         });
+        // Of what has been clicked; not of what is chosen from a list.
+        app.on('selection', () => this.pick(null));
         app.on('welcome', () => this.#showScene());
         app.on('sceneChanged', () => this.#refresh.forEach((show) => show()));
     }
