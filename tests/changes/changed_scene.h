@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +48,9 @@ struct ChangeCase {
 };
 
 /// Names the case in lists and failures of tests.
-inline void PrintTo(const ChangeCase& c, std::ostream* out) { *out << c.name; }
+inline void PrintTo(const ChangeCase& c, std::ostream* out) {
+    *out << c.name;
+}
 
 /// The cases of numerics.md (second part, Changes) that fit into some seconds each.
 std::vector<ChangeCase> change_cases();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loop/exposure_follow.h"
+#include "session/viewers/exposure_follow.h"
 
 #include <gtest/gtest.h>
 

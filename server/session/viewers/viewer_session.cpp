@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "loop/exposure_follow.h"
 #include "net/server.h"
 #include "session/scene_messages.h"
+#include "session/viewers/exposure_follow.h"
 #include "stream/elapsed.h"
 
 namespace raybundle {
