@@ -158,6 +158,10 @@ Edit move_to(const std::string& object, const glm::vec3& translation, float scal
     return {.kind = Edit::Kind::move, .name = object, .value = translation, .scale = scale};
 }
 
+Edit shift_by(const std::string& object, const glm::vec3& by) {
+    return {.kind = Edit::Kind::shift, .name = object, .value = by};
+}
+
 Edit set_light(const std::string& light, float luminance) {
     return {.kind = Edit::Kind::light, .name = light, .luminance = luminance};
 }

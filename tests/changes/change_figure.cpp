@@ -82,7 +82,8 @@ nlohmann::json measure(const ChangeCase& c, const std::filesystem::path& folder)
     plot.series = {series_of("served", 0, of_changed), series_of("new solve", 1, of_fresh)};
     for (std::size_t k = 0; k < after.size(); ++k) {
         const Served& served = changed.front()[k];
-        plot.series[0].points[k].band = std::pair(served.stated_low, served.stated_high);
+        plot.series[0].points[k].band =
+            std::pair(served.stated.error_low, served.stated.error_high);
     }
     std::ofstream(folder / (c.name + ".svg")) << svg_of(plot);
     std::vector<double> settled;

@@ -3,26 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
 #include "scene/gltf_loader.h"
 #include "scene/surface_edit.h"
-#include "view/viewer_image.h"
 
 namespace raybundle {
 
 namespace {
 
-constexpr unsigned picture = 96;  // pixels along an edge
-constexpr unsigned grid = 5;      // points along it
+constexpr unsigned grid = 5;  // points along an edge of the picture
 
 Scene load(const ChangeCase& c) {
     if (c.build != nullptr) {
         return c.build();
     }
-    return load_gltf(std::string(RAYBUNDLE_CASES) + "/changes/" + c.file, SceneSettings{});
+    const auto folder = std::filesystem::path(RAYBUNDLE_CASES) / "changes";
+    return load_gltf((folder / c.file).string(), SceneSettings{});
 }
 
 template <typename Range>
@@ -56,6 +56,10 @@ MaterialEdit material_edit(const Scene& scene, const Edit& edit) {
 
 void place(Scene& scene, const Edit& edit) {
     Object& object = scene.objects[index_of(scene.objects, edit.name)];
+    if (edit.kind == Edit::Kind::shift) {
+        object.transform.translation += edit.value;
+        return;
+    }
     object.transform.translation = edit.value;
     object.transform.scale = glm::vec3(edit.scale);
     object.transform.rotation = glm::angleAxis(glm::radians(edit.turn), glm::vec3(0, 1, 0));
@@ -65,6 +69,7 @@ void make(Scene& scene, const std::vector<Edit>& edits) {
     for (const Edit& edit : edits) {
         switch (edit.kind) {
             case Edit::Kind::move:
+            case Edit::Kind::shift:
                 place(scene, edit);
                 break;
             case Edit::Kind::light:
@@ -92,12 +97,8 @@ class Watched {
           mesh_(tessellate(scene_, {.patch_size = c.patch_size})),
           solver_(scene_, mesh_, settings_of(seed)),
           programs_(solver_.scene()),
-          image_(solver_.scene(), solver_.store(), programs_, glm::uvec2(picture)) {
-        Camera camera;
-        camera.eye = c.eye;
-        camera.target = c.target;
-        camera.vertical_fov = glm::radians(c.field_of_view);
-        image_.set_camera(camera);
+          image_(solver_.scene(), solver_.store(), programs_, glm::uvec2(c.picture)) {
+        image_.set_camera(camera_of(c));
     }
 
     void iterate(std::uint64_t count) {
@@ -112,7 +113,7 @@ class Watched {
         std::vector<std::uint32_t> materials;
         std::vector<std::uint32_t> reflecting;
         for (const Edit& edit : edits) {
-            if (edit.kind == Edit::Kind::move) {
+            if (edit.kind == Edit::Kind::move || edit.kind == Edit::Kind::shift) {
                 place(scene_, edit);
                 const std::uint32_t object = index_of(scene_.objects, edit.name);
                 moves.push_back({object, scene_.objects[object].world_from_object()});
@@ -135,16 +136,17 @@ class Watched {
     }
 
     Served served(std::uint64_t iterations) {
+        const unsigned picture = image_.size().x;
         std::vector<glm::uvec2> pixels;
         for (unsigned i = 0; i < grid * grid; ++i) {
             const glm::uvec2 cell(i % grid, i / grid);
             pixels.push_back((2U * cell + 1U) * picture / (2 * grid));
         }
-        image_.request_statistics();  // interpolates what the patches have
-        image_.finish_statistics();
+        image_.smooth();
+        state();
         Served result;
-        result.stated_low = image_.statistics().error_low;
-        result.stated_high = image_.statistics().error_high;
+        result.stated = image_.statistics();
+        result.radiance = image_.read_radiance();
         result.iterations = iterations;
         for (const auto& probe : image_.probe(pixels)) {
             const double lux = probe ? static_cast<double>(luminance(probe->irradiance)) : 0.0;
@@ -155,11 +157,23 @@ class Watched {
         return result;
     }
 
+    /// The same, while the picture states its error every so many, as viewers are told all the
+    /// time.
+    void run(std::uint64_t count) {
+        constexpr std::uint64_t interval = 16;
+        while (count > 0) {
+            const std::uint64_t next = std::min(count, interval);
+            iterate(next);
+            state();
+            count -= next;
+        }
+    }
+
     std::vector<Served> follow(std::span<const std::uint64_t> at) {
         std::vector<Served> result;
         std::uint64_t done = 0;
         for (const std::uint64_t iterations : at) {
-            iterate(iterations - done);
+            run(iterations - done);
             done = iterations;
             result.push_back(served(iterations));
         }
@@ -167,6 +181,11 @@ class Watched {
     }
 
   private:
+    void state() {
+        image_.request_statistics();  // interpolates what the patches have
+        image_.finish_statistics();
+    }
+
     void correct() {
         while (solver_.correcting()) {
             solver_.step(receivers_);
@@ -183,14 +202,26 @@ class Watched {
 
 }  // namespace
 
-std::vector<Served> solve_anew(const ChangeCase& c, std::uint64_t seed,
-                               std::span<const std::uint64_t> at) {
+Scene last_scene(const ChangeCase& c) {
     Scene scene = load(c);
     make(scene, c.before);
     for (const std::vector<Edit>& change : c.changes) {
         make(scene, change);
     }
-    Watched watched(c, std::move(scene), seed);
+    return scene;
+}
+
+Camera camera_of(const ChangeCase& c) {
+    Camera camera;
+    camera.eye = c.eye;
+    camera.target = c.target;
+    camera.vertical_fov = glm::radians(c.field_of_view);
+    return camera;
+}
+
+std::vector<Served> solve_anew(const ChangeCase& c, std::uint64_t seed,
+                               std::span<const std::uint64_t> at) {
+    Watched watched(c, last_scene(c), seed);
     return watched.follow(at);
 }
 
@@ -200,11 +231,11 @@ std::vector<Served> change_and_solve(const ChangeCase& c, std::uint64_t seed,
     Scene scene = load(c);
     make(scene, c.before);
     Watched watched(c, std::move(scene), seed);
-    watched.iterate(iterations_before);
+    watched.run(iterations_before);
     for (std::size_t i = 0; i < c.changes.size(); ++i) {
         watched.change(c.changes[i]);
         if (i + 1 < c.changes.size()) {
-            watched.iterate(c.between);
+            watched.run(c.between);
         }
     }
     return watched.follow(at);

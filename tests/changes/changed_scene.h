@@ -13,15 +13,16 @@
 #include "scene/patch_mesh.h"
 #include "scene/scene.h"
 #include "transport/solver.h"
+#include "view/viewer_image.h"
 
 namespace raybundle {
 
 /// One edit of a scene: an object elsewhere, a light or a material as it shall be. By names.
 struct Edit {
-    enum class Kind { move, light, material };
+    enum class Kind { move, shift, light, material };
     Kind kind = Kind::move;
     std::string name;
-    glm::vec3 value{0.0F};                 ///< m (move), linear colour (material)
+    glm::vec3 value{0.0F};                 ///< m (move, shift), linear colour (material)
     float scale = 1.0F;                    ///< of a moved object
     float turn = 0.0F;                     ///< likewise, degrees about Y
     float luminance = 0.0F;                ///< of a light, cd/m²; 0: off
@@ -30,6 +31,8 @@ struct Edit {
 };
 
 Edit move_to(const std::string& object, const glm::vec3& translation, float scale = 1.0F);
+/// Translated by so much from where it is, and as it is else.
+Edit shift_by(const std::string& object, const glm::vec3& by);
 Edit set_light(const std::string& light, float luminance);
 Edit paint(const std::string& material, float albedo);
 
@@ -44,6 +47,7 @@ struct ChangeCase {
     glm::vec3 eye{0.0F}, target{0.0F};
     float field_of_view = 75.0F;  ///< degrees, vertical
     float patch_size = 0.3F;      ///< m
+    unsigned picture = 96;        ///< pixels along an edge
     double bright = 100.0;        ///< lx: order of the light before or after, the brighter of both
 };
 
@@ -56,15 +60,19 @@ inline void PrintTo(const ChangeCase& c, std::ostream* out) {
 std::vector<ChangeCase> change_cases();
 const ChangeCase& change_case(const std::string& name);
 
-/// What a picture of 96x96 pixels serves at 5 x 5 points.
+/// What a picture serves, and 5 x 5 points of it.
 struct Served {
     std::uint64_t iterations = 0;  ///< since the last change
     double mean = 0.0;             ///< of the illuminance, lx
     std::vector<double> points;    ///< likewise of each
     double settled = 0.0;
-    double stated_low = 0.0, stated_high = 0.0;  ///< 95 % interval of the picture's error
+    ImageStatistics stated;           ///< of the picture
+    std::vector<glm::vec4> radiance;  ///< of the smoothed picture, cd/m², row 0 at the top
 };
 
+/// The scene as it is after all changes, and how one looks at it.
+Scene last_scene(const ChangeCase& c);
+Camera camera_of(const ChangeCase& c);
 /// Solves the last state of a case anew; `at`: iterations, ascending.
 std::vector<Served> solve_anew(const ChangeCase& c, std::uint64_t seed,
                                std::span<const std::uint64_t> at);

@@ -84,6 +84,22 @@ TEST(ChangesOfFewPatches, AreNotHeldBackByWhatWasKept) {
     EXPECT_LT(error_of(served, truth, 0.005 * c.bright), 0.09);
 }
 
+/// A room whose lamp goes out is dark, and no error is stated of nothing.
+TEST(ChangesDark, IsSaidWhereALampGoesOut) {
+    ChangeCase c = change_case("swap_gets_dark");
+    c.before = {};
+    c.changes = {{set_light("lamp0", 0.0F)}};
+    c.patch_size = 0.5F;
+    const std::uint64_t at[] = {120};
+    const std::uint64_t lit_at[] = {64};
+    const Served lit = change_and_solve(change_case("next_door_off"), 1, 16, lit_at).front();
+    EXPECT_FALSE(lit.stated.darker_than());
+    const Served dark = change_and_solve(c, 1, 120, at).front();
+    ASSERT_TRUE(dark.stated.darker_than());
+    EXPECT_GE(*dark.stated.darker_than(), dark.stated.rms_luminance);
+    EXPECT_LT(*dark.stated.darker_than(), 0.2);  // cd/m²; some 20 before
+}
+
 #else
 
 /// RAYBUNDLE_CHANGE_SEEDS: fewer, to look at one case.
