@@ -69,13 +69,19 @@ vec3 object_space_irradiance(PixelSurface p, bool behind) {
     return from_vertices(vertex_irradiance_texels, p, behind);
 }
 
-/// A pixel's sum, with its weight: what has come in since the last change, and what is believed of what was kept over it.
-vec4 shown_sum(uint index, PixelSurface p) {
+/// What has come in at a pixel since the last change: its sum, with its weight.
+vec4 own_sum(uint index, PixelSurface p) {
     vec4 own = texelFetch(pixel_irradiance_texels, int(index));
 #ifdef CONSTANT_RADIANCE
     own.rgb += constant_share(p.normal, p.facet) * view.constant.rgb;
 #endif
     own.w = pixel_weight(own, view.weights.x);
+    return own;
+}
+
+/// A pixel's sum, with its weight: what has come in since the last change, and what is believed of what was kept over it.
+vec4 shown_sum(uint index, PixelSurface p) {
+    vec4 own = own_sum(index, p);
     vec4 kept = texelFetch(pixel_kept_texels, int(index));
     return kept.w > 0.0 ? own + believed_sum(p.patch_id, kept, own) : own;
 }

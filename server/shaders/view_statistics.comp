@@ -4,22 +4,28 @@
 //  y: squared luminance, z: logarithm of luminance, w: pixels counted
 // and, as the third of these parts (view_detail.comp has the second):
 //  x: by how much the iterate of the solution is brighter than its mean, as shown luminance, y: shown luminance
+//  z: variance of the samples' mean were they independent
+//  w: squared luminance by which pixels have become another since the last change
+// and as the fourth, of the share k of what is shown that was kept over the last change:
+//  x: squared (k times the difference from what has come in since), y: k squared times the latter's variance
+//  z: k times the difference, with its sign, w: k squared times the luminance squared
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
 #include "view_radiance.glsl"
 #include "view_scatter.glsl"
+#include "view_kept.glsl"
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 #include "false_colour.glsl"
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer MeanBuffer { vec4 mean_irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 iterate[]; };
 uniform float logarithm_floor;   // radiance units
-uniform float unsampled_error;   // relative error to assume where nothing is known yet
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
 uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
 uniform float fresh_share;       // samples with less than this share of the weight say nothing
 
-vec2 drift = vec2(0.0);  // of this invocation's probes
+vec4 drift = vec4(0.0);      // of this invocation's probes
+vec4 difference = vec4(0.0);
 
 /// By how much the iterate of a patch's irradiance is ahead of its mean, as luminance of what is sent of it.
 float ahead(uint id, vec3 sent_share) {
@@ -34,6 +40,16 @@ float ahead_behind(uint id) {
 #else
     return 0.0;
 #endif
+}
+
+/// Variance of the shown luminance where some of it was kept over a change. scale: luminance for an irradiance.
+float variance_with_kept(KeptShare k, float since, float l, float scale) {
+    float own = 1.0 - k.share;
+    float apart = k.share * scale * (k.mean - k.recent);
+    difference += vec4(apart * apart, k.share * k.share * since, apart, k.share * k.share * l * l);
+    float changed = scale * (k.before - mix(k.recent, k.mean, k.share));
+    drift.w += changed * changed;
+    return own * own * since + k.share * k.share * k.variance * l * l;
 }
 
 vec4 probe_statistics(uint probe) {
@@ -62,17 +78,24 @@ vec4 probe_statistics(uint probe) {
     float logarithm = log(max(l, logarithm_floor));
     float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
     float through = share * ahead_behind(p.patch_id);
-    drift += vec2(share * ahead(p.patch_id, pixel_albedo(p)) + through, l);
-    float weight = shown_sum(index, p).w;
+    drift.xy += vec2(share * ahead(p.patch_id, pixel_albedo(p)) + through, l);
+    vec4 own = own_sum(index, p);
+    vec4 kept = texelFetch(pixel_kept_texels, int(index));
     float own_weight = view.weights.y;
-    if (weight <= 0.0 || own_weight <= fresh_share * weight) {
-        float guess = unsampled_error * l;  // just disoccluded, or the camera has just moved
+    bool changed = kept.w > 0.0 && own_weight > 0.0;
+    if (!changed && (own.w <= 0.0 || own_weight <= fresh_share * own.w)) {
+        float guess = error_before * l;  // just disoccluded, or the camera has just moved
         return vec4(guess * guess, l * l, logarithm, 1.0);
     }
-    float variance = mean_and_variance(probe, own_weight, view.weights.z).y * variance_of_mean;
-    // The sums may be younger than the mean that is shown.
-    variance *= min(own_weight / weight, 1.0);
-    variance = variance * reflectance * reflectance + through * through * variance_of_patches;
+    float alone = mean_and_variance(probe, own_weight, view.weights.z).y * reflectance * reflectance;
+    drift.z += min(alone, l * l);
+    float variance = alone * variance_of_mean;
+    if (changed) {
+        variance = variance_with_kept(kept_share(p.patch_id, kept, own), min(variance, l * l), l, reflectance);
+    } else {
+        variance *= min(own_weight / own.w, 1.0);  // the sums may be younger than the mean that is shown
+    }
+    variance += through * through * variance_of_patches;
     return vec4(min(variance, l * l), l * l, logarithm, 1.0);
 }
 
@@ -87,8 +110,13 @@ void main() {
         partial[gl_WorkGroupID.x] = total;
     }
     barrier();
-    total = group_sum(vec4(drift, 0.0, 0.0));
+    total = group_sum(drift);
     if (gl_LocalInvocationID.x == 0u) {
         partial[2u * gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
+    }
+    barrier();
+    total = group_sum(difference);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[3u * gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
     }
 }

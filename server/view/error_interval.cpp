@@ -65,10 +65,51 @@ double variance_of_patches(std::uint64_t samples, bool sky) {
     return 2.0 / (n * std::pow(n, sky ? -0.66 : -0.8));
 }
 
+namespace {
+
+/// Of the iterate's level over that of the mean, by lag_of_mean()'s model.
+double chance_ahead(double noise, std::uint64_t samples, SampleOrder order, bool sky) {
+    return noise / std::sqrt(variance_of_patches(samples, sky) * variance_of_mean(samples, order));
+}
+
+}  // namespace
+
 double lag_of_mean(double ahead, double noise, std::uint64_t samples, SampleOrder order, bool sky) {
-    const double by_chance =
-        noise / std::sqrt(variance_of_patches(samples, sky) * variance_of_mean(samples, order));
+    const double by_chance = chance_ahead(noise, samples, order, sky);
     return std::sqrt(std::max(ahead * ahead - by_chance * by_chance, 0.0));
+}
+
+SuspectedError suspected(const TwoMeans& means, std::uint64_t samples, SampleOrder order,
+                         bool sky) {
+    constexpr double most_left = 0.9;
+    SuspectedError result;
+    if (samples == 0) {
+        return result;
+    }
+    const double most = std::exp(noise_half_width(samples, order));
+    const double noise = most * means.noise * std::sqrt(variance_of_mean(samples, order));
+    result.missing = lag_of_mean(means.ahead, noise, samples, order, sky);
+    const double level = means.kept_share * chance_ahead(noise, samples, order, sky);
+    const double scatter = most * means.noise_apart;
+    const double wrong =
+        std::sqrt(std::max(means.apart * means.apart - level * level - scatter * scatter, 0.0));
+    double left = means.rises ? 0.0 : wrong;
+    const double rising = means.rises ? wrong : 0.0;
+    if (means.earlier > 0.0 && means.more > 1.0) {
+        const double exponent = 0.5 + gain_of(order).exponent;
+        const double chance = most * means.shown_noise * std::pow(means.more, exponent);
+        const double step = means.earlier - 1.0;
+        const double more =
+            std::sqrt(std::max(step * step - chance * chance, 0.0)) / (means.more - 1.0);
+        left = step > 0.0 ? std::hypot(left, more) : left;
+        result.missing = step < 0.0 ? std::hypot(result.missing, more) : result.missing;
+    } else {
+        left = std::hypot(left, 0.5 * means.changed / static_cast<double>(samples));
+    }
+    // Relative to the brighter light that is to come.
+    result.missing = std::hypot(result.missing, rising / (1.0 + rising));
+    result.left_over = std::min(left, most_left);
+    return result;
 }
 
 double discretisation_error(double at_edges, double elsewhere) {
@@ -90,6 +131,25 @@ ErrorInterval error_interval(double noise, double discretisation, std::uint64_t 
     const double factor =
         std::exp(half_width(noise, discretisation, noise_half_width(samples, order)));
     return {error, error / factor, error * factor};
+}
+
+ErrorInterval after_change(const ErrorInterval& interval, std::uint64_t samples) {
+    constexpr double of_change = 0.4;
+    constexpr double samples_of_change = 64.0;
+    if (!(interval.error > 0.0) || samples == 0) {
+        return interval;
+    }
+    const double own = std::log(interval.high / interval.error);
+    const double wider = std::hypot(
+        own,
+        of_change * std::min(1.0, std::sqrt(samples_of_change / static_cast<double>(samples))));
+    return {interval.error, interval.error * std::exp(-wider), interval.error * std::exp(wider)};
+}
+
+ErrorInterval with_left_over(const ErrorInterval& interval, double share) {
+    const double expected = 0.5 * share;
+    return {std::hypot(interval.error, expected / (1.0 - expected)), interval.low,
+            std::hypot(interval.high, share / (1.0 - share))};
 }
 
 namespace {

@@ -60,7 +60,13 @@ struct ImageStatistics {
     double discretisation = 0.0;
     double mean_log_luminance = 0.0;  ///< mean of ln(luminance / (cd/m²))
     double rms_luminance = 0.0;       ///< cd/m²
+    double unresolved_light = 0.0;    ///< cd/m²; that no picture of this scene tells from none
+    double faint_light = 0.0;  ///< cd/m²; next to nothing beside the sky, beside what was shown
+                               ///< before the last change, or to the eye
 
+    /// Next to no light arrives: so many cd/m² it is at most, as a root mean square. An error
+    /// relative to light that may as well be none says nothing.
+    [[nodiscard]] std::optional<double> darker_than() const;
     /// The interval ends below a target. Or it never will, and the noise is but half of what the
     /// pixels cannot resolve anyway: more samples bring next to nothing.
     [[nodiscard]] bool meets(double target) const {
@@ -181,14 +187,19 @@ class ViewerImage : public BundleReceiver {
     void shade_continued(const Buffer& radiance);
     /// The sums of view_statistics.comp and view_detail.comp as last requested; waits for them.
     struct StatisticsSums {
-        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0};
+        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0}, difference{0.0};
     };
     StatisticsSums statistics_sums();
 
     /// Factor from radiance (cd/m²) to the tone curve's input for an exposure in stops.
     static float display_factor(float exposure);
     /// Exposure that puts the mean logarithm of luminance at mid-grey.
-    [[nodiscard]] float automatic_exposure() const;
+    [[nodiscard]] float automatic_exposure() const {
+        return automatic_exposure(statistics_.darker_than());
+    }
+    /// The same where it is known better whether any light arrives, ImageStatistics::darker_than():
+    /// what shows none stays dark.
+    [[nodiscard]] float automatic_exposure(std::optional<double> darker_than) const;
     /// Whether it has been measured how bright this picture is: a new one knows nothing.
     [[nodiscard]] bool brightness_known() const { return statistics_.rms_luminance > 0.0; }
 
@@ -237,6 +248,8 @@ class ViewerImage : public BundleReceiver {
     void join_kept();
     void interpolate_vertices();
     void evaluate(const StatisticsSums& sums);
+    void note_light(double mean);
+    [[nodiscard]] SuspectedError suspected_error(const StatisticsSums& sums) const;
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
     [[nodiscard]] float near_distance() const {
@@ -267,6 +280,13 @@ class ViewerImage : public BundleReceiver {
     std::uint64_t detail_samples_ = 0;     // of them when the detail was measured last
     std::uint64_t requested_samples_ = 0;  // of them when statistics were requested last
     ImageStatistics statistics_;
+    double sampling_noise_ = 1.0;  // of the last statistics: noise without what is suspected
+    double error_before_ = 1.0;    // relative, of what was shown before the sums of scatter began
+    struct LightThen {
+        std::uint64_t samples = 0;
+        double light = 0.0;      // mean luminance, radiance units
+    } earlier_, latest_;         // see note_light()
+    double light_before_ = 0.0;  // cd/m², root mean square before the last change; 0: none yet
 
     Buffer view_, pixels_, old_pixels_, irradiance_, old_irradiance_, delta_, scatter_;
     Buffer kept_;           // of pixels over the last change, see view_keep.comp

@@ -33,7 +33,11 @@ void ViewerImage::join_kept() {
 /// What was known of the error was of another scene.
 void ViewerImage::begin_change() {
     join_kept();
+    if (statistics_.known && !statistics_.darker_than()) {
+        light_before_ = statistics_.rms_luminance;
+    }
     statistics_.known = false;
+    statistics_.noise = sampling_noise_;
     requested_samples_ = 0;
 }
 

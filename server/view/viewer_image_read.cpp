@@ -41,6 +41,7 @@ std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::u
     auto buffer = Buffer::from<layout::PickResult>("probes", picks);
     buffer.bind_storage(BINDING_PICK);
     programs_.probe.set("triangle_count", scene_.triangle_count());
+    programs_.probe.set("error_before", static_cast<float>(error_before_));
     programs_.probe.set("variance_of_mean",
                         static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
     programs_.probe.dispatch(pixels.size());

@@ -14,6 +14,11 @@ namespace {
 /// 2e-5), and is not worth a picture.
 constexpr double unresolved_sky = 1e-4;
 
+/// cd/m²: what eyes that see a lit room beside it take for black.
+constexpr double faint_to_eyes = 1e-3;
+constexpr double faint_beside_sky = 10.0 * unresolved_sky;  // noise of single lines that meet it
+constexpr double faint_beside_before = 0.01;                // of what was shown before a change
+
 /// Mean luminance of the sky towards the corners of a cube, cd/m².
 double sky_luminance(const GpuScene& scene) {
     double sum = 0.0;
@@ -28,9 +33,27 @@ double sky_luminance(const GpuScene& scene) {
 
 }  // namespace
 
+std::optional<double> ImageStatistics::darker_than() const {
+    if (!known || faint_light <= 0.0) {
+        return std::nullopt;
+    }
+    const double most = rms_luminance * (1.0 + std::min(error_high, 1.0));
+    if (unresolved_light > 0.0 && rms_luminance <= unresolved_light) {
+        return std::max(most, unresolved_light);
+    }
+    const bool may_be_none = error_high >= 1.0 || rms_luminance <= 0.0;
+    if (!may_be_none || most > faint_light) {
+        return std::nullopt;
+    }
+    return rms_luminance > 0.0 ? most : faint_light;
+}
+
 /// What the pixels show is another thing from now on, or of other accuracy.
 void ViewerImage::restart_scatter() {
     scatter_.clear();
+    earlier_ = {};
+    latest_ = {};
+    error_before_ = std::min(statistics_.noise, 1.0);
     parameters_.weights.y = 0.0F;
     parameters_.weights.z = 0.0F;
     scatter_samples_ = 0;
@@ -56,6 +79,7 @@ void ViewerImage::refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size) {
 
 void ViewerImage::request_statistics() {
     if (continued() != nullptr) {
+        continued()->error_before_ = error_before_;
         continued()->request_statistics();
     }
     interpolate_vertices();
@@ -63,8 +87,7 @@ void ViewerImage::request_statistics() {
     upload_view();
     programs_.statistics.set("triangle_count", scene_.triangle_count());
     programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
-    programs_.statistics.set("unsampled_error",
-                             static_cast<float>(std::min(statistics_.noise, 1.0)));
+    programs_.statistics.set("error_before", static_cast<float>(error_before_));
     programs_.statistics.set(
         "variance_of_mean", static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
     programs_.statistics.set("variance_of_patches", static_cast<float>(variance_of_patches(
@@ -106,6 +129,7 @@ ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
         sums.light += glm::dvec4(parts[i]);
         sums.detail += glm::dvec4(parts[statistics_groups + i]);
         sums.drift += glm::dvec4(parts[2 * statistics_groups + i]);
+        sums.difference += glm::dvec4(parts[3 * statistics_groups + i]);
     }
     return sums;
 }
@@ -123,8 +147,45 @@ void ViewerImage::finish_statistics() {
         const StatisticsSums behind = continued()->statistics_sums();
         sums.light += behind.light;
         sums.drift += behind.drift;
+        sums.difference += behind.difference;
     }
     evaluate(sums);
+}
+
+/// What has not been reached yet has no scatter, nor has what a change has left behind.
+SuspectedError ViewerImage::suspected_error(const StatisticsSums& sums) const {
+    if (!(sums.light.y > 0.0) || !(sums.drift.y > 0.0)) {
+        return {};
+    }
+    const auto relative = [&](double square) { return std::sqrt(square / sums.light.y); };
+    TwoMeans means;
+    means.apart = relative(sums.difference.x);
+    means.noise_apart = relative(sums.difference.y);
+    means.rises = sums.difference.z < 0.0;
+    means.kept_share = relative(sums.difference.w);
+    means.changed = relative(sums.drift.w);
+    means.ahead = sums.drift.x / sums.drift.y;
+    means.noise = relative(sums.drift.z);
+    means.shown_noise = sampling_noise_;
+    if (earlier_.light > 0.0) {
+        means.earlier = earlier_.light * sums.light.w / sums.drift.y;
+        means.more =
+            static_cast<double>(requested_samples_) / static_cast<double>(earlier_.samples);
+    }
+    return suspected(means, requested_samples_, sample_order(), scene_.has_sky());
+}
+
+/// Remembers how bright the picture was when it had half as many samples or fewer.
+void ViewerImage::note_light(double mean) {
+    const LightThen now{requested_samples_, mean};
+    if (now.samples < latest_.samples || now.samples == 0) {
+        earlier_ = {};
+        latest_ = {};
+    }
+    if (now.samples >= 2 * latest_.samples) {
+        earlier_ = latest_;
+        latest_ = now;
+    }
 }
 
 void ViewerImage::evaluate(const StatisticsSums& sums) {
@@ -133,24 +194,34 @@ void ViewerImage::evaluate(const StatisticsSums& sums) {
     if (sum.w <= 0.0) {
         return;
     }
+    constexpr std::uint64_t samples_of_start = 64;  // that light needs to come
     statistics_.samples = requested_samples_;
+    const double sky = sky_luminance(scene_);
+    statistics_.unresolved_light = unresolved_sky * sky;
+    statistics_.faint_light =
+        light_before_ > 0.0 || requested_samples_ >= samples_of_start
+            ? std::max({faint_to_eyes, faint_beside_sky * sky, faint_beside_before * light_before_})
+            : 0.0;
     statistics_.known = statistics_.known || requested_samples_ >= 2 * GROUP_SIZE;
     const double unit = scene_.radiance_unit();
-    statistics_.noise = sum.y > 0.0 ? std::sqrt(sum.x / sum.y) : 0.0;
+    sampling_noise_ = sum.y > 0.0 ? std::min(std::sqrt(sum.x / sum.y), 1.0) : 0.0;
     statistics_.discretisation =
         detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) *
                              unresolved_share(grid_)
                        : 0.0;
-    // What has not been reached yet has no scatter, and how far it is from the light that is still
-    // to come nobody knows.
-    const double lag = sums.drift.y > 0.0
-                           ? lag_of_mean(sums.drift.x / sums.drift.y, statistics_.noise,
-                                         requested_samples_, sample_order(), scene_.has_sky())
-                           : 0.0;
-    const bool unknown = lag > std::hypot(statistics_.noise, statistics_.discretisation);
-    statistics_.noise = std::min(std::hypot(statistics_.noise, lag), 1.0);
-    const ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
-                                                  requested_samples_, sample_order());
+    note_light(sums.drift.y / sum.w);
+    const SuspectedError suspected = suspected_error(sums);
+    // How far it is from light that is still to come nobody knows.
+    const bool unknown =
+        suspected.missing > std::hypot(sampling_noise_, statistics_.discretisation);
+    statistics_.noise = std::hypot(sampling_noise_, suspected.missing);
+    ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
+                                            requested_samples_, sample_order());
+    if (keeping_) {
+        interval = after_change(interval, requested_samples_);
+    }
+    interval = with_left_over(interval, suspected.left_over);
+    statistics_.noise = std::min(std::hypot(statistics_.noise, suspected.left_over), 1.0);
     statistics_.relative_error = interval.error;
     statistics_.error_low = interval.low;
     statistics_.error_high = unknown ? std::max(interval.high, 1.0) : interval.high;
@@ -158,10 +229,12 @@ void ViewerImage::evaluate(const StatisticsSums& sums) {
     statistics_.rms_luminance = std::sqrt(sum.y / sum.w) * unit;
 }
 
-float ViewerImage::automatic_exposure() const {
+float ViewerImage::automatic_exposure(std::optional<double> darker_than) const {
     // Mid-grey at the logarithmic mean, as Reinhard et al. 2002 ("Photographic Tone Reproduction").
-    // A room that next to nothing of the sky gets into stays dark.
-    const double least = std::log(std::max(unresolved_sky * sky_luminance(scene_), 1e-30));
+    // A room that next to nothing of the sky gets into stays dark, and so does noise: at a tenth of
+    // mid-grey.
+    const double least = std::log(std::max(
+        {unresolved_sky * sky_luminance(scene_), 10.0 * darker_than.value_or(0.0), 1e-30}));
     const double stops = -std::max(statistics_.mean_log_luminance, least) / std::log(2.0);
     return static_cast<float>(std::clamp(stops, -30.0, 30.0));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "oracle/scene_builder.h"
@@ -41,7 +42,8 @@ struct Leak {
     double largest = 0.0;
     double picture = 0.0;
     double patches = 0.0;
-    float exposure = 0.0F;  ///< that a picture gets by itself, stops
+    float exposure = 0.0F;              ///< that a picture gets by itself, stops
+    std::optional<double> darker_than;  ///< as the picture says, share of the sky's
 };
 
 Leak leak_of(const SceneBuilder& b) {
@@ -64,6 +66,9 @@ Leak leak_of(const SceneBuilder& b) {
     image.finish_statistics();
     Leak leak;
     leak.exposure = image.automatic_exposure();
+    if (const auto darker_than = image.statistics().darker_than()) {
+        leak.darker_than = *darker_than / static_cast<double>(sky);
+    }
     const auto picture = image.read_radiance();
     for (const glm::vec4& pixel : picture) {
         leak.largest = std::max(leak.largest, static_cast<double>(pixel.g / sky));
@@ -83,8 +88,11 @@ TEST_P(ClosedRoom, BelowASkyIsDark) {
     const Leak leak = leak_of(room(GetParam()));
     EXPECT_LT(leak.picture, 1e-5);
     EXPECT_LT(leak.largest, 1e-3);
-    // What comes in by rounding is not lifted to mid-grey: that is a ten-thousandth of the sky.
-    EXPECT_NEAR(leak.exposure, -std::log2(1e-4F * sky), 0.01F);
+    // What comes in by rounding is no light, and not lifted to mid-grey: that is a thousandth of
+    // the sky.
+    ASSERT_TRUE(leak.darker_than);
+    EXPECT_NEAR(*leak.darker_than, 1e-4, 1e-6);
+    EXPECT_NEAR(leak.exposure, -std::log2(1e-3F * sky), 0.01F);
     EXPECT_LT(leak.patches, 1e-5);
 }
 
@@ -102,6 +110,7 @@ TEST(ClosedRoomOfManyCells, BelowASkyIsNearlyDark) {
     const Leak leak = leak_of(room({{47, 41}, {39, 43}, {37, 31}, {29, 41}, {33, 53}, {45, 35}}));
     EXPECT_LT(leak.picture, 3e-5);
     EXPECT_LT(leak.patches, 2e-5);
+    EXPECT_TRUE(leak.darker_than);
 }
 
 }  // namespace

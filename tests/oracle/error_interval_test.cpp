@@ -82,6 +82,114 @@ TEST(LagOfMean, IsNothingByChanceAndNearlyAllThatIsFarBeyond) {
     EXPECT_GT(lag_of_mean(0.11, 0.02, 1024, SampleOrder::low_discrepancy, false), 0.0);
 }
 
+/// A picture without changes, of noise alone.
+TwoMeans only_noise() {
+    TwoMeans means;
+    means.noise = 0.2;
+    means.ahead = 0.1;
+    return means;
+}
+
+TEST(SuspectedError, IsNothingByChance) {
+    for (const SampleOrder order : both) {
+        for (const std::uint64_t samples : {0U, 8U, 16U, 200U, 5000U}) {
+            TwoMeans means = only_noise();
+            means.kept_share = 0.8;
+            means.apart = 0.1;
+            means.noise_apart = 0.1;
+            const SuspectedError none = suspected(means, samples, order, false);
+            EXPECT_EQ(none.missing, 0.0);
+            EXPECT_EQ(none.left_over, 0.0);
+        }
+    }
+}
+
+/// Light that was kept over a change and contradicts what comes in is left over, or dimmer than
+/// what is to come.
+TEST(SuspectedError, IsTheDifferenceOfBothMeansBeyondChance) {
+    TwoMeans means = only_noise();
+    means.noise = 0.1;
+    means.kept_share = 0.9;
+    means.noise_apart = 0.05;
+    means.apart = 0.8;
+    const auto order = SampleOrder::low_discrepancy;
+    const SuspectedError falls = suspected(means, 64, order, false);
+    EXPECT_NEAR(falls.left_over, 0.8, 0.05);
+    EXPECT_EQ(falls.missing, 0.0);
+    means.rises = true;
+    means.apart = 4.0;
+    const SuspectedError rises = suspected(means, 64, order, false);
+    EXPECT_NEAR(rises.missing, 0.8, 0.02);  // of the brighter light
+    EXPECT_EQ(rises.left_over, 0.0);
+}
+
+/// Much brighter light than what is there now leaves some of itself.
+TEST(SuspectedError, KnowsWhatALampLeavesBehind) {
+    TwoMeans means = only_noise();
+    means.changed = 30.0;
+    const auto order = SampleOrder::low_discrepancy;
+    EXPECT_NEAR(suspected(means, 100, order, false).left_over, 0.15, 1e-6);
+    const SuspectedError soon = suspected(means, 16, order, false);
+    EXPECT_LT(soon.left_over, 1.0);
+    const ErrorInterval said = error_interval(0.1, 0.0, 16, order);
+    const ErrorInterval wide = with_left_over(said, soon.left_over);
+    EXPECT_GT(wide.high, 5.0);
+    EXPECT_GT(wide.error, 0.5);
+    EXPECT_EQ(wide.low, said.low);
+    EXPECT_EQ(with_left_over(said, 0.0).high, said.high);
+}
+
+/// Light that has halved since there were half as many samples goes on falling; what rises, rises.
+TEST(SuspectedError, ForeseesThatFallingLightFallsOn) {
+    TwoMeans means = only_noise();
+    means.shown_noise = 0.05;
+    means.changed = 30.0;  // counts only while nothing better is known
+    means.earlier = 1.3;
+    means.more = 2.0;
+    const auto order = SampleOrder::low_discrepancy;
+    EXPECT_NEAR(suspected(means, 64, order, false).left_over, 0.27, 0.03);
+    means.more = 4.0;  // a slower fall
+    EXPECT_LT(suspected(means, 64, order, false).left_over, 0.12);
+    means.earlier = 0.7;
+    means.more = 2.0;
+    const SuspectedError rises = suspected(means, 64, order, false);
+    EXPECT_EQ(rises.left_over, 0.0);
+    EXPECT_NEAR(rises.missing, 0.27, 0.03);
+    means.earlier = 1.05;
+    EXPECT_EQ(suspected(means, 64, order, false).left_over, 0.0);  // by chance
+}
+
+TEST(AfterChange, IsWiderWhileItIsNew) {
+    const ErrorInterval said = error_interval(0.1, 0.02, 32, SampleOrder::low_discrepancy);
+    const ErrorInterval soon = after_change(said, 32);
+    EXPECT_GT(soon.high, said.high);
+    EXPECT_LT(soon.low, said.low);
+    EXPECT_NEAR(after_change(said, 1'000'000).high, said.high, 1e-4);
+}
+
+ImageStatistics picture_of(double rms, double error_high) {
+    ImageStatistics s;
+    s.known = true;
+    s.rms_luminance = rms;
+    s.error_high = error_high;
+    s.unresolved_light = 0.01;
+    s.faint_light = 0.1;
+    return s;
+}
+
+TEST(DarkerThan, IsSaidWhereLightMayAsWellBeNone) {
+    EXPECT_FALSE(picture_of(0.05, 0.3).darker_than());  // known
+    EXPECT_FALSE(picture_of(0.3, 5.0).darker_than());   // too much
+    EXPECT_NEAR(picture_of(0.04, 5.0).darker_than().value_or(0.0), 0.08, 1e-9);
+    EXPECT_NEAR(picture_of(0.001, 0.1).darker_than().value_or(0.0), 0.01, 1e-9);  // unresolved
+    ImageStatistics black = picture_of(0.0, 0.0);
+    black.unresolved_light = 0.0;
+    EXPECT_TRUE(picture_of(0.0, 0.0).darker_than());
+    EXPECT_NEAR(black.darker_than().value_or(0.0), 0.1, 1e-9);
+    black.known = false;
+    EXPECT_FALSE(black.darker_than());
+}
+
 TEST(SamplesFactor, LeadsToTheTarget) {
     constexpr double noise = 0.2;
     constexpr double rest = 0.005;
