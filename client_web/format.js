@@ -30,6 +30,14 @@ export function percent(share) {
 export const pictureError = (share) => (known(share) && share < 1 ? percent(share) : 'not yet known');
 
 /**
+ * What is said of the light where next to none arrives, in place of an error.
+ *
+ * @param {number} luminance  cd/m², upper bound
+ * @returns {string}
+ */
+export const darkerThan = (luminance) => `below ${Number(luminance.toPrecision(1))} cd/m²`;
+
+/**
  * 95 % interval of the picture's error.
  *
  * @param {number | null | undefined} low

@@ -12,13 +12,16 @@ export const ROUGH = 0.1;
 /**
  * The same of photo and false colour, which show the same light.
  *
- * @param {{settled: number, relativeError: number | null, errorHigh: number | null}} stats
+ * @param {{settled: number, relativeError: number | null, errorHigh: number | null, darkerThan?: number | null}} stats
  * @param {boolean} known  whether the server has said anything yet
  * @returns {{mark: 'no' | 'rough' | 'yes', text: string}} mark: green for `yes` alone
  */
-export function lightState({settled, relativeError, errorHigh}, known) {
+export function lightState({settled, relativeError, errorHigh, darkerThan = null}, known) {
     if (!known) {
         return {mark: 'no', text: 'Waiting for light'};
+    }
+    if (darkerThan !== null) {
+        return {mark: settled < SETTLED ? 'no' : 'yes', text: 'Next to no light arrives here'};
     }
     if (settled < SETTLED) {
         return {mark: 'no', text: `Light is settling, ${progress(settled)}`};

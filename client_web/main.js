@@ -222,6 +222,7 @@ function saveReport() {
         time: new Date(),
         epoch: app.scene?.epoch ?? 0,
         error: app.stats.relativeError,
+        darkerThan: app.stats.darkerThan,
         picture: canvas.toDataURL('image/jpeg', 0.92),
         scale: display.scale,
         address: linkHere(),

@@ -122,6 +122,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [errorLow]  95 % interval of relativeError
  * @property {number} [errorHigh]
  * @property {boolean} [errorMeasured]  at some pixels, by path tracing
+ * @property {number} [darkerThan]  cd/m²; next to no light arrives, relativeError is absent
  * @property {number} [secondsToTarget]
  * @property {Saving} [saving]
  */
@@ -143,6 +144,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [errorLow]
  * @property {number} [errorHigh]
  * @property {boolean} [errorMeasured]  at some pixels, by path tracing
+ * @property {number} [darkerThan]  cd/m²; next to no light arrives, relativeError is absent
  * @property {number} exposure  EV (log2)
  * @property {number} [scaleMaximum]  upper end of the colour scale, lx or cd/m²; absent: a photograph
  * @property {boolean} [scaleLinear]  it begins at 0; absent or false: logarithmic

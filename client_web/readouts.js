@@ -4,7 +4,7 @@
 
 import {announce, byId, showValue} from './elements.js';
 import {drawErrorPlot} from './error_plot.js';
-import {count, interval, milliseconds, percent, pictureError, progress, rate} from './format.js';
+import {count, darkerThan, interval, milliseconds, percent, pictureError, progress, rate} from './format.js';
 import {lightState} from './light_state.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
 
@@ -93,6 +93,7 @@ export class Readouts {
             errorLow: state?.errorLow ?? null,
             errorHigh: state?.errorHigh ?? null,
             errorMeasured: state?.errorMeasured ?? false,
+            darkerThan: state?.darkerThan ?? null,
             secondsToTarget: this.#solution?.secondsToTarget ?? null,
             latencyMs: this.#latency.quantile(0.5),
             latencyP95Ms: this.#latency.quantile(0.95),
@@ -106,8 +107,10 @@ export class Readouts {
         const stats = this.stats;
         const {errorLow: low, errorHigh: high, settled} = stats;
         const known = this.#header !== null || this.#solution !== null;
-        showValue('error', known ? pictureError(stats.relativeError) : percent(null));
-        showValue('errorInterval', interval(low, high));
+        const dark = stats.darkerThan !== null;
+        const error = dark ? darkerThan(stats.darkerThan ?? 0) : pictureError(stats.relativeError);
+        showValue('error', known ? error : percent(null));
+        showValue('errorInterval', dark ? error : interval(low, high));
         showValue('errorBasis', stats.errorMeasured ? 'measured' : 'estimated');
         showValue('iterations', count(stats.iterations));
         showValue('iterationRate', rate(stats.iterationsPerSecond));
@@ -126,7 +129,7 @@ export class Readouts {
         const before = this.#state.dataset.settled;
         this.#state.dataset.settled = mark;
         if (mark === 'yes' && before !== 'yes') {
-            announce(`The light has settled, error ${pictureError(stats.relativeError)}.`);
+            announce(dark ? `${text}.` : `The light has settled, error ${error}.`);
         }
         showValue('settledState', text);
         this.#showFormat();

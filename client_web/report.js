@@ -2,7 +2,7 @@
 // The review report: one HTML file that needs nothing else, with the picture, the pins and what was
 // measured, and who changed what.
 
-import {pictureError} from './format.js';
+import {darkerThan, pictureError} from './format.js';
 import {intervalsOf, summaryOf, typicalError, uniformityText} from './grid.js';
 import {changeOf} from './pins.js';
 import {estimated, inUnit, measured, plusMinus} from './units.js';
@@ -21,6 +21,7 @@ import {estimated, inUnit, measured, plusMinus} from './units.js';
  * @property {Date} time
  * @property {number} epoch
  * @property {number | null} error  relative, of the picture
+ * @property {number | null} [darkerThan]  cd/m², where next to no light arrives in it
  * @property {string} picture  data URL
  * @property {ReportScale | null} [scale]  of a picture in false colour
  * @property {string} address  link to the view
@@ -84,6 +85,9 @@ function scaleHtml({title, colours, marks}) {
  */
 export function reportHtml(content) {
     const {title, server, time, epoch, error, picture, address, unit} = content;
+    const known = content.darkerThan
+        ? `next to no light arrives in the picture, ${darkerThan(content.darkerThan)}`
+        : `estimated error of the picture ${pictureError(error)}`;
     const pins = content.pins.map((pin) => [
         String(pin.pin),
         `<div style="white-space:normal">${escaped(pin.text)}</div>`,
@@ -129,8 +133,8 @@ export function reportHtml(content) {
 <html lang="en"><head><meta charset="utf-8"><title>${escaped(title)}: lighting review</title>
 <style>${STYLE}</style></head><body>
 <h1>${escaped(title)}</h1>
-<p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. After change ${epoch}, estimated error of the
-picture ${escaped(pictureError(error))}. ${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
+<p class="quiet">Lighting review, ${escaped(time.toLocaleString())}. After change ${epoch}, ${escaped(known)}.
+${escaped(server)}. <a href="${escaped(address)}">Open this view</a></p>
 <figure><img alt="The scene as seen during the review" src="${escaped(picture)}">${marks.join('')}</figure>
 ${content.scale ? scaleHtml(content.scale) : ''}
 ${section('Pins', ['#', 'Note', 'Illuminance then', 'After change', 'Light', 'By'], pins)}

@@ -463,6 +463,7 @@ describe('figures', () => {
         assert.equal(format.progress(1), '100 %');
         assert.equal(format.pictureError(0.018), '1.8 %');
         assert.deepEqual([null, 1.4].map(format.pictureError), ['not yet known', 'not yet known']);
+        assert.deepEqual([0.0937, 12, 0.00012].map(format.darkerThan), ['below 0.09 cd/m²', 'below 10 cd/m²', 'below 0.0001 cd/m²']);
         assert.equal(format.interval(0.4, 1.5), '40 % to more than 100 %');
         assert.equal(format.interval(null, null), '–');
         assert.equal(format.count(1234567), '1\u202f234\u202f567');

@@ -134,6 +134,33 @@ TEST(CasesLights, LightIsRightAfterTheyHaveBeenChanged) {
     EXPECT_NEAR(below(), 250.0, 2.5);
 }
 
+/// Where the only lamp goes out a picture does not state an error of nothing, and is not lifted.
+TEST(CasesDark, SaysThatNoLightArrivesAndStaysDark) {
+    Daemon daemon(case_file("places/pin_point.gltf"));
+    JsonViewer viewer(daemon.port());
+    const Json light = viewer.join("", 65, 65).at("welcome").at("scene").at("lights").at(0);
+    // Frames say the same as the message that comes beside them.
+    const auto header_that_says = [&](const std::string& one, const std::string& other) {
+        const Json said = viewer.next([&](const Json& message) {
+            return message.contains("solution") && message.at("solution").contains(one);
+        });
+        EXPECT_TRUE(said.contains("solution")) << one;
+        EXPECT_FALSE(said.value("solution", Json::object()).contains(other)) << said;
+        const Json header =
+            viewer.next_frame([&](const Json& frame) { return frame.contains(one); });
+        EXPECT_FALSE(header.contains(other)) << header;
+        return header;
+    };
+    const Json lit = header_that_says("relativeError", "darkerThan");
+    ASSERT_TRUE(viewer.request(set_light(light, {{"on", false}})).contains("sceneChanged"));
+    const Json dark = header_that_says("darkerThan", "relativeError");
+    EXPECT_GT(dark.value("darkerThan", 0.0), 0.0);
+    EXPECT_LT(dark.value("darkerThan", 0.0), 1.0);  // cd/m²; some 3 before
+    EXPECT_LT(dark.value("exposure", 99.0), lit.value("exposure", 0.0) + 4.0);
+    ASSERT_TRUE(viewer.request(set_light(light, {{"on", true}})).contains("sceneChanged"));
+    header_that_says("relativeError", "darkerThan");
+}
+
 /// A viewer of the room of pin_point.gltf, whose lamp has no extent.
 class CasesPins : public testing::Test {
   protected:

@@ -9,6 +9,7 @@
 #include "net/server.h"
 #include "session/scene_messages.h"
 #include "session/viewers/exposure_follow.h"
+#include "session/viewers/stated_error.h"
 #include "stream/elapsed.h"
 
 namespace raybundle {
@@ -249,11 +250,14 @@ PictureLook ViewerSession::look() const {
     return {mode_, exposure, colour_scale(exposure)};
 }
 
-float ViewerSession::exposure(const ViewerImage& image, double since_frame_s) {
+float ViewerSession::exposure(const ViewerImage& image, const ImageStatistics& statistics,
+                              double since_frame_s) {
     if (auto_exposure_ && shown_exposure_ && !image.brightness_known()) {
         return *shown_exposure_;  // of another size, or of other shaders: as bright as the last one
     }
-    const float wanted = (auto_exposure_ ? image.automatic_exposure() : 0.0F) + exposure_offset_;
+    const float automatic =
+        auto_exposure_ ? image.automatic_exposure(statistics.darker_than()) : 0.0F;
+    const float wanted = automatic + exposure_offset_;
     // Follow slowly, so that the picture neither pumps nor jumps; a first picture is right at once.
     const float follow = shown_exposure_ ? exposure_follow(since_frame_s) : 1.0F;
     const float before = shown_exposure_.value_or(wanted);
@@ -325,13 +329,8 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
     header_.set_quality(static_cast<unsigned>(advice.quality));
     header_.set_width(frame_size.x);
     header_.set_height(frame_size.y);
-    if (statistics.known) {
-        header_.set_relative_error(static_cast<float>(statistics.relative_error));
-        header_.set_error_low(static_cast<float>(statistics.error_low));
-        header_.set_error_high(static_cast<float>(statistics.error_high));
-        header_.set_error_measured(&image == image_.get() && measured_.known());
-    }
-    header_.set_exposure(exposure(image, seconds(now - last_frame_)));
+    state_error(statistics, &image == image_.get() && measured_.known(), header_);
+    header_.set_exposure(exposure(image, statistics, seconds(now - last_frame_)));
     header_.set_server_time_ms(Server::now_ms());
     const ColourScale scale = colour_scale(header_.exposure());
     if (mode_ != DisplayMode::photo) {

@@ -144,7 +144,8 @@ class ViewerSession {
     [[nodiscard]] double since_change_s(Clock::time_point now) const;
     [[nodiscard]] bool in_motion(Clock::time_point now) const;
     [[nodiscard]] glm::uvec2 drawn_size() const;
-    [[nodiscard]] float exposure(const ViewerImage& image, double since_frame_s);
+    [[nodiscard]] float exposure(const ViewerImage& image, const ImageStatistics& statistics,
+                                 double since_frame_s);
     void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
                  Clock::time_point now);
     [[nodiscard]] ColourScale colour_scale(float exposure) const;

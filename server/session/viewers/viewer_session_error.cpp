@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/viewers/stated_error.h"
 #include "session/viewers/viewer_session.h"
 #include "stream/elapsed.h"
 
@@ -59,10 +60,7 @@ void ViewerSession::fill_solution(v1::Solution* solution) {
         return;
     }
     const ImageStatistics statistics = measured_statistics();
-    solution->set_error_measured(measured_.known());
-    solution->set_relative_error(static_cast<float>(statistics.relative_error));
-    solution->set_error_low(static_cast<float>(statistics.error_low));
-    solution->set_error_high(static_cast<float>(statistics.error_high));
+    state_error(statistics, measured_.known(), *solution);
     const auto rate = static_cast<double>(solution->iterations_per_second());
     if (target_error_ > 0.0) {
         const double more = measured_.samples_factor_to(target_error_, image_->statistics(),
