@@ -26,7 +26,7 @@ static_assert(sizeof(Counters) == 48);
 static_assert(sizeof(FacetGeometry) == 64 && offsetof(FacetGeometry, root_code) == 48);
 static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 48);
 static_assert(sizeof(ZoneLevelData) == 48 && sizeof(ZoneRay) == 8);
-static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_patch) == 16);
+static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_triangle) == 16);
 static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(MaterialDetails) == MATERIAL_DETAILS_TEXELS * sizeof(vec4));

@@ -123,6 +123,7 @@ double glossy_furnace_mean(float roughness, float albedo, const OracleSettings& 
     SceneBuilder b;
     b.set_transform(odd_rotation());
     b.add_box({0, 0, 0}, {4, 3, 5}, true, 4, b.add_material(material));
+    b.join(settings.joined);
     const ReflectanceTable table(make_brdf(material, material.base_colour));
     const double exact =
         pi * static_cast<double>(emission) / (1.0 - static_cast<double>(table.albedo(0.5F).r));

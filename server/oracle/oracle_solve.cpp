@@ -17,8 +17,8 @@ SolverSettings solver_settings(const OracleSettings& settings) {
     return result;
 }
 
-double patch_area(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+double side_area(const PatchMesh& mesh, std::size_t side) {
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[side]];
     const glm::dvec3 a(mesh.positions[t.x]);
     return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a,
                                         glm::dvec3(mesh.positions[t.z]) - a));
@@ -47,15 +47,16 @@ double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>
     double sum = 0.0;
     double area = 0.0;
     for (std::size_t i = first; i < last; ++i) {
-        const double a = patch_area(builder.mesh, i);
-        sum += a * static_cast<double>(irradiance[i].x);
+        const double a = side_area(builder.mesh, i);
+        sum += a * static_cast<double>(
+                       irradiance[builder.mesh.patch_of(static_cast<std::uint32_t>(i))].x);
         area += a;
     }
     return sum / area;
 }
 
 double mean_irradiance(const SceneBuilder& builder, const std::vector<glm::vec4>& irradiance) {
-    return mean_irradiance(builder, irradiance, 0, irradiance.size());
+    return mean_irradiance(builder, irradiance, 0, builder.mesh.side_count());
 }
 
 }  // namespace raybundle

@@ -46,7 +46,8 @@ SceneBuilder furnace_room(float albedo) {
 }
 
 std::vector<double> furnace_ratios(float albedo, const OracleSettings& settings, double& mean) {
-    const SceneBuilder b = furnace_room(albedo);
+    SceneBuilder b = furnace_room(albedo);
+    b.join(settings.joined);
     const auto irradiance = solve(b, settings).store().read_irradiance();
     const double exact =
         pi * static_cast<double>(furnace_emission) / (1.0 - static_cast<double>(albedo));
@@ -93,6 +94,7 @@ double enclosure_indirect(float albedo, const OracleSettings& settings) {
             b.set_triangle_material(i, lamp);
         }
     }
+    b.join(settings.joined);
     const auto irradiance = solve(b, settings).store().read_irradiance();
     return mean_irradiance(b, irradiance) - flux / surface;
 }
@@ -107,6 +109,7 @@ CubeFormFactors cube_form_factors(const OracleSettings& settings) {
     for (std::size_t i = 4 * face; i < 5 * face; ++i) {
         b.set_triangle_material(i, lamp);
     }
+    b.join(settings.joined);
     const auto irradiance = solve(b, settings).store().read_irradiance();
     return {mean_irradiance(b, irradiance, 5 * face, 6 * face) / pi,
             mean_irradiance(b, irradiance, 0, 4 * face) / pi};
@@ -121,7 +124,7 @@ double squares_form_factor(float distance, const OracleSettings& settings) {
     const std::size_t receiver = b.mesh.triangles.size();
     b.add_quad({0, distance, 0}, {1, 0, 0}, {0, 0, 1}, 8, 8, black);  // faces down
     const auto irradiance = solve(b, settings).store().read_irradiance();
-    return mean_irradiance(b, irradiance, receiver, irradiance.size()) / pi;
+    return mean_irradiance(b, irradiance, receiver, b.mesh.side_count()) / pi;
 }
 
 double exact_disc_illuminance(double radius, double height, double flux) {
@@ -163,7 +166,7 @@ double disc_illuminance(float radius, float height, float flux, const OracleSett
     const float s = disc_receiver * height;
     b.add_quad({-s, 0, -s}, {0, 0, 2 * s}, {2 * s, 0, 0}, 1, 1, black);
     const auto irradiance = solve(b, settings).store().read_irradiance();
-    return mean_irradiance(b, irradiance, receiver, irradiance.size());
+    return mean_irradiance(b, irradiance, receiver, b.mesh.side_count());
 }
 
 double dark_room_irradiance(float wall_thickness, const OracleSettings& settings) {
@@ -263,6 +266,15 @@ std::vector<Oracle> all_oracles() {
     OracleSettings three = usual;
     three.probabilities = {0.15F, 0.15F, 0.7F};
     three.iterations = 2048;
+    // Joined by eight, sets lie on one wall of a cube; by five, they go round the corners of rooms.
+    OracleSettings joined = long_run;
+    joined.joined = 5;
+    OracleSettings joined_three = three;
+    joined_three.joined = 5;
+    OracleSettings joined_flat = perspective;
+    joined_flat.joined = 8;
+    OracleSettings joined_pairs = usual;
+    joined_pairs.joined = 2;
     OracleSettings brief;
     brief.iterations = 256;
     OracleSettings brief_three = three;
@@ -287,6 +299,14 @@ std::vector<Oracle> all_oracles() {
                     [=] { return disc_illuminance(0.1F, 2.0F, 1000.0F, small_target); }),
         make_oracle("furnace, glossy, albedo 0.5", 1.0, 0.02,
                     [=] { return glossy_furnace_mean(0.3F, 0.5F, usual); }),
+        make_oracle("furnace, albedo 0.9, joined triangles", 1.0, 0.005,
+                    [=] { return furnace_mean(0.9F, joined); }),
+        make_oracle("furnace, albedo 0.5, joined triangles, three strategies", 1.0, 0.005,
+                    [=] { return furnace_mean(0.5F, joined_three); }),
+        make_oracle("enclosure, albedo 0.8, joined triangles", 416.667, 0.005,
+                    [=] { return enclosure_indirect(0.8F, joined); }),
+        make_oracle("furnace, glossy, albedo 0.5, joined triangles", 1.0, 0.02,
+                    [=] { return glossy_furnace_mean(0.3F, 0.5F, joined_pairs); }),
         make_oracle("black room", 0.0, 0.0, [=] { return black_room_irradiance(brief); }),
         make_oracle("dark room behind a wall of 0 mm", 0.0, 0.0,
                     [=] { return dark_room_irradiance(0.0F, brief); }),
@@ -306,6 +326,7 @@ std::vector<Oracle> all_oracles() {
     }
     for (const auto& pair :
          {cube_oracles("", 0.002, perspective), cube_oracles(", planes", 0.01, planes),
+          cube_oracles(", joined triangles", 0.002, joined_flat),
           cube_oracles(", three strategies", 0.002, three)}) {
         oracles.insert(oracles.end(), pair.begin(), pair.end());
     }

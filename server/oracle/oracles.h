@@ -34,6 +34,8 @@ struct OracleSettings {
     BundleResolution resolution{64, 120};
     /// Fault injection: the transfer's densities are multiplied by this. 1.02 must be caught.
     float density_error = 1.0F;
+    /// So many triangles that follow each other share a patch, where their material is the same.
+    std::uint32_t joined = 1;
     /// As SolverSettings::constant_radiance; a furnace without it is solved by transport alone.
     bool constant_radiance = false;
 };

@@ -55,8 +55,8 @@ void SceneBuilder::add_triangle(const glm::vec3& a, const glm::vec3& b, const gl
     }
     mesh.triangles.emplace_back(base, base + 1, base + 2);
     mesh.triangle_material.push_back(material);
-    mesh.back_patch.push_back(PatchMesh::no_patch);
-    mesh.patch_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()) - 1);
+    mesh.back_side.push_back(PatchMesh::no_patch);
+    mesh.side_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()) - 1);
     mesh.base_colour.push_back(scene.materials[material].base_colour);
     mesh.emission.push_back(scene.materials[material].emission);
 }
@@ -120,6 +120,20 @@ Scene SceneBuilder::loaded_scene() const {
     mark_solid_shells(loaded);
     measure_lights(loaded);
     return loaded;
+}
+
+void SceneBuilder::join(std::uint32_t size) {
+    std::vector<std::uint32_t> all;
+    std::vector<std::uint32_t> sets;
+    std::uint32_t in_set = 0;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        const bool begins =
+            t == 0 || in_set == size || mesh.triangle_material[t] != mesh.triangle_material[t - 1];
+        in_set = begins ? 1 : in_set + 1;
+        all.push_back(t);
+        sets.push_back(t == 0 ? 0U : sets.back() + (begins ? 1U : 0U));
+    }
+    mesh.patch_sets = make_patch_sets(mesh, all, sets);
 }
 
 void SceneBuilder::shuffle(std::uint64_t seed) {

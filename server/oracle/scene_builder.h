@@ -38,6 +38,8 @@ class SceneBuilder {
     /// The scene with its triangles and lamps as loading a file leaves it, for tessellate(). For
     /// objects of one builder, whose vertices are where add_...() has put them.
     [[nodiscard]] Scene loaded_scene() const;
+    /// Makes patches of so many triangles that follow each other, where their material is the same.
+    void join(std::uint32_t size);
     /// Deterministic shuffle of the triangles' order.
     void shuffle(std::uint64_t seed);
 

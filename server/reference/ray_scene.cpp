@@ -32,7 +32,7 @@ void reject_absorbing(const RTCFilterFunctionNArguments* arguments) {
     const float along = RTCHitN_Ng_x(arguments->hit, 1, 0) * RTCRayN_dir_x(arguments->ray, 1, 0) +
                         RTCHitN_Ng_y(arguments->hit, 1, 0) * RTCRayN_dir_y(arguments->ray, 1, 0) +
                         RTCHitN_Ng_z(arguments->hit, 1, 0) * RTCRayN_dir_z(arguments->ray, 1, 0);
-    if (along >= 0.0F && query->mesh->back_patch[triangle] == PatchMesh::no_patch) {
+    if (along >= 0.0F && query->mesh->back_side[triangle] == PatchMesh::no_patch) {
         arguments->valid[0] = 0;
     }
 }

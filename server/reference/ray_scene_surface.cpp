@@ -77,7 +77,7 @@ SurfacePoint RayScene::point_on_triangle(std::uint32_t triangle, bool front,
     const glm::dvec3 normal = glm::normalize(glm::cross(e1, e2));
     SurfacePoint point;
     point.triangle = triangle;
-    point.patch = front ? triangle : mesh_.back_patch[triangle];
+    point.patch = front ? triangle : mesh_.back_side[triangle];
     point.barycentric = barycentric;
     point.position = a + barycentric.x * e1 + barycentric.y * e2;
     point.normal = front ? normal : -normal;
@@ -89,12 +89,12 @@ double RayScene::diameter() const {
 }
 
 SurfacePoint RayScene::point_on_patch(std::uint32_t patch, const glm::dvec2& barycentric) const {
-    return point_on_triangle(mesh_.patch_triangle[patch], patch < mesh_.triangle_count(),
+    return point_on_triangle(mesh_.side_triangle[patch], patch < mesh_.triangle_count(),
                              barycentric);
 }
 
 double RayScene::patch_area(std::uint32_t patch) const {
-    const glm::uvec3& t = mesh_.triangles[mesh_.patch_triangle[patch]];
+    const glm::uvec3& t = mesh_.triangles[mesh_.side_triangle[patch]];
     const glm::dvec3 a(positions_[t.x]);
     return 0.5 * glm::length(
                      glm::cross(glm::dvec3(positions_[t.y]) - a, glm::dvec3(positions_[t.z]) - a));
@@ -112,7 +112,7 @@ const Material& RayScene::material(const SurfacePoint& point) const {
 
 SurfacePoint RayScene::other_side(const SurfacePoint& point) const {
     SurfacePoint other = point;
-    other.patch = point.patch == point.triangle ? mesh_.back_patch[point.triangle] : point.triangle;
+    other.patch = point.patch == point.triangle ? mesh_.back_side[point.triangle] : point.triangle;
     other.normal = -point.normal;
     return other;
 }

@@ -44,7 +44,7 @@ VertexIrradiance::VertexIrradiance(const RayScene& scene, std::span<const glm::d
     const PatchMesh& mesh = scene.mesh();
     std::vector<double> areas(vertices_.size(), 0.0);
     for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+        const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
         const std::size_t side = patch < mesh.triangle_count() ? 0 : 1;
         const double area = scene.patch_area(patch);
         for (int k = 0; k < 3; ++k) {

@@ -17,7 +17,7 @@ SingleRay::SingleRay(const RayScene& scene, const LightSampling& lights, std::ui
       lights_(lights),
       seed_(seed),
       tables_(scene.scene()),
-      power_(scene.mesh().patch_count() * batches, glm::dvec3(0.0)),
+      power_(scene.mesh().side_count() * batches, glm::dvec3(0.0)),
       incoming_(tables_.glossy() ? power_.size() : 0) {}
 
 void SingleRay::restart_incoming() {

@@ -71,7 +71,7 @@ class SingleRay {
 
   private:
     [[nodiscard]] std::size_t index(std::uint32_t patch, std::uint32_t batch) const {
-        return std::size_t{batch} * scene_.mesh().patch_count() + patch;
+        return std::size_t{batch} * scene_.mesh().side_count() + patch;
     }
     void receive(const SurfacePoint& point, const Scattering& scattering, std::uint32_t batch,
                  const glm::dvec3& power, const IncomingLight& light, PixelSampler& sampler);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t batches = SingleRay::batches;
 
 std::vector<glm::dvec3> patch_irradiance(const RayScene& scene, const SingleRay& solution) {
-    std::vector<glm::dvec3> result(scene.mesh().patch_count());
+    std::vector<glm::dvec3> result(scene.mesh().side_count());
     for (std::uint32_t patch = 0; patch < result.size(); ++patch) {
         result[patch] = solution.irradiance(patch);
     }
@@ -22,7 +22,7 @@ std::vector<glm::dvec3> patch_irradiance(const RayScene& scene, const SingleRay&
 
 std::vector<VertexIrradiance> batch_irradiance(const RayScene& scene, const SingleRay& solution) {
     std::vector<VertexIrradiance> result;
-    std::vector<glm::dvec3> patches(scene.mesh().patch_count());
+    std::vector<glm::dvec3> patches(scene.mesh().side_count());
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
             patches[patch] = solution.batch_irradiance(patch, batch);

@@ -80,6 +80,11 @@ SceneReport make_scene_report(const Scene& scene, const PatchMesh& mesh) {
     report.patches = mesh.patch_count();
     report.patch_triangles = mesh.triangle_count();
     report.patch_vertices = mesh.positions.size();
+    for (std::uint32_t patch = 0; patch < mesh.front_patch_count(); ++patch) {
+        const std::size_t sides = mesh.sides_of(patch).size();
+        report.joined_triangles += sides > 1 ? sides : 0;
+        report.joined_patches += sides > 1 ? 1 : 0;
+    }
     return report;
 }
 

@@ -26,6 +26,8 @@ struct SceneReport {
     std::vector<EnclosedLight> enclosed;   ///< lamps whose light does not get out
     std::size_t patches = 0;               ///< of the tessellation
     std::size_t patch_triangles = 0;
+    std::size_t joined_triangles = 0;  ///< that share a patch with others
+    std::size_t joined_patches = 0;    ///< patches of several triangles, fronts only
     std::size_t patch_vertices = 0;
 };
 

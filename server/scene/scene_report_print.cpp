@@ -45,6 +45,10 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
                        report.referenced_vertices, report.area);
     out << fmt::format("patches     {} on {} triangles, {} vertices\n", report.patches,
                        report.patch_triangles, report.patch_vertices);
+    if (report.joined_triangles > 0) {
+        out << fmt::format("joined      {} triangles share {} patches\n", report.joined_triangles,
+                           report.joined_patches);
+    }
     out << fmt::format(
         "left out    {} triangles without area, {} duplicate faces, {} insides of "
         "solids\n",
@@ -232,6 +236,8 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"area", report.area},
         {"patches", report.patches},
         {"patchTriangles", report.patch_triangles},
+        {"joinedTriangles", report.joined_triangles},
+        {"joinedPatches", report.joined_patches},
         {"patchVertices", report.patch_vertices},
         {"degenerateTriangles", scene.removed.degenerate_triangles},
         {"duplicateFaces", scene.removed.duplicate_faces},

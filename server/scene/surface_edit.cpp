@@ -30,7 +30,7 @@ PatchColour colour_of(const Scene& scene, const Material& material, const PatchM
         plain.metallic_roughness = glm::vec2(material.metallic, material.roughness);
         return plain;
     }
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     const glm::vec3 factor =
         coloured ? (mesh.colours[t.x] + mesh.colours[t.y] + mesh.colours[t.z]) / 3.0F
                  : glm::vec3(1.0F);
@@ -151,8 +151,8 @@ std::uint32_t apply(Scene& scene, const MaterialEdit& edit) {
 
 void refresh_surfaces(const Scene& scene, std::span<const std::uint32_t> materials,
                       PatchMesh& mesh) {
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t index = mesh.triangle_material[mesh.patch_triangle[i]];
+    for (std::size_t i = 0; i < mesh.side_count(); ++i) {
+        const std::uint32_t index = mesh.triangle_material[mesh.side_triangle[i]];
         if (std::find(materials.begin(), materials.end(), index) == materials.end()) {
             continue;
         }
@@ -160,7 +160,7 @@ void refresh_surfaces(const Scene& scene, std::span<const std::uint32_t> materia
         mesh.base_colour[i] = colour.base_colour;
         mesh.emission[i] = colour.emission;
         if (!mesh.metallic_roughness.empty()) {
-            mesh.metallic_roughness[mesh.patch_triangle[i]] = colour.metallic_roughness;
+            mesh.metallic_roughness[mesh.side_triangle[i]] = colour.metallic_roughness;
         }
     }
 }

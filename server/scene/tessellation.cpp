@@ -276,7 +276,7 @@ class MeshBuilder {
         for (int k = 0; k < 3; ++k) {
             corners[k] = vertex_of(triangle.corners[static_cast<std::size_t>(k)], triangle.object);
         }
-        mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
+        mesh_.side_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
         mesh_.triangles.push_back(corners);
         mesh_.triangle_material.push_back(triangle.material);
         two_sided_.push_back(triangle.two_sided);
@@ -349,13 +349,13 @@ class MeshBuilder {
 
     void add_back_patches() {
         const std::size_t front_count = mesh_.triangles.size();
-        mesh_.back_patch.assign(front_count, PatchMesh::no_patch);
+        mesh_.back_side.assign(front_count, PatchMesh::no_patch);
         for (std::size_t t = 0; t < front_count; ++t) {
             if (!two_sided_[t]) {
                 continue;
             }
-            mesh_.back_patch[t] = static_cast<std::uint32_t>(mesh_.patch_triangle.size());
-            mesh_.patch_triangle.push_back(static_cast<std::uint32_t>(t));
+            mesh_.back_side[t] = static_cast<std::uint32_t>(mesh_.side_triangle.size());
+            mesh_.side_triangle.push_back(static_cast<std::uint32_t>(t));
             mesh_.base_colour.push_back(glm::vec3(mesh_.base_colour[t]));
             mesh_.emission.push_back(glm::vec3(mesh_.emission[t]));
             mesh_.coverage.push_back(float{mesh_.coverage[t]});

@@ -54,7 +54,7 @@ RenderLoop::RenderLoop(Scene scene, PatchMesh mesh, const RenderLoopSettings& se
                    server_.send_frame(frame.viewer, frame.header, frame.bytes);
                    server_.inbox().interrupt();
                }),
-      review_(log, solver_->scene().patch_count()),
+      review_(log, solver_->scene().side_count()),
       targets_(log),
       snapshots_(server, [this](std::uint32_t epoch) { return earlier_scene(epoch); }) {
     epoch_ = log_.epoch();

@@ -93,7 +93,7 @@ void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) 
         to_message(hit->normal, result->mutable_normal());
         result->set_object(scene_.objects[hit->object].id);
         result->set_patch(hit->patch);
-        result->set_material(mesh_.triangle_material[mesh_.patch_triangle[hit->patch]] + 1);
+        result->set_material(mesh_.triangle_material[mesh_.side_triangle[hit->patch]] + 1);
         result->set_illuminance(luminance(hit->irradiance));
         result->set_luminance(luminance(hit->radiance));
         if (hit->relative_error) {

@@ -113,14 +113,14 @@ void RenderLoop::forget_leader(ViewerId viewer) {
 void RenderLoop::add_pin(ViewerSession& session, const ClientEvent& event) {
     const v1::AddPin& wanted = event.message.add_pin();
     const glm::vec3 position = from_message(wanted.position());
-    if (wanted.patch() >= solver_->scene().patch_count()) {
+    if (wanted.patch() >= mesh_.side_count()) {
         server_.reply_error(event, v1::Error::NOT_FOUND,
                             "addPin.patch: no patch " + std::to_string(wanted.patch()));
         return;
     }
     Pin pin;
     pin.patch = wanted.patch();
-    pin.patch_illuminance = luminance(solver_->store().read_irradiance(pin.patch));
+    pin.patch_illuminance = luminance(solver_->store().read_irradiance(mesh_.patch_of(pin.patch)));
     v1::PinChanged& message = pin.message;
     message.set_by(event.viewer);
     message.set_by_name(session.name());
@@ -301,8 +301,8 @@ void RenderLoop::check_pin() {
     if (pin == nullptr) {
         return;
     }
-    const bool changed =
-        update_change(*pin, luminance(solver_->store().read_irradiance(pin->patch)), epoch_);
+    const bool changed = update_change(
+        *pin, luminance(solver_->store().read_irradiance(mesh_.patch_of(pin->patch))), epoch_);
     if (changed || refine_pin(*pin)) {
         review_.keep(*pin);
         v1::ServerMessage message;

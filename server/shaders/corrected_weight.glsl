@@ -45,9 +45,10 @@ float left_error_moved(float variance, float expected) {
 
 /// Squared error of a mean on an object that has moved: few bundles reach its own sides, whose light has changed
 /// the more the farther they have come.
-float moved_error(uint patch_id, float value) {
+/// triangle: one of them.
+float moved_error(uint triangle, float value) {
     const float unknown = 0.2;  // of the value
-    uint v = load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).x;
+    uint v = load_triangle(triangle).x;
     float way = distance(world_position(v), world_position(v + place_before));
     return unknown * unknown * value * value * min(way / far_move, 1.0);
 }

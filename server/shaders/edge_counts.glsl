@@ -12,13 +12,13 @@ ivec2 edge_neighbour(uint k) {
     return ivec2(cell % 3, cell / 3) - 1;
 }
 
-const uint stranger_patch_bits = 27u;
+const uint stranger_side_bits = 27u;
 
-uint stranger_count(uint strangers) { return strangers >> stranger_patch_bits; }
+uint stranger_count(uint strangers) { return strangers >> stranger_side_bits; }
 
-uint stranger_patch(uint strangers) { return strangers & ((1u << stranger_patch_bits) - 1u); }
+uint stranger_side(uint strangers) { return strangers & ((1u << stranger_side_bits) - 1u); }
 
-/// With one stranger more, on this patch.
-uint with_stranger(uint strangers, uint patch_id) {
-    return (strangers == 0u ? patch_id : strangers) + (1u << stranger_patch_bits);
+/// With one stranger more, on this side.
+uint with_stranger(uint strangers, uint side) {
+    return (strangers == 0u ? side : strangers) + (1u << stranger_side_bits);
 }

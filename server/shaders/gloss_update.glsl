@@ -4,6 +4,8 @@
 #include "density.glsl"
 #include "scene_geometry.glsl"
 #include "gloss.glsl"
+#include "patch_members.glsl"
+#include "sides.glsl"
 #include "random_hash.glsl"
 #include "rarely.glsl"
 #ifdef FIRST_SHOT
@@ -30,8 +32,11 @@ LightSource incoming_source(uint patch_id, vec3 normal) {
 /// them bring. Its main part is known (patch_source.glsl): it is only a proposal for the chain.
 vec3 propose_punctual(uint patch_id, vec3 normal, out LightSource source) {
     vec3 u = random_numbers_of(patch_id, iteration_number ^ 0x5bd1e995u);
-    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).xyz;
-    float root = sqrt(u.x);
+    float share = u.x;
+    uint side = side_within(patch_id, share);
+    uvec3 t = triangle_of(side).xyz;
+    normal = member_count(patch_id) > 1u ? side_normal(side) : normal;
+    float root = sqrt(share);
     vec3 point = world_position(t.x) * (1.0 - root) + world_position(t.y) * (root * (1.0 - u.y)) +
                  world_position(t.z) * (root * u.y);
     uint k = min(uint(u.z * float(punctual_count)), punctual_count - 1u);
@@ -39,7 +44,8 @@ vec3 propose_punctual(uint patch_id, vec3 normal, out LightSource source) {
     vec3 arriving = punctual_irradiance(k, point, normal, normal, NO_HIT, w_in);
     source = LightSource(punctual[k].axis_z.xyz, 0.0);
     if (punctual[k].map.z != PUNCTUAL_DIRECTIONAL) {
-        source = source_at(punctual[k].position.xyz, centroid_of(t, 0u));
+        uvec3 largest = load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).xyz;
+        source = source_at(punctual[k].position.xyz, centroid_of(largest, 0u));
     }
     return arriving * float(punctual_count);
 }

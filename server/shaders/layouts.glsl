@@ -11,8 +11,8 @@
 #define BINDING_WORLD_POSITIONS 1  // vec4[2 * vertices]: place 0 = now, place 1 = before the change
 #define BINDING_TRIANGLES 2        // uvec4[]: vertex indices; material and, in bits 29..31, creases
 #define BINDING_PATCHES 3          // PatchGeometry[2 * patches]: place 0, then place 1
-#define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch
-#define BINDING_BACK_PATCH 5       // uint[]: patch of a triangle's back side or NO_PATCH
+#define BINDING_PATCH_TRIANGLE 4   // uint[]: triangle of a patch, its largest where it has several
+#define BINDING_BACK_SIDE 5        // uint[]: side that is a triangle's back or NO_PATCH
 #define BINDING_SURFACES 6         // PatchSurface[]
 #define BINDING_RADIANCE 7         // vec4[]: main part of the radiance (radiance units), w = p_j / A_j of the larger of a patch's two places, 1/m^2
 #define BINDING_IRRADIANCE 8       // vec4[]: mean irradiance (radiance units), w = weight
@@ -26,7 +26,7 @@
 #define BINDING_MATERIALS 16       // MaterialData[]
 #define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures, see solution/texture_levels.h
 #define BINDING_VERTEX_DATA 18     // VertexData[]
-#define BINDING_VERTEX_PATCHES 19  // uint[]: patches round each vertex
+#define BINDING_VERTEX_TRIANGLES 19  // uint[]: triangles round each vertex
 #define BINDING_PIXELS 20          // PixelSurface[]
 #define BINDING_PIXEL_IRRADIANCE 21  // vec4[]: see PixelSum in pixel_sum.glsl
 #define BINDING_PIXEL_DELTA 22     // vec4[]: signed increments of a special phase, w = sum of magnitudes
@@ -79,6 +79,7 @@
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use
 #define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/zone_balance.cpp
+#define BINDING_MEMBERS 60            // uvec2[]: see patch_members.glsl
 #define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 
@@ -129,6 +130,8 @@
 #define UNIT_SLOPES 23              // rgba32ui: RadianceSlope
 #define UNIT_PIXEL_KEPT 25            // rgba32f: see view_keep.comp
 #define UNIT_SHADOW_EDGES 24      // r8ui array: see first_shot.glsl
+#define UNIT_SIDES 26               // rg32ui: patch and triangle of each side, in scenes with PATCH_SETS
+#define UNIT_MEMBERS 31             // rg32ui: see patch_members.glsl
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -144,12 +147,12 @@
 #define FACET_LEAF 0x80000000u  // FacetNode::leaf_bit
 
 struct PatchGeometry {
-    vec3 normal;   // world space, unit, out of the patch's front
-    float offset;  // dot(normal, x) of points on the patch
+    vec3 normal;   // world space, unit, out of the patch's front; of several triangles their area mean
+    float offset;  // dot(normal, x) of points on the patch, or of its middle
     float area;    // m^2
     float inverse_area;
     uint object;
-    uint triangle;
+    uint triangle;  // its largest
 };
 
 // A flat triangle that is rasterised, and the root of its bisections.
@@ -258,8 +261,8 @@ struct Balance {
 struct VertexData {
     vec2 normal;  // octahedral, object space
     vec2 uv;
-    uint first_patch;  // into BINDING_VERTEX_PATCHES
-    uint patch_count;
+    uint first_triangle;  // into BINDING_VERTEX_TRIANGLES
+    uint triangle_count;
     uint object;
     uint colour;  // factor of the base colour, unorm 4x8, square-root encoded
 };
@@ -329,7 +332,7 @@ struct PunctualData {
 
 struct PixelSurface {
     vec3 position;   // world space
-    uint patch_id;   // NO_PATCH: background
+    uint side;       // see scene_geometry.glsl; NO_PATCH: background
     uint normal;     // shading normal, octahedral snorm 2x16
     uint albedo;     // at the angle of view, see pixel_albedo.glsl
     uint barycentric;  // unorm 2x16: weights of vertices 1 and 2
@@ -362,7 +365,7 @@ struct ContinuedPixel {
 struct PickResult {
     vec4 position;     // w = 1: hit; before the dispatch x = index of the pixel (bits)
     vec4 normal;       // w = object (bits)
-    vec4 irradiance;   // radiance units; w = patch (bits)
+    vec4 irradiance;   // radiance units; w = side (bits)
     vec4 radiance;     // radiance units; w = relative standard error, negative: not known
 };
 

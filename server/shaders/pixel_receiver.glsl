@@ -69,8 +69,8 @@ struct Receiver {
 };
 
 /// Whether a pixel is one for this program. facet: with its flags.
-bool receives(uint patch_id, uint facet) {
-    bool received = patch_id != NO_PATCH;
+bool receives(uint side, uint facet) {
+    bool received = side != NO_PATCH;
 #ifdef MIRRORS
     received = received && (facet & PIXEL_CONTINUED) == 0u;
 #endif
@@ -90,7 +90,7 @@ bool receives(uint patch_id, uint facet) {
 
 /// The pixel's surface point at the place that was drawn. False where it is not for this program.
 bool load_receiver(uint index, out Receiver x) {
-    uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, patch
+    uvec4 p = texelFetch(pixel_texels, int(2u * index));       // position, side
     uvec4 q = texelFetch(pixel_texels, int(2u * index + 1u));  // normal, albedo, barycentric, object
     uint facet = p.w == NO_PATCH ? 0u : q.w & PIXEL_FACET_MASK;
     x.position = uintBitsToFloat(p.xyz);
@@ -106,7 +106,7 @@ bool load_receiver(uint index, out Receiver x) {
 #ifdef CROWDED
     // Its own rays need no distance from creases, see receiving_point() of view_resolve.comp.
     vec2 v = unpackUnorm2x16(q.z);
-    uvec4 t = p.w == NO_PATCH ? uvec4(0u) : load_triangle(floatBitsToUint(patch_attributes(p.w).w));
+    uvec4 t = p.w == NO_PATCH ? uvec4(0u) : load_triangle(triangle_of_side(p.w));
     x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
 #endif
     x.albedo = q.y;
@@ -116,7 +116,7 @@ bool load_receiver(uint index, out Receiver x) {
     bool before = vertex_base != 0u && any(equal(uvec4(x.object), moved_objects)) && p.w != NO_PATCH;
     WHERE(before) {
         vec2 v = unpackUnorm2x16(q.z);
-        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz + vertex_base;
+        uvec3 t = load_triangle(triangle_of_side(p.w)).xyz + vertex_base;
         x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
         x.normal = x.geometric;
     }
@@ -176,9 +176,9 @@ uint pixel_of_quad(uvec2 corner, uint k) { return (corner.y + (k >> 1)) * view.s
 /// Shading normal, and facet with those of its flags that tell surfaces apart; NO_PATCH as facet where nothing is
 /// received.
 uvec2 surface_of_pixel(uint index) {
-    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
+    uint side = texelFetch(pixel_texels, int(2u * index)).w;
     uvec2 surface = texelFetch(pixel_texels, int(2u * index + 1u)).xw;
-    return receives(patch_id, surface.y) ? uvec2(surface.x, surface.y & ~PIXEL_CROWDED) : uvec2(NO_PATCH);
+    return receives(side, surface.y) ? uvec2(surface.x, surface.y & ~PIXEL_CROWDED) : uvec2(NO_PATCH);
 }
 
 bool alike(uvec2 a, uvec2 b) {

@@ -42,7 +42,7 @@ void main() {
         irradiance[i].w = most_weight;
         checkpoint[i].w = pack_left(earlier.x, most_weight);
     }
-    float moved = moved_error(i, luminance(irradiance[i].rgb));
+    float moved = moved_error(floatBitsToUint(patch_attributes(i).w), luminance(irradiance[i].rgb));
     if (increments[i].rgb == vec3(0.0) && moved <= 0.0) {
         return;
     }

@@ -12,6 +12,8 @@ layout(local_size_x = 64) in;
 #endif
 #define SHADOW_RAYS
 #include "first_shot.glsl"
+#include "patch_members.glsl"
+#include "sides.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 layout(std430, binding = BINDING_FIRST_SHOT) buffer FirstShotBuffer { vec4 first_shot[]; };
@@ -28,6 +30,7 @@ uniform uint first_light;  // of those that this dispatch adds
 uniform uint end_light;
 
 const float inverse_pi = 0.31830988618;
+const uint most_places = 32u;  // of a patch of several triangles
 
 /// Barycentric weights of corners 1 and 2 at the centroid of the k-th of divisions^2 equal parts.
 vec2 part_centroid(uint k) {
@@ -39,17 +42,36 @@ vec2 part_centroid(uint k) {
     return vec2(down - across, across) / float(divisions);
 }
 
+/// A triangle on which light is looked for.
+struct Face {
+    vec3 normal;
+    vec3 a, e1, e2;
+};
+
+Face face_of(uint side, vec3 normal) {
+    uvec3 t = triangle_of(side).xyz;
+    vec3 a = world_position(t.x);
+    return Face(normal, a, world_position(t.y) - a, world_position(t.z) - a);
+}
+
+/// Where light is looked for on a face, whole: all of them are on this one, each in a part of its own.
+vec3 place_on(Face face, uint place, bool whole) {
+    // Else they are on faces by area: places of an additive sequence.
+    vec2 u = fract(vec2(0.5) + float(place) * vec2(0.75487767, 0.56984029));
+    vec2 at = whole ? part_centroid(place) : u.x + u.y > 1.0 ? 1.0 - u : u;
+    return face.a + at.x * face.e1 + at.y * face.e2;
+}
+
 void main() {
     uint i = linear_index();
     if (i >= patch_count) {
         return;
     }
-    vec3 normal = patch_plane(i).xyz;
-    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(i).w)).xyz;
-    vec3 a = world_position(t.x);
-    vec3 e1 = world_position(t.y) - a;
-    vec3 e2 = world_position(t.z) - a;
+    bool whole = member_count(i) == 1u;
     uint parts = divisions * divisions;
+    parts = whole ? parts : max(parts, min(member_count(i), most_places));
+    float first_share = 0.0;
+    Face face = face_of(side_within(i, first_share), patch_plane(i).xyz);
     vec3 irradiance = vec3(0.0);
     vec3 reflected = vec3(0.0);
 #ifdef GLOSSY
@@ -59,8 +81,13 @@ void main() {
         vec3 sum = vec3(0.0);
         vec3 w_in;
         for (uint part = 0u; part < parts; ++part) {
-            vec2 at = part_centroid(part);
-            sum += punctual_irradiance(k, a + at.x * e1 + at.y * e2, normal, normal, NO_HIT, w_in);
+            if (!whole) {
+                float share = (float(part) + 0.5) / float(parts);
+                uint side = side_within(i, share);
+                face = face_of(side, side_normal(side));
+            }
+            vec3 arriving = punctual_irradiance(k, place_on(face, part, whole), face.normal, face.normal, NO_HIT, w_in);
+            sum += arriving;
         }
         sum /= float(parts);
         irradiance += sum;
@@ -68,7 +95,7 @@ void main() {
 #ifdef GLOSSY
         RARELY(glossy && sum != vec3(0.0)) {
             Brdf brdf = patch_brdf(i);
-            albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_in)));
+            albedo = brdf_albedo(brdf, brdf_at(brdf, dot(whole ? face.normal : patch_plane(i).xyz, w_in)));
         }
 #endif
         reflected += albedo * sum * inverse_pi;
@@ -76,8 +103,12 @@ void main() {
         RARELY(transmittance[i].rgb != vec3(0.0)) {
             vec3 behind = vec3(0.0);
             for (uint part = 0u; part < parts; ++part) {
-                vec2 at = part_centroid(part);
-                behind += punctual_irradiance(k, a + at.x * e1 + at.y * e2, -normal, -normal, NO_HIT, w_in);
+                if (!whole) {
+                    float share = (float(part) + 0.5) / float(parts);
+                    uint side = side_within(i, share);
+                    face = face_of(side, side_normal(side));
+                }
+                behind += punctual_irradiance(k, place_on(face, part, whole), -face.normal, -face.normal, NO_HIT, w_in);
             }
             reflected += transmittance[i].rgb * behind * (inverse_pi / float(parts));
         }

@@ -17,7 +17,8 @@ layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { 
 layout(std430, binding = BINDING_VERTEX_LIGHT) readonly buffer VertexLightBuffer { VertexLight lights[]; };
 layout(std430, binding = BINDING_SLOPES) writeonly buffer SlopeBuffer { RadianceSlope slopes[]; };
 uniform uint patch_count;
-uniform uint triangle_count;
+uniform uint front_count;  // patches that are fronts
+#include "patch_members.glsl"
 
 const float inverse_pi = 0.31830988618;
 const float largest = 65000.0;  // of a half
@@ -42,7 +43,11 @@ void main() {
     if (i >= patch_count) {
         return;
     }
-    bool behind = i >= triangle_count;
+    bool behind = i >= front_count;
+    if (member_count(i) > 1u) {
+        slopes[i] = RadianceSlope(0u, 0u, 0u, 0u);
+        return;
+    }
     uvec3 v = load_triangle(patch_triangle[i]).xyz;
     vec3 a = world_position(v.x);
     vec3 b = world_position(v.y);

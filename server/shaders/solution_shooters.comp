@@ -10,6 +10,10 @@ layout(std430, binding = BINDING_SHOOTERS) writeonly buffer ShooterBuffer { Shoo
 #ifdef GLOSSY
 #include "gloss.glsl"
 #endif
+#ifdef PATCH_SETS
+layout(binding = UNIT_SIDES) uniform usamplerBuffer side_texels;  // patch, triangle
+#endif
+#include "patch_members.glsl"
 uniform uint patch_count;
 uniform uint block_count;
 uniform uint shooter_count;
@@ -67,6 +71,26 @@ vec3 uniform_weights(vec2 u) {
     return vec3(1.0 - root, root * (1.0 - u.y), root * u.y);
 }
 
+/// Number of a side's triangle.
+uint triangle_of_side(uint side) {
+#ifdef PATCH_SETS
+    return texelFetch(side_texels, int(side)).y;
+#else
+    return patches[side].triangle;
+#endif
+}
+
+/// Of a side, unit, at a place; index: of its patch there.
+vec3 facing(uint side, uvec3 v, uint index) {
+#ifdef PATCH_SETS
+    vec3 n = cross(world[v.y].xyz - world[v.x].xyz, world[v.z].xyz - world[v.x].xyz);
+    float size = length(n);
+    return size > 0.0 ? (side == triangle_of_side(side) ? n : -n) / size : vec3(0.0);
+#else
+    return patches[index].normal;
+#endif
+}
+
 vec3 point_on(uvec3 v, vec3 weights) {
     return world[v.x].xyz * weights.x + world[v.y].xyz * weights.y + world[v.z].xyz * weights.z;
 }
@@ -86,21 +110,24 @@ void main() {
     while (patches[larger_place(id)].area <= 0.0 && id < last) {
         ++id;
     }
-    uvec3 v = triangles[patches[id].triangle].xyz;
+    float share = u.z;
+    uint side = side_within(id, share);
+    uvec3 v = triangles[triangle_of_side(side)].xyz;
+    uvec3 v_before = v + uint(world.length()) / 2u;
     uint larger = larger_place(id);
     uint before = uint(patches.length()) / 2u + id;
-    vec3 weights = uniform_weights(u.zw);
+    vec3 weights = uniform_weights(vec2(share, u.w));
     vec3 position = point_on(v, weights);
     Shooter s;
     // Beyond the rounding of positions: a shooter that came out below its own plane, or its neighbours', would
     // not see what lies near the horizon.
     float lift = SHOOTER_LIFT * diameter;
-    s.position = position + lift * patches[id].normal;
+    s.normal = facing(side, v, id);
+    s.position = position + lift * s.normal;
     s.patch_id = id;
-    s.normal = patches[id].normal;
     s.density = density_at(id, larger, radiance[id].w);
-    s.position_before = point_on(v + uint(world.length()) / 2u, weights) + lift * patches[before].normal;
-    s.normal_before = patches[before].normal;
+    s.normal_before = facing(side, v_before, before);
+    s.position_before = point_on(v_before, weights) + lift * s.normal_before;
     s.density_before = density_at(before, larger, radiance[id].w);
     s.pad0 = 0u;
     s.weights = vec4(weights, 0.0);

@@ -7,12 +7,13 @@ layout(local_size_x = 64) in;
 #include "luminance.glsl"
 #include "mesh.glsl"
 layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
-layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
+layout(std430, binding = BINDING_VERTEX_TRIANGLES) readonly buffer VertexTriangleBuffer { uint vertex_triangles[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
-layout(std430, binding = BINDING_BACK_PATCH) readonly buffer BackPatchBuffer { uint back_patch[]; };
+layout(std430, binding = BINDING_BACK_SIDE) readonly buffer BackSideBuffer { uint back_side[]; };
 layout(std430, binding = BINDING_VERTEX_LIGHT) writeonly buffer VertexLightBuffer { VertexLight lights[]; };
 uniform uint vertex_count;
+#include "vertex_shares.glsl"
 
 const float largest = 65000.0;  // of a half
 const float dark = 0.02;        // of the brightest patch's irradiance
@@ -33,21 +34,23 @@ void main() {
     vec3 back = vec3(0.0);
     float front_area = 0.0;
     float back_area = 0.0;
-    uint end = vertices[i].first_patch + vertices[i].patch_count;
+    uint end = vertices[i].first_triangle + vertices[i].triangle_count;
     float brightest = 0.0;
-    for (uint k = vertices[i].first_patch; k < end; ++k) {
-        brightest = max(brightest, luminance(irradiance[vertex_patches[k]].rgb));
+    for (uint k = vertices[i].first_triangle; k < end; ++k) {
+        brightest = max(brightest, luminance(irradiance[patch_of(vertex_triangles[k])].rgb));
     }
-    for (uint k = vertices[i].first_patch; k < end; ++k) {
-        uint triangle = vertex_patches[k];
-        float area = luminance(irradiance[triangle].rgb) < dark * brightest ? 0.0 : patches[triangle].area;
+    for (uint k = vertices[i].first_triangle; k < end; ++k) {
+        uint triangle = vertex_triangles[k];
+        vec3 light = irradiance[patch_of(triangle)].rgb;
+        float whole = area_at_vertex(triangle);
+        float area = luminance(light) < dark * brightest ? 0.0 : whole;
         offset += area * (middle_of(triangle) - own);
-        front += area * irradiance[triangle].rgb;
+        front += area * light;
         front_area += area;
-        uint twin = back_patch[triangle];
+        uint twin = back_side[triangle];
         if (twin != NO_PATCH) {
-            back += patches[triangle].area * irradiance[twin].rgb;
-            back_area += patches[triangle].area;
+            back += whole * irradiance[patch_of(twin)].rgb;
+            back_area += whole;
         }
     }
     float per_area = front_area > 0.0 ? 1.0 / front_area : 0.0;

@@ -35,7 +35,7 @@ float quantity(uvec2 at) {
 #ifdef FALSE_LUMINANCE
     return luminance(pixel_radiance(index, p)) * view.display.x;
 #else
-    return p.patch_id == NO_PATCH ? 0.0 : luminance(blended_irradiance(index, p)) * view.display.x;
+    return p.side == NO_PATCH ? 0.0 : luminance(blended_irradiance(index, p)) * view.display.x;
 #endif
 }
 
@@ -65,7 +65,7 @@ vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
 #ifdef UNLIT
-    if ((p.facet & PIXEL_UNLIT) != 0u && p.patch_id != NO_PATCH) {
+    if ((p.facet & PIXEL_UNLIT) != 0u && p.side != NO_PATCH) {
         return srgb_encoded(pixel_albedo(p));  // as it is, at any exposure
     }
 #endif

@@ -36,15 +36,15 @@ void main() {
     sum.rgb += constant;
 #endif
     float old_weight = pixel_weight(sum, view.weights.x);
-    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
-    if (patch_id == NO_PATCH || old_weight <= 0.0) {
+    uint side = texelFetch(pixel_texels, int(2u * index)).w;
+    if (side == NO_PATCH || old_weight <= 0.0) {
         return;
     }
-    float moved = moved_error(patch_id, luminance(pixel_mean(sum, view.weights.x)));
+    float moved = moved_error(triangle_of_side(side), luminance(pixel_mean(sum, view.weights.x)));
     if (increment == vec3(0.0) && old_weight <= most_weight && moved <= 0.0) {
         return;
     }
-    float noise = checkpoint[patch_id].z;
+    float noise = checkpoint[patch_of_side(side)].z;
     noise = noise > 0.0 ? noise : bundles_noise;
     float trusted = trusted_share(noise);
     vec3 mean = max(pixel_mean(sum, view.weights.x) + trusted * increment, 0.0);

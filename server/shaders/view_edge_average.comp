@@ -66,11 +66,12 @@ void main() {
             own -= n;
         }
         RARELY(strangers != 0u) {
-            uint id = stranger_patch(strangers);
+            uint side = stranger_side(strangers);
+            uint id = patch_of_side(side);
             // What has neither light of its own nor a diffuse part (metal, mirrors) is not known here.
             if (with_strangers && surfaces[id].albedo.rgb + surfaces[id].emission.rgb != vec3(0.0)) {
                 uint n = stranger_count(strangers);
-                sum += float(n) * light_of_radiance(object_space_radiance(id));
+                sum += float(n) * light_of_radiance(object_space_radiance(side));
                 own -= n;
             }
         }

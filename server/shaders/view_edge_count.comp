@@ -7,7 +7,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "scene_geometry.glsl"
 #include "facets.glsl"
-#include "patch_seen.glsl"
+#include "side_seen.glsl"
 #include "edge_counts.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #include "view_place.glsl"
@@ -87,7 +87,7 @@ void main() {
         if (k < 8u && edge_count(counts, k) < 15u) {
             edge_counts[2u * index] = counts + (1u << (4u * k));
         } else if (k == 8u && own_penalty >= different && surface != NO_HIT) {
-            uint met = patch_seen(surface, view.eye.xyz, view_direction(at, offset.xy));
+            uint met = side_seen(surface, view.eye.xyz, view_direction(at, offset.xy));
             if (met != NO_PATCH) {
                 edge_counts[2u * index + 1u] = with_stranger(edge_counts[2u * index + 1u], met);
             }

@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #include "linear_index.glsl"
 #include "scene_geometry.glsl"
 #include "mesh.glsl"
+#include "sides.glsl"
 #include "octahedral.glsl"
 #ifdef GLOSSY
 #include "pixel_gloss.glsl"
@@ -42,12 +43,12 @@ void main() {
 #endif
     RARELY(p.w != NO_PATCH) {
         // The surface point itself: the stored one is kept away from creases.
-        uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
+        uvec3 t = triangle_of(p.w).xyz;
         vec2 v = unpackUnorm2x16(q.z);
         vec3 position =
             world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
         vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
-        vec3 geometric = patch_plane(p.w).xyz;
+        vec3 geometric = side_normal(p.w);
         uint facet = q.w & PIXEL_FACET_MASK;
 #ifdef GLOSSY
         bool glossy = (q.w & PIXEL_GLOSSY) != 0u;

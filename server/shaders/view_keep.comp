@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
 #endif
+#include "scene_geometry.glsl"
 #include "pixel_sum.glsl"
 #include "zone_level.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
@@ -20,7 +21,7 @@ void main() {
     if (index >= view.size.x * view.size.y) {
         return;
     }
-    uint patch_id = texelFetch(pixel_texels, int(2u * index)).w;
+    uint side = texelFetch(pixel_texels, int(2u * index)).w;
     vec4 sum = pixel_irradiance[index];
     vec3 constant = vec3(0.0);
 #ifdef CONSTANT_RADIANCE
@@ -28,9 +29,9 @@ void main() {
     constant = constant_share(surface.x, surface.y) * view.constant.rgb;
 #endif
     if (!split) {
-        if (patch_id != NO_PATCH) {
+        if (side != NO_PATCH) {
             vec4 recent = vec4(sum.rgb + constant, pixel_weight(sum, view.weights.x));
-            pixel_irradiance[index] = sum + believed_sum(patch_id, pixel_kept[index], recent);
+            pixel_irradiance[index] = sum + believed_sum(patch_of_side(side), pixel_kept[index], recent);
         }
         pixel_kept[index] = vec4(0.0);
         return;

@@ -7,6 +7,7 @@ layout(local_size_x = 1) in;
 #include "view_scatter.glsl"
 #include "view_kept.glsl"
 #include "octahedral.glsl"
+#include "sides.glsl"
 #include "false_colour.glsl"
 layout(std430, binding = BINDING_PICK) buffer PickBuffer { PickResult picks[]; };
 
@@ -35,7 +36,7 @@ float relative_error(uint pixel_index, PixelSurface p) {
         return recent;
     }
     vec4 own = own_sum(pixel_index, p);
-    KeptShare k = kept_share(p.patch_id, kept, own);
+    KeptShare k = kept_share(patch_of_side(p.side), kept, own);
     float mean = mix(k.recent, k.mean, k.share);
     vec2 errors = vec2((1.0 - k.share) * (recent < 0.0 ? 1.0 : recent) * k.recent, k.share * sqrt(k.variance) * k.mean);
     return mean > 0.0 ? length(errors) / mean : -1.0;
@@ -48,15 +49,15 @@ void main() {
     }
     uint pixel_index = floatBitsToUint(picks[slot].position.x);
     PixelSurface p = load_pixel(pixel_index);
-    if (p.patch_id == NO_PATCH) {
+    if (p.side == NO_PATCH) {
         picks[slot].position = vec4(0.0);
         return;
     }
-    uvec3 t = load_triangle(floatBitsToUint(patch_attributes(p.patch_id).w)).xyz;
+    uvec3 t = triangle_of(p.side).xyz;
     vec2 v = unpackUnorm2x16(p.barycentric);
     vec3 position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
     picks[slot].position = vec4(position, 1.0);
-    picks[slot].normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), patch_attributes(p.patch_id).z);
-    picks[slot].irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.patch_id));
+    picks[slot].normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), uintBitsToFloat(object_of_triangle(t)));
+    picks[slot].irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.side));
     picks[slot].radiance = vec4(pixel_radiance(pixel_index, p), relative_error(pixel_index, p));
 }

@@ -50,11 +50,11 @@ PixelSurface load_pixel(uint index) {
 
 /// What is known at the vertices, interpolated, on the side that is seen or on the other.
 vec3 from_vertices(samplerBuffer values, PixelSurface p, bool behind) {
-    uint triangle = p.patch_id;
+    uint triangle = p.side;
     uint side = behind ? 1u : 0u;
 #ifdef DOUBLE_SIDED
-    if (p.patch_id >= triangle_count) {
-        triangle = floatBitsToUint(patch_attributes(p.patch_id).w);
+    if (p.side >= triangle_count) {
+        triangle = triangle_of_side(p.side);
         side = 1u - side;
     }
 #endif
@@ -83,7 +83,7 @@ vec4 own_sum(uint index, PixelSurface p) {
 vec4 shown_sum(uint index, PixelSurface p) {
     vec4 own = own_sum(index, p);
     vec4 kept = texelFetch(pixel_kept_texels, int(index));
-    return kept.w > 0.0 ? own + believed_sum(p.patch_id, kept, own) : own;
+    return kept.w > 0.0 ? own + believed_sum(patch_of_side(p.side), kept, own) : own;
 }
 
 vec3 blended_irradiance(uint index, PixelSurface p) {
@@ -136,10 +136,11 @@ vec3 radiance_of_ends(uint index) {
 layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };
 #endif
 #ifdef OBJECT_SPACE_RADIANCE
-/// Radiance of the middle of a patch as the solution knows it, without its glossy part, radiance units.
-vec3 object_space_radiance(uint id) {
+/// Radiance of the middle of a side as the solution knows it, without its glossy part, radiance units.
+vec3 object_space_radiance(uint side) {
     PixelSurface p;
-    p.patch_id = id;
+    p.side = side;
+    uint id = patch_of_side(side);
     p.barycentric = packUnorm2x16(vec2(1.0 / 3.0));
     vec3 light = object_space_irradiance(p, false);
 #ifdef FIRST_SHOT
@@ -157,7 +158,7 @@ layout(std430, binding = BINDING_TRANSMITTANCE) readonly buffer TransmittanceBuf
 
 /// What comes through from the other side; that light is known per patch.
 vec3 transmitted_radiance(PixelSurface p) {
-    vec4 t = transmittance[p.patch_id];
+    vec4 t = transmittance[patch_of_side(p.side)];
     if (t.rgb == vec3(0.0)) {
         return vec3(0.0);
     }
@@ -179,7 +180,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         return radiance_of_ends(index);
     }
 #endif
-    if (p.patch_id == NO_PATCH) {
+    if (p.side == NO_PATCH) {
         return (p.facet & PIXEL_SKY) != 0u ? background(index) : vec3(0.0);
     }
 #ifdef UNLIT
@@ -187,7 +188,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         return pixel_albedo(p) * (UNLIT_WHITE / view.display.x);
     }
 #endif
-    vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[p.patch_id].emission.rgb : vec3(0.0);
+    vec3 emitted = (p.facet & PIXEL_EMITTER) != 0u ? surfaces[patch_of_side(p.side)].emission.rgb : vec3(0.0);
     vec3 reflected = pixel_albedo(p) * blended_irradiance(index, p) * inverse_pi;
 #ifdef TRANSMISSION
     reflected += transmitted_radiance(p);

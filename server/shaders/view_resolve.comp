@@ -14,8 +14,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #endif
 #include "scene_geometry.glsl"
 #include "facets.glsl"
-#include "patch_seen.glsl"
+#include "side_seen.glsl"
 #include "mesh.glsl"
+#include "sides.glsl"
 #include "octahedral.glsl"
 #include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
@@ -206,17 +207,16 @@ void main() {
     vec3 direction = view_direction(at, place_in_pixel(at));
     vec3 eye = view.eye.xyz;
 #endif
-    uint id = surface == NO_HIT ? NO_PATCH : patch_seen(surface, eye, direction);
+    uint id = surface == NO_HIT ? NO_PATCH : side_seen(surface, eye, direction);
     if (id == NO_PATCH) {  // sky, or the back of a one-sided surface: black
         pixels[2u * index] = uvec4(0u, 0u, 0u, NO_PATCH);
         pixels[2u * index + 1u] = uvec4(0u, 0u, 0u, surface == NO_HIT ? PIXEL_SKY : surface >> 1 | PIXEL_BACK);
         pixel_irradiance[index] = no_samples;
         return;
     }
-    vec3 normal = patch_plane(id).xyz;
-    vec4 attributes = patch_attributes(id);
-    uint object = floatBitsToUint(attributes.z);
-    uvec4 triangle = load_triangle(floatBitsToUint(attributes.w));
+    uvec4 triangle = triangle_of(id);
+    uint object = object_of_triangle(triangle.xyz);
+    vec3 normal = side_normal(id);
     vec3 a = world_position(triangle.x);
     vec3 e1 = world_position(triangle.y) - a;
     vec3 e2 = world_position(triangle.z) - a;

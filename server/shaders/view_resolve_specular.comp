@@ -7,6 +7,7 @@ layout(local_size_x = SPECULAR_GROUP) in;
 #include "scene_geometry.glsl"
 #include "facets.glsl"
 #include "mesh.glsl"
+#include "sides.glsl"
 #include "octahedral.glsl"
 #include "pixel_albedo.glsl"
 #include "pixel_sum.glsl"
@@ -47,11 +48,11 @@ vec4 kept_gloss_of(uint index) {
 #endif
 
 vec4 reprojected_gloss(vec3 position, uvec4 p, uvec4 q, Brdf brdf) {
-    uint object = floatBitsToUint(patch_attributes(p.w).z);
-    uvec3 triangle = load_triangle(floatBitsToUint(patch_attributes(p.w).w)).xyz;
+    uvec3 triangle = triangle_of(p.w).xyz;
+    uint object = object_of_triangle(triangle);
     vec2 v = unpackUnorm2x16(q.z);
     vec3 old_position = position_before(position, object, triangle, vec3(1.0 - v.x - v.y, v));
-    uint index = old_pixel(old_position, patch_plane(p.w).xyz, p.w, object);
+    uint index = old_pixel(old_position, side_normal(p.w), p.w, object);
     if (index == hidden) {
         return vec4(0.0);
     }

@@ -59,7 +59,7 @@ vec4 probe_statistics(uint probe) {
     }
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
-    if (p.patch_id == NO_PATCH || (p.facet & (PIXEL_EMITTER | PIXEL_UNLIT)) != 0u) {
+    if (p.side == NO_PATCH || (p.facet & (PIXEL_EMITTER | PIXEL_UNLIT)) != 0u) {
         return vec4(0.0);
     }
     float share = 1.0;
@@ -77,8 +77,9 @@ vec4 probe_statistics(uint probe) {
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
     float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
-    float through = share * ahead_behind(p.patch_id);
-    drift.xy += vec2(share * ahead(p.patch_id, pixel_albedo(p)) + through, l);
+    uint patch_id = patch_of_side(p.side);
+    float through = share * ahead_behind(patch_id);
+    drift.xy += vec2(share * ahead(patch_id, pixel_albedo(p)) + through, l);
     vec4 own = own_sum(index, p);
     vec4 kept = texelFetch(pixel_kept_texels, int(index));
     float own_weight = view.weights.y;
@@ -91,7 +92,7 @@ vec4 probe_statistics(uint probe) {
     drift.z += min(alone, l * l);
     float variance = alone * variance_of_mean;
     if (changed) {
-        variance = variance_with_kept(kept_share(p.patch_id, kept, own), min(variance, l * l), l, reflectance);
+        variance = variance_with_kept(kept_share(patch_id, kept, own), min(variance, l * l), l, reflectance);
     } else {
         variance *= min(own_weight / own.w, 1.0);  // the sums may be younger than the mean that is shown
     }

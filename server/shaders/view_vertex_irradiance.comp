@@ -4,13 +4,17 @@
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"
+#ifdef PATCH_SETS
+#include "mesh.glsl"
+#endif
 layout(std430, binding = BINDING_VERTEX_DATA) readonly buffer VertexDataBuffer { VertexData vertices[]; };
-layout(std430, binding = BINDING_VERTEX_PATCHES) readonly buffer VertexPatchBuffer { uint vertex_patches[]; };
+layout(std430, binding = BINDING_VERTEX_TRIANGLES) readonly buffer VertexTriangleBuffer { uint vertex_triangles[]; };
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
-layout(std430, binding = BINDING_BACK_PATCH) readonly buffer BackPatchBuffer { uint back_patch[]; };
+layout(std430, binding = BINDING_BACK_SIDE) readonly buffer BackSideBuffer { uint back_side[]; };
 layout(std430, binding = BINDING_VERTEX_IRRADIANCE) writeonly buffer VertexIrradianceBuffer { uvec2 vertex_irradiance[]; };
 uniform uint vertex_count;
+#include "vertex_shares.glsl"
 
 /// Half floats (radiance units are near 1 by choice of the unit).
 uvec2 pack_irradiance(vec3 e) {
@@ -27,15 +31,15 @@ void main() {
     vec3 back = vec3(0.0);
     float front_area = 0.0;
     float back_area = 0.0;
-    uint end = vertices[i].first_patch + vertices[i].patch_count;
-    for (uint k = vertices[i].first_patch; k < end; ++k) {
-        uint triangle = vertex_patches[k];
-        float area = patches[triangle].area;
-        front += area * irradiance[triangle].rgb;
+    uint end = vertices[i].first_triangle + vertices[i].triangle_count;
+    for (uint k = vertices[i].first_triangle; k < end; ++k) {
+        uint triangle = vertex_triangles[k];
+        float area = area_at_vertex(triangle);
+        front += area * irradiance[patch_of(triangle)].rgb;
         front_area += area;
-        uint twin = back_patch[triangle];
+        uint twin = back_side[triangle];
         if (twin != NO_PATCH) {
-            back += area * irradiance[twin].rgb;
+            back += area * irradiance[patch_of(twin)].rgb;
             back_area += area;
         }
     }

@@ -122,11 +122,11 @@ void CausticLights::add_chance(double flux) {
 
 void CausticLights::add_emitters(const GpuScene& scene, const PatchMesh& mesh,
                                  std::span<const glm::vec3> radiance) {
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    for (std::size_t i = 0; i < mesh.side_count(); ++i) {
         if (luminance(radiance[i]) <= 0.0F) {
             continue;
         }
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
+        const glm::uvec3& t = mesh.triangles[mesh.side_triangle[i]];
         const glm::mat4 world = scene.world_from_object(mesh.vertex_object[t.x], Place::now);
         const auto corner = [&](std::uint32_t vertex) {
             return glm::vec3(world * glm::vec4(mesh.positions[vertex], 1.0F));

@@ -35,7 +35,7 @@ class CausticLights {
     using Numbers = std::array<float, numbers_per_ray>;  ///< each uniform in [0, 1)
 
     enum class Kind { lamps, others };
-    /// radiance: that patches send, cd/m². targets: boxes to aim at, shifted world.
+    /// radiance: that sides send, cd/m². targets: boxes to aim at, shifted world.
     CausticLights(const GpuScene& scene, const PatchMesh& mesh, std::span<const glm::vec3> radiance,
                   Kind kind, std::span<const Bounds> targets);
     /// Whether no light can reach a target.

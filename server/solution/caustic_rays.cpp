@@ -55,7 +55,9 @@ CausticRays::CausticRays(const Scene& scene, const PatchMesh& mesh, const Specul
       lobes_(scene.materials.size()),
       glass_(scene.materials.size()),
       facet_material_(mesh.facets.empty() ? mesh.triangle_material : mesh.facet_material),
-      back_patch_(mesh.back_patch),
+      back_side_(mesh.back_side),
+      side_triangle_(mesh.side_triangle),
+      sets_(mesh.patch_sets),
       triangles_(mesh.triangles),
       facet_roots_(mesh.facets.empty() ? std::vector<FacetNode>{} : mesh.facet_roots),
       facet_tree_(mesh.facet_tree) {
@@ -81,7 +83,8 @@ std::uint32_t CausticRays::triangle_of(std::uint32_t facet, const glm::vec3& pos
 std::uint32_t CausticRays::patch_at(std::uint32_t facet, bool front,
                                     const glm::vec3& position) const {
     const std::uint32_t triangle = triangle_of(facet, position);
-    return front ? triangle : back_patch_[triangle];
+    const std::uint32_t side = front ? triangle : back_side_[triangle];
+    return side == PatchMesh::no_patch || sets_.empty() ? side : sets_.side_patch[side];
 }
 
 /// As light goes.
@@ -106,21 +109,53 @@ void CausticRays::follow(const LightRay& ray, Random& random,
     }
 }
 
+/// Corners of one of the triangles of the patch that has been met, by area. back: the side is one.
+std::array<glm::vec3, 3> CausticRays::random_face(const SpecularRays::Hit& hit, Random& random,
+                                                  bool& back) const {
+    back = !hit.front;
+    const std::uint32_t met = triangle_of(hit.facet, hit.position);
+    const std::uint32_t side = hit.front ? met : back_side_[met];
+    if (sets_.empty() || side == PatchMesh::no_patch) {
+        return rays_.corners(triangles_[met]);
+    }
+    const PatchSides sides(sets_, sets_.side_patch[side]);
+    std::array<glm::vec3, 3> chosen = rays_.corners(triangles_[met]);
+    float all = 0.0F;
+    for (const std::uint32_t member : sides) {  // reservoir sampling (Chao 1982)
+        const std::uint32_t triangle = side_triangle_[member];
+        const std::array<glm::vec3, 3> corners = rays_.corners(triangles_[triangle]);
+        const float area =
+            glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+        all += area;
+        if (sides.size() == 1 || random.next() * all < area) {
+            chosen = corners;
+        }
+    }
+    return chosen;
+}
+
 /// Evenly on the patch that has been met, in front of it.
-glm::vec3 CausticRays::random_point(const SpecularRays::Hit& hit, Random& random) const {
-    const std::array<glm::vec3, 3> corners =
-        rays_.corners(triangles_[triangle_of(hit.facet, hit.position)]);
+CausticRays::Start CausticRays::random_point(const SpecularRays::Hit& hit, Random& random) const {
+    bool back = false;
+    const std::array<glm::vec3, 3> corners = random_face(hit, random, back);
     const float root = std::sqrt(random.next());
     const float along = root * random.next();
-    return corners[0] + (root - along) * (corners[1] - corners[0]) +
-           along * (corners[2] - corners[0]) + rays_.offset() * hit.geometric;
+    Start start;
+    start.normal = hit.geometric;
+    if (!sets_.empty()) {
+        const glm::vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        start.normal = across * ((back ? -1.0F : 1.0F) / std::max(glm::length(across), 1e-30F));
+    }
+    start.point = corners[0] + (root - along) * (corners[1] - corners[0]) +
+                  along * (corners[2] - corners[0]) + rays_.offset() * start.normal;
+    return start;
 }
 
 /// A mirror as bundles know it: all of a patch sends what has come in on it, each of its points
 /// about the mirrored direction to where that came from. False where the ray ends.
 bool CausticRays::scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& random) const {
-    const glm::mat3 world = frame_about(hit.geometric);
-    const glm::vec3 point = random_point(hit, random);
+    const auto [point, normal] = random_point(hit, random);
+    const glm::mat3 world = frame_about(normal);
     const glm::vec3 towards = glm::normalize(ray.origin - point) * world;  // its transpose
     const Brdf& lobe = lobes_[facet_material_[hit.facet]];
     const glm::vec2 u(random.next(), random.next());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -43,7 +44,12 @@ class CausticRays {
     void follow_as_bundles(LightRay ray, Random& random,
                            std::vector<CausticDeposit>& deposits) const;
     [[nodiscard]] bool scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& random) const;
-    [[nodiscard]] glm::vec3 random_point(const SpecularRays::Hit& hit, Random& random) const;
+    struct Start {
+        glm::vec3 point{0.0F}, normal{0.0F};
+    };
+    [[nodiscard]] std::array<glm::vec3, 3> random_face(const SpecularRays::Hit& hit, Random& random,
+                                                       bool& back) const;
+    [[nodiscard]] Start random_point(const SpecularRays::Hit& hit, Random& random) const;
     [[nodiscard]] std::uint32_t triangle_of(std::uint32_t facet, const glm::vec3& position) const;
     [[nodiscard]] std::uint32_t patch_at(std::uint32_t facet, bool front,
                                          const glm::vec3& position) const;
@@ -51,7 +57,9 @@ class CausticRays {
     const SpecularRays& rays_;
     std::vector<Brdf> lobes_;         // of mirrors, as bundles know them; by material
     std::vector<BundleGlass> glass_;  // likewise
-    std::vector<std::uint32_t> facet_material_, back_patch_;
+    std::vector<std::uint32_t> facet_material_, back_side_;
+    std::vector<std::uint32_t> side_triangle_;
+    PatchSets sets_;
     std::vector<glm::uvec3> triangles_;
     std::vector<FacetNode> facet_roots_, facet_tree_;  // empty: facets are triangles
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "gpu/gl_scope.h"
+#include "scene/patch_means.h"
 
 namespace raybundle {
 namespace {
@@ -21,8 +22,9 @@ PatchMesh without_colours(const PatchMesh& mesh) {
     result.vertex_object = mesh.vertex_object;
     result.triangles = mesh.triangles;
     result.triangle_material = mesh.triangle_material;
-    result.patch_triangle = mesh.patch_triangle;
+    result.side_triangle = mesh.side_triangle;
     result.emission = mesh.emission;
+    result.patch_sets = mesh.patch_sets;
     return result;
 }
 
@@ -47,7 +49,7 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
       vertex_texture_(create_buffer_texture("vertex caustics", GL_RGBA16F, vertices_)),
       deposit_({"solution_caustic_deposits.comp"}),
       reflect_({"solution_caustics.comp"}, gpu_scene.defines()),
-      interpolate_({"view_vertex_irradiance.comp"}) {
+      interpolate_({"view_vertex_irradiance.comp"}, gpu_scene.set_defines()) {
     flux_.clear();
     irradiance_.clear();
     radiance_.clear();
@@ -129,17 +131,19 @@ void Caustics::trace(std::uint32_t rays) {
     deposit_.dispatch(deposits_.size());
 }
 
-/// What patches reflect, cd/m²: all that they send but their emission. Mirrors and glass do not
-/// count, whose light is on its way.
+/// What sides reflect, cd/m²: all that their patches send but their emission. Mirrors and glass do
+/// not count, whose light is on its way.
 std::vector<glm::vec3> Caustics::reflected() {
     const std::span<const glm::vec4> radiance = readback_.take_as<glm::vec4>();
-    std::vector<glm::vec3> result(sums_.size(), glm::vec3(0.0F));
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const std::uint32_t material = mesh_.triangle_material[mesh_.patch_triangle[i]];
+    const std::vector<glm::vec3> emission = patch_means(mesh_, mesh_.emission);
+    std::vector<glm::vec3> result(mesh_.side_count(), glm::vec3(0.0F));
+    for (std::uint32_t i = 0; i < result.size(); ++i) {
+        const std::uint32_t material = mesh_.triangle_material[mesh_.side_triangle[i]];
         const SpecularKind kind = scene_.specular_rays()->surface_of(material).kind;
         if (kind == SpecularKind::none || kind == SpecularKind::coat) {
-            result[i] =
-                glm::max(glm::vec3(radiance[i]) * scene_.radiance_unit() - mesh_.emission[i], 0.0F);
+            const std::uint32_t patch = mesh_.patch_of(i);
+            result[i] = glm::max(
+                glm::vec3(radiance[patch]) * scene_.radiance_unit() - emission[patch], 0.0F);
         }
     }
     return result;

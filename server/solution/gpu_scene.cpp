@@ -9,10 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <glm/packing.hpp>
-#include <numeric>
-
-#include "gpu/octahedral.h"
 
 namespace raybundle {
 
@@ -30,11 +26,6 @@ bool is_smooth(const PatchMesh& mesh, std::size_t triangle) {
         }
     }
     return false;
-}
-
-/// unorm 4x8, square-root encoded.
-std::uint32_t packed_colour(const glm::vec3& colour) {
-    return glm::packUnorm4x8(glm::vec4(glm::sqrt(glm::clamp(colour, 0.0F, 1.0F)), 1.0F));
 }
 
 Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
@@ -65,6 +56,8 @@ std::vector<glm::mat4> shifted_matrices(const Scene& scene) {
 
 GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance, bool caustics)
     : patch_count_(static_cast<std::uint32_t>(mesh.patch_count())),
+      front_patch_count_(static_cast<std::uint32_t>(mesh.front_patch_count())),
+      side_count_(static_cast<std::uint32_t>(mesh.side_count())),
       triangle_count_(static_cast<std::uint32_t>(mesh.triangle_count())),
       vertex_count_(static_cast<std::uint32_t>(mesh.positions.size())),
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
@@ -81,8 +74,9 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       facets_(mesh, world_positions_),
       facet_boxes_(mesh.positions, mesh.facets.empty() ? mesh.triangles : mesh.facets,
                    mesh.vertex_object, shifted_matrices(scene)),
+      members_(mesh),
       place_vertices_({"scene_place_vertices.comp"}),
-      place_patches_({"scene_place_patches.comp"}) {
+      place_patches_({"scene_place_patches.comp"}, members_.defines()) {
     for (const Object& object : scene.objects) {
         object_bounds_.push_back(object.bounds);
     }
@@ -124,8 +118,13 @@ void GpuScene::upload_geometry(const Scene&, const PatchMesh& mesh) {
     }
     vertices_ = Buffer::from<glm::vec4>("vertices", vertices);
     triangles_ = Buffer::from<glm::uvec4>("triangles", triangles);
-    patch_triangle_ = Buffer::from<std::uint32_t>("patch triangles", mesh.patch_triangle);
-    back_patch_ = Buffer::from<std::uint32_t>("back patches", mesh.back_patch);
+    std::vector<std::uint32_t> patch_triangle;
+    patch_triangle.reserve(patch_count_);
+    for (std::uint32_t patch = 0; patch < patch_count_; ++patch) {
+        patch_triangle.push_back(mesh.triangle_of(patch));
+    }
+    patch_triangle_ = Buffer::from<std::uint32_t>("patch triangles", patch_triangle);
+    back_side_ = Buffer::from<std::uint32_t>("back sides", mesh.back_side);
     patches_ = Buffer("patches", 2 * std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     objects_ = Buffer("object matrices", world_from_object_.size() * sizeof(glm::mat4));
 }
@@ -159,33 +158,6 @@ float GpuScene::unit_for(float largest) {
     return largest > 0.0F ? std::exp2(std::round(std::log2(largest))) : 1.0F;
 }
 
-void GpuScene::upload_vertex_data(const PatchMesh& mesh) {
-    // Compressed rows: for every vertex the triangles that use it.
-    std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
-    for (const glm::uvec3& t : mesh.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            ++first[t[k] + 1];
-        }
-    }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::uint32_t> vertex_patches(first.back());
-    std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (int k = 0; k < 3; ++k) {
-            vertex_patches[at[mesh.triangles[i][k]]++] = static_cast<std::uint32_t>(i);
-        }
-    }
-    std::vector<layout::VertexData> data;
-    data.reserve(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        data.push_back({octahedral_from_vector(mesh.normals[i]), mesh.uvs[i], first[i],
-                        first[i + 1] - first[i], mesh.vertex_object[i],
-                        mesh.colours.empty() ? 0xffffffffU : packed_colour(mesh.colours[i])});
-    }
-    vertex_data_ = Buffer::from<layout::VertexData>("vertex data", data);
-    vertex_patches_ = Buffer::from<std::uint32_t>("vertex patches", vertex_patches);
-}
-
 void GpuScene::create_textures() {
     patch_texture_ = create_buffer_texture("patches", GL_RGBA32F, patches_);
     triangle_texture_ = create_buffer_texture("triangles", GL_RGBA32UI, triangles_);
@@ -204,7 +176,8 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     for (std::size_t i = 0; i < mesh.triangle_count() && !smooth; ++i) {
         smooth = is_smooth(mesh, i);
     }
-    define_if(mesh.patch_count() > mesh.triangle_count(), "DOUBLE_SIDED");
+    defines_ = members_.defines();
+    define_if(side_count_ > triangle_count_, "DOUBLE_SIDED");
     define_if(!scene.textures.empty(), "TEXTURED");
     define_if(smooth, "SMOOTH");
     define_if(!mesh.colours.empty(), "VERTEX_COLOURS");
@@ -261,7 +234,8 @@ void GpuScene::place_geometry(Place place) const {
     place_patches_.set("place", static_cast<unsigned>(place));
     place_patches_.set("vertex_count", vertex_count_);
     place_patches_.set("patch_count", patch_count_);
-    place_patches_.set("triangle_count", triangle_count_);
+    place_patches_.set("front_count", front_patch_count_);
+    members_.bind_for_placing();
     place_patches_.dispatch(patch_count_);
     facets_.place(static_cast<unsigned>(place));
 }
@@ -301,18 +275,19 @@ void GpuScene::bind() const {
     triangles_.bind_storage(BINDING_TRIANGLES);
     patches_.bind_storage(BINDING_PATCHES);
     patch_triangle_.bind_storage(BINDING_PATCH_TRIANGLE);
-    back_patch_.bind_storage(BINDING_BACK_PATCH);
+    back_side_.bind_storage(BINDING_BACK_SIDE);
     surfaces_.bind_storage(BINDING_SURFACES);
     objects_.bind_storage(BINDING_OBJECTS);
     materials_.bind_storage(BINDING_MATERIALS);
     texels_.bind_storage(BINDING_TEXELS);
     vertex_data_.bind_storage(BINDING_VERTEX_DATA);
-    vertex_patches_.bind_storage(BINDING_VERTEX_PATCHES);
+    vertex_triangles_.bind_storage(BINDING_VERTEX_TRIANGLES);
     glBindTextureUnit(UNIT_PATCHES, patch_texture_.get());
     glBindTextureUnit(UNIT_TRIANGLES, triangle_texture_.get());
     glBindTextureUnit(UNIT_WORLD_POSITIONS, world_texture_.get());
     glBindTextureUnit(UNIT_VERTEX_DATA, vertex_texture_.get());
     glBindTextureUnit(UNIT_MATERIALS, material_texture_.get());
+    members_.bind();
     facets_.bind();
     facet_boxes_.bind();
     reflectance_.bind();
@@ -383,12 +358,12 @@ Bounds GpuScene::bounds() const {
 }
 
 std::size_t GpuScene::bytes() const {
-    std::size_t sum = details_.bytes() + transmittance_.bytes() + facets_.bytes() +
-                      facet_boxes_.bytes() + reflectance_.bytes() + reflectors_.bytes() +
-                      environment_bytes_;
+    std::size_t sum = members_.bytes() + details_.bytes() + transmittance_.bytes() +
+                      facets_.bytes() + facet_boxes_.bytes() + reflectance_.bytes() +
+                      reflectors_.bytes() + environment_bytes_;
     for (const Buffer* buffer :
-         {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_patch_,
-          &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_patches_}) {
+         {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_side_,
+          &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_triangles_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "solution/facet_boxes.h"
 #include "solution/facet_raster.h"
+#include "solution/patch_members.h"
 #include "solution/reflectance_tables.h"
 #include "solution/specular_rays.h"
 
@@ -71,16 +72,18 @@ class GpuScene {
               const ShaderProgram& program, std::span<const std::uint32_t> hidden = {}) const;
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
-    /// What the scene calls for, as macros for its shaders: DOUBLE_SIDED, TEXTURED, SMOOTH,
-    /// VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour, or are
-    /// unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, FOLDS (the rasteriser may turn facets over in
-    /// ways that matter), SPECULAR (some albedo depends on the angle), GLOSSY (some radiance
-    /// depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with profiles),
-    /// TRANSMISSION (some patches send light that arrives on their other side), ENVIRONMENT (a sky
-    /// that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays go on from some
-    /// surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such surfaces). What is
-    /// absent is not even compiled.
+    /// What the scene calls for, as macros for its shaders: PATCH_SETS, DOUBLE_SIDED, TEXTURED,
+    /// SMOOTH, VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour,
+    /// or are unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, FOLDS (the rasteriser may turn facets
+    /// over in ways that matter), SPECULAR (some albedo depends on the angle), GLOSSY (some
+    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
+    /// profiles), TRANSMISSION (some patches send light that arrives on their other side),
+    /// ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays go on
+    /// from some surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such surfaces).
+    /// What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
+    /// PATCH_SETS, where some patches are several triangles, for what needs no other macro.
+    [[nodiscard]] const std::vector<std::string>& set_defines() const { return members_.defines(); }
     [[nodiscard]] bool transmitting() const { return transmittance_.bytes() > 0; }
     [[nodiscard]] std::uint32_t patch_base(Place place) const;
     [[nodiscard]] std::uint32_t facet_base(Place place) const;
@@ -89,6 +92,9 @@ class GpuScene {
     void set_move(const ShaderProgram& program) const;
 
     [[nodiscard]] std::uint32_t patch_count() const { return patch_count_; }
+    [[nodiscard]] std::uint32_t front_patch_count() const { return front_patch_count_; }
+    /// Fronts and backs of triangles that have light.
+    [[nodiscard]] std::uint32_t side_count() const { return side_count_; }
     [[nodiscard]] std::uint32_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
     [[nodiscard]] float radiance_unit() const { return radiance_unit_; }  ///< cd/m², a power of two
@@ -144,7 +150,7 @@ class GpuScene {
     void upload_transmittance(const Scene& scene, const PatchMesh& mesh);
     [[nodiscard]] layout::MaterialDetails material_details(const Scene& scene,
                                                            std::size_t material) const;
-    [[nodiscard]] std::uint32_t reflectance_record(const PatchMesh& mesh, std::size_t patch) const;
+    [[nodiscard]] std::vector<std::uint32_t> reflectance_records(const PatchMesh& mesh) const;
     void upload_environment();
     void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
@@ -157,7 +163,8 @@ class GpuScene {
     [[nodiscard]] ScenePiece piece_at(std::uint32_t object, const glm::mat4& world) const;
     [[nodiscard]] glm::mat4 kept(std::uint32_t object, const glm::mat4& world_from_object) const;
 
-    std::uint32_t patch_count_, triangle_count_, vertex_count_, object_count_;
+    std::uint32_t patch_count_, front_patch_count_, side_count_, triangle_count_, vertex_count_,
+        object_count_;
     glm::vec3 origin_;
     float radiance_unit_ = 1.0F;
     float diameter_ = 1.0F;
@@ -189,8 +196,9 @@ class GpuScene {
     Buffer world_positions_;
     FacetRaster facets_;
     FacetBoxes facet_boxes_;
-    Buffer vertices_, triangles_, patches_, patch_triangle_, back_patch_;
-    Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_patches_;
+    PatchMembers members_;
+    Buffer vertices_, triangles_, patches_, patch_triangle_, back_side_;
+    Buffer surfaces_, objects_, materials_, texels_, vertex_data_, vertex_triangles_;
     std::vector<glm::uvec4> texture_info_;  // of the scene's textures, see MaterialData
     Buffer reflectors_;                     // only where some patch is glossy
     Buffer details_;                        // only where some material has any

@@ -8,6 +8,7 @@
 #include "scene/ggx_albedo.h"
 #include "scene/normal_map.h"
 #include "scene/patch_colour.h"
+#include "scene/patch_means.h"
 #include "solution/gpu_scene.h"
 #include "solution/texture_levels.h"
 
@@ -76,12 +77,15 @@ layout::MaterialDetails GpuScene::material_details(const Scene& scene, std::size
 
 void GpuScene::upload_surfaces(const PatchMesh& mesh) {
     std::vector<layout::PatchSurface> surfaces;
-    surfaces.reserve(mesh.patch_count());
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t record = reflectance_record(mesh, i);
-        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(record, mesh.base_colour[i]),
-                                      mesh.coverage.empty() ? 1.0F : mesh.coverage[i]),
-                            glm::vec4(mesh.emission[i] / radiance_unit_, 0.0F)});
+    surfaces.reserve(patch_count_);
+    const std::vector<glm::vec3> base_colour = patch_means(mesh, mesh.base_colour);
+    const std::vector<glm::vec3> emission = patch_means(mesh, mesh.emission);
+    const std::vector<float> coverage = patch_means(mesh, mesh.coverage);
+    const std::vector<std::uint32_t> records = reflectance_records(mesh);
+    for (std::size_t i = 0; i < patch_count_; ++i) {
+        surfaces.push_back({glm::vec4(reflectance_.mean_albedo(records[i], base_colour[i]),
+                                      coverage.empty() ? 1.0F : coverage[i]),
+                            glm::vec4(emission[i] / radiance_unit_, 0.0F)});
     }
     if (surfaces_.bytes() == 0) {
         surfaces_ = Buffer::from<layout::PatchSurface>("surfaces", surfaces);
@@ -122,12 +126,13 @@ void GpuScene::upload_reflectors(const PatchMesh& mesh) {
         return;
     }
     std::vector<glm::vec4> reflectors;
-    reflectors.reserve(mesh.patch_count());
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t material = mesh.triangle_material[mesh.patch_triangle[i]];
-        const std::uint32_t record =
-            reflectance_.glossy(material) ? reflectance_record(mesh, i) : NOT_GLOSSY;
-        reflectors.emplace_back(mesh.base_colour[i], std::bit_cast<float>(record));
+    reflectors.reserve(patch_count_);
+    const std::vector<glm::vec3> base_colour = patch_means(mesh, mesh.base_colour);
+    const std::vector<std::uint32_t> records = reflectance_records(mesh);
+    for (std::uint32_t i = 0; i < patch_count_; ++i) {
+        const std::uint32_t material = mesh.triangle_material[mesh.triangle_of(i)];
+        const std::uint32_t record = reflectance_.glossy(material) ? records[i] : NOT_GLOSSY;
+        reflectors.emplace_back(base_colour[i], std::bit_cast<float>(record));
     }
     if (reflectors_.bytes() > 0) {
         reflectors_.write<glm::vec4>(reflectors, 0);
@@ -158,24 +163,30 @@ void GpuScene::upload_transmittance(const Scene& scene, const PatchMesh& mesh) {
         return;
     }
     std::vector<glm::vec4> values;
-    values.reserve(mesh.patch_count());
-    for (std::uint32_t i = 0; i < mesh.patch_count(); ++i) {
-        const std::uint32_t triangle = mesh.patch_triangle[i];
+    values.reserve(patch_count_);
+    for (std::uint32_t i = 0; i < patch_count_; ++i) {
+        const std::uint32_t triangle = mesh.triangle_of(i);
         const Material& material = scene.materials[mesh.triangle_material[triangle]];
-        const std::uint32_t other = i == triangle ? mesh.back_patch[triangle] : triangle;
+        const std::uint32_t other =
+            i < mesh.front_patch_count() ? mesh.back_side[triangle] : triangle;
         const bool through = transmits(material) && other != PatchMesh::no_patch;
         values.emplace_back(through ? material.transmittance : glm::vec3(0.0F),
-                            std::bit_cast<float>(through ? other : NO_PATCH));
+                            std::bit_cast<float>(through ? mesh.patch_of(other) : NO_PATCH));
     }
     transmittance_ = Buffer::from<glm::vec4>("transmittance", values);
 }
 
-std::uint32_t GpuScene::reflectance_record(const PatchMesh& mesh, std::size_t patch) const {
-    const std::uint32_t triangle = mesh.patch_triangle[patch];
-    const std::uint32_t material = mesh.triangle_material[triangle];
-    const glm::vec2 place =
-        mesh.metallic_roughness.empty() ? glm::vec2(0.0F) : mesh.metallic_roughness[triangle];
-    return static_cast<std::uint32_t>(reflectance_.patch_record(material, place));
+/// Of all patches.
+std::vector<std::uint32_t> GpuScene::reflectance_records(const PatchMesh& mesh) const {
+    const std::vector<glm::vec2> places = patch_metallic_roughness(mesh);
+    std::vector<std::uint32_t> records;
+    records.reserve(patch_count_);
+    for (std::uint32_t i = 0; i < patch_count_; ++i) {
+        const std::uint32_t material = mesh.triangle_material[mesh.triangle_of(i)];
+        records.push_back(static_cast<std::uint32_t>(
+            reflectance_.patch_record(material, places.empty() ? glm::vec2(0.0F) : places[i])));
+    }
+    return records;
 }
 
 }  // namespace raybundle

@@ -43,14 +43,26 @@ PatchCells::PatchCells(const PatchMesh& mesh) : patches_(mesh.patch_count()) {
     double all = 0.0;
     std::vector<glm::vec3> centres, normals;
     for (std::size_t i = 0; i < patches_; ++i) {
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
-        const glm::vec3& a = mesh.positions[t.x];
-        const glm::vec3 e1 = mesh.positions[t.y] - a;
-        const glm::vec3 e2 = mesh.positions[t.z] - a;
-        const glm::vec3 across = glm::cross(e1, e2);
-        centres.push_back(a + (e1 + e2) / 3.0F);
-        normals.push_back(i < mesh.triangle_count() ? across : -across);
-        areas_.push_back(0.5F * glm::length(across));
+        const PatchSides sides = mesh.sides_of(static_cast<std::uint32_t>(i));
+        glm::vec3 centre(0.0F);
+        glm::vec3 moment(0.0F);
+        glm::vec3 facing(0.0F);
+        float area = 0.0F;
+        for (const std::uint32_t side : sides) {
+            const glm::uvec3& t = mesh.triangles[mesh.side_triangle[side]];
+            const glm::vec3& a = mesh.positions[t.x];
+            const glm::vec3 e1 = mesh.positions[t.y] - a;
+            const glm::vec3 e2 = mesh.positions[t.z] - a;
+            const glm::vec3 across = glm::cross(e1, e2);
+            const float own = 0.5F * glm::length(across);
+            centre = a + (e1 + e2) / 3.0F;
+            moment += own * centre;
+            facing += side < mesh.triangle_count() ? across : -across;
+            area += own;
+        }
+        centres.push_back(sides.size() > 1 && area > 0.0F ? moment / area : centre);
+        normals.push_back(facing);
+        areas_.push_back(area);
         bounds.add(centres.back());
         all += static_cast<double>(areas_.back());
     }
@@ -62,7 +74,8 @@ PatchCells::PatchCells(const PatchMesh& mesh) : patches_(mesh.patch_count()) {
                                  longest / static_cast<float>(most_coordinate), 1e-20F});
     std::vector<CellKey> keys(patches_);
     for (std::size_t i = 0; i < patches_; ++i) {
-        const std::uint64_t object = mesh.vertex_object[mesh.triangles[mesh.patch_triangle[i]].x];
+        const std::uint64_t object =
+            mesh.vertex_object[mesh.triangles[mesh.triangle_of(static_cast<std::uint32_t>(i))].x];
         keys[i].group = object << facing_bits | facing_of(normals[i]);
         const glm::vec3 at = (centres[i] - bounds.min) / edge;
         for (int k = 0; k < 3; ++k) {

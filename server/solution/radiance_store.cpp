@@ -48,8 +48,8 @@ RadianceStore::RadianceStore(const GpuScene& scene, ZoneBalance& zones, Caustics
       choose_({"solution_shooters.comp"}, scene.defines()),
       flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
-      gather_at_vertices_({"solution_vertex_light.comp"}),
-      find_slopes_({"solution_radiance_slopes.comp"}),
+      gather_at_vertices_({"solution_vertex_light.comp"}, scene.set_defines()),
+      find_slopes_({"solution_radiance_slopes.comp"}, scene.set_defines()),
       checkpoint_({"solution_checkpoint.comp"}),
       statistics_({"solution_statistics.comp"}),
       measure_scatter_({"solution_scatter.comp"}) {
@@ -236,7 +236,7 @@ void RadianceStore::refresh_slopes() const {
     gather_at_vertices_.dispatch(scene_.vertex_count());
     slopes_.bind_storage(BINDING_SLOPES);
     find_slopes_.set("patch_count", patch_count_);
-    find_slopes_.set("triangle_count", scene_.triangle_count());
+    find_slopes_.set("front_count", scene_.front_patch_count());
     find_slopes_.dispatch(patch_count_);
 }
 

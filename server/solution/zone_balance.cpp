@@ -6,6 +6,8 @@
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 
+#include "scene/patch_means.h"
+
 namespace raybundle {
 
 namespace {
@@ -21,7 +23,7 @@ ZoneBalance::ZoneBalance(const Scene& scene, const PatchMesh& mesh, const GpuSce
       gpu_scene_(gpu_scene),
       patch_count_(gpu_scene.patch_count()),
       rays_(scene, mesh, present_places(), gpu_scene.diameter(), seed),
-      base_colour_(mesh.base_colour),
+      base_colour_(patch_means(mesh, mesh.base_colour)),
       levels_(1),
       zones_buffer_("zones", max_zones * sizeof(layout::ZoneLevelData) +
                                  std::size_t{patch_count_} * sizeof(std::uint32_t)),
@@ -41,7 +43,7 @@ std::vector<glm::mat4> ZoneBalance::present_places() const {
 }
 
 void ZoneBalance::surfaces_changed(const PatchMesh& mesh) {
-    base_colour_ = mesh.base_colour;
+    base_colour_ = patch_means(mesh, mesh.base_colour);
     rays_.choose_densities(mesh);
     stale_ = true;
 }

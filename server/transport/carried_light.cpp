@@ -12,13 +12,13 @@ void CarriedLight::update(const Scene& scene, const PatchMesh& mesh) {
     flux_.assign(scene.objects.size(), 0.0);
     total_ = 0.0;
     other_light_ = has_sky(scene) || !scene.punctual_lights.empty();
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    for (std::size_t i = 0; i < mesh.side_count(); ++i) {
         if (mesh.emission[i] == glm::vec3(0.0F)) {
             continue;
         }
         const double flux =
             world_area(scene, mesh, i) * static_cast<double>(luminance(mesh.emission[i]));
-        flux_[mesh.vertex_object[mesh.triangles[mesh.patch_triangle[i]].x]] += flux;
+        flux_[mesh.vertex_object[mesh.triangles[mesh.side_triangle[i]].x]] += flux;
         total_ += flux;
     }
 }

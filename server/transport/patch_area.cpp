@@ -3,8 +3,8 @@
 
 namespace raybundle {
 
-double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t side) {
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[side]];
     const glm::mat3 m(scene.objects[mesh.vertex_object[t.x]].world_from_object());
     const glm::vec3 e1 = m * (mesh.positions[t.y] - mesh.positions[t.x]);
     const glm::vec3 e2 = m * (mesh.positions[t.z] - mesh.positions[t.x]);

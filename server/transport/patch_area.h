@@ -8,7 +8,7 @@
 
 namespace raybundle {
 
-/// Area of a patch where its object stands in the scene, m².
-double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t patch);
+/// Area of a side where its object stands in the scene, m².
+double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t side);
 
 }  // namespace raybundle

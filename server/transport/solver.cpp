@@ -25,7 +25,7 @@ constexpr float least_iterate_age = 3.0F;  // after a change, in samples
 float mean_albedo(const Scene& scene, const PatchMesh& mesh) {
     double sum = 0.0;
     double total = 0.0;
-    for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    for (std::size_t i = 0; i < mesh.side_count(); ++i) {
         const double area = world_area(scene, mesh, i);
         const glm::vec3& albedo = mesh.base_colour[i];
         sum += area * static_cast<double>(std::max({albedo.r, albedo.g, albedo.b}));

@@ -11,7 +11,7 @@ constexpr float distance_share = 1e-3F;  // of the scene's diameter: ten times t
 
 /// Unit normal of a patch on its own side, world.
 glm::vec3 normal_of(const Scene& scene, const PatchMesh& mesh, std::uint32_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     const glm::mat4 world = scene.objects[mesh.vertex_object[t.x]].world_from_object();
     const auto place = [&](unsigned vertex) {
         return glm::vec3(world * glm::vec4(mesh.positions[vertex], 1.0F));

@@ -66,7 +66,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       correct({"view_correct.comp"}, scene.defines()),
       scale({"view_scale.comp"}, scene.defines()),
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
-      vertex_irradiance({"view_vertex_irradiance.comp"}),
+      vertex_irradiance({"view_vertex_irradiance.comp"}, scene.set_defines()),
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
       detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "scene/environment.h"
+#include "scene/patch_means.h"
 
 namespace raybundle {
 
@@ -74,7 +75,7 @@ void ExchangeRays::reject_backs(const RTCFilterFunctionNArguments* arguments) {
                         RTCHitN_Ng_y(arguments->hit, 1, 0) * RTCRayN_dir_y(arguments->ray, 1, 0) +
                         RTCHitN_Ng_z(arguments->hit, 1, 0) * RTCRayN_dir_z(arguments->ray, 1, 0);
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, 1, 0);
-    if (along >= 0.0F && query->rays->back_patch_[triangle] == PatchMesh::no_patch) {
+    if (along >= 0.0F && query->rays->back_side_[triangle] == PatchMesh::no_patch) {
         arguments->valid[0] = 0;
     }
 }
@@ -87,8 +88,9 @@ ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
       triangles_(mesh.triangles),
       vertex_object_(mesh.vertex_object),
       triangle_material_(mesh.triangle_material),
-      back_patch_(mesh.back_patch),
-      patch_triangle_(mesh.patch_triangle),
+      back_side_(mesh.back_side),
+      side_triangle_(mesh.side_triangle),
+      sets_(mesh.patch_sets),
       coverage_(mesh.coverage),
       world_from_object_(world_from_object.begin(), world_from_object.end()),
       offsets_(random_number(4 * seed), random_number(4 * seed + 1), random_number(4 * seed + 2),
@@ -99,9 +101,9 @@ ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
         is_glass_.push_back(is_glass(scene.materials[i]));
         glass_.push_back(is_glass_.back() ? bundle_glass(scene, i) : BundleGlass{});
     }
-    objects_.reserve(patch_triangle_.size());
-    for (const std::uint32_t triangle : patch_triangle_) {
-        objects_.push_back(vertex_object_[triangles_[triangle].x]);
+    areas_.resize(mesh.patch_count());
+    for (std::uint32_t patch = 0; patch < areas_.size(); ++patch) {
+        objects_.push_back(vertex_object_[triangles_[mesh.triangle_of(patch)].x]);
     }
     build();
     place(world_from_object, diameter);
@@ -154,28 +156,79 @@ void ExchangeRays::place(std::span<const glm::mat4> world_from_object, float dia
     if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
         throw std::runtime_error("rays between surfaces: building the hierarchy failed");
     }
-    const std::size_t patches = patch_triangle_.size();
-    centres_.resize(patches);
-    normals_.resize(patches);
-    areas_.resize(patches);
-    for (std::size_t i = 0; i < patches; ++i) {
-        const Corners at = corners_of(patch_triangle_[i]);
-        const glm::vec3 across = glm::cross(at.b - at.a, at.c - at.a);
-        const float size = glm::length(across);
-        const float side = i < triangles_.size() ? 1.0F : -1.0F;
-        centres_[i] = (at.a + at.b + at.c) / 3.0F;
-        normals_[i] = size > 0.0F ? side * across / size : glm::vec3(0.0F);
-        areas_[i] = 0.5F * size * (coverage_.empty() ? 1.0F : coverage_[i]);
+    centres_.resize(areas_.size());
+    normals_.resize(areas_.size());
+    side_areas_.resize(side_triangle_.size());
+    for (std::uint32_t i = 0; i < areas_.size(); ++i) {
+        measure(i);
     }
 }
 
+/// Area, mean place and mean normal of a patch.
+void ExchangeRays::measure(std::uint32_t patch) {
+    const PatchSides sides = sides_of(patch);
+    glm::vec3 centre(0.0F);
+    glm::vec3 facing(0.0F);
+    float whole = 0.0F;
+    areas_[patch] = 0.0F;
+    for (const std::uint32_t side : sides) {
+        const Corners at = corners_of(side_triangle_[side]);
+        const glm::vec3 across = glm::cross(at.b - at.a, at.c - at.a);
+        const float size = glm::length(across);
+        const float sign = side < triangles_.size() ? 1.0F : -1.0F;
+        centre = (at.a + at.b + at.c) / 3.0F;
+        facing += sign * across;
+        side_areas_[side] = 0.5F * size;
+        whole += side_areas_[side];
+        areas_[patch] += side_areas_[side] * (coverage_.empty() ? 1.0F : coverage_[side]);
+    }
+    if (sides.size() > 1) {
+        glm::vec3 sum(0.0F);
+        for (const std::uint32_t side : sides) {
+            const Corners at = corners_of(side_triangle_[side]);
+            sum += side_areas_[side] * (at.a + at.b + at.c) / 3.0F;
+        }
+        centre = whole > 0.0F ? sum / whole : centre;
+    }
+    const float size = glm::length(facing);
+    centres_[patch] = centre;
+    normals_[patch] = size > 0.0F ? facing / size : glm::vec3(0.0F);
+}
+
+/// Side of a patch, by area. share: a number from [0, 1), and what is left of its chance.
+std::uint32_t ExchangeRays::side_within(std::uint32_t patch, float& share) const {
+    const PatchSides sides = sides_of(patch);
+    if (sides.size() == 1) {
+        return sides.front();
+    }
+    float whole = 0.0F;
+    for (const std::uint32_t side : sides) {
+        whole += side_areas_[side];
+    }
+    float left = share * whole;
+    std::uint32_t chosen = sides.front();
+    for (const std::uint32_t side : sides) {
+        if (side_areas_[side] <= 0.0F) {
+            continue;
+        }
+        chosen = side;
+        if (left < side_areas_[side]) {
+            break;
+        }
+        left -= side_areas_[side];
+    }
+    share = std::clamp(left / side_areas_[chosen], 0.0F, 1.0F);
+    return chosen;
+}
+
 void ExchangeRays::choose_densities(const PatchMesh& mesh) {
-    const std::size_t patches = patch_triangle_.size();
+    const std::size_t patches = areas_.size();
+    const std::vector<glm::vec3> radiance = patch_means(mesh, mesh.emission);
     double area = 0.0;
     double emission = 0.0;
     std::vector<double> object_area(world_from_object_.size(), 0.0);
     const auto emitted = [&](std::size_t i) {
-        return static_cast<double>(areas_[i] * luminance(mesh.emission[i]));
+        return static_cast<double>(areas_[i] * luminance(radiance[i]));
     };
     for (std::size_t i = 0; i < patches; ++i) {
         area += static_cast<double>(areas_[i]);
@@ -220,15 +273,22 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
         return result;  // an object that has shrunk to nothing
     }
     const auto n = static_cast<double>(number);
-    const float u = fraction(static_cast<double>(offsets_.x) + n / root);
+    float u = fraction(static_cast<double>(offsets_.x) + n / root);
     const float v = fraction(static_cast<double>(offsets_.y) + n / (root * root));
     const float p = fraction(static_cast<double>(offsets_.z) + n / (root * root * root));
     const float q = fraction(static_cast<double>(offsets_.w) + n / (root * root * root * root));
-    const Corners at = corners_of(patch_triangle_[patch]);
-    const float side = std::sqrt(u);
-    glm::vec3 origin = at.a * (1.0F - side) + at.b * (side * (1.0F - v)) + at.c * (side * v);
-    origin += lift_ * normals_[patch];
-    const glm::vec3 direction = cosine_direction(normals_[patch], p, q);
+    const std::uint32_t side = side_within(patch, u);
+    const Corners at = corners_of(side_triangle_[side]);
+    const float root_u = std::sqrt(u);
+    glm::vec3 origin = at.a * (1.0F - root_u) + at.b * (root_u * (1.0F - v)) + at.c * (root_u * v);
+    glm::vec3 facing = normals_[patch];
+    if (!sets_.empty()) {
+        const glm::vec3 across = glm::cross(at.b - at.a, at.c - at.a);
+        facing = across * ((side < triangles_.size() ? 1.0F : -1.0F) /
+                           std::max(glm::length(across), 1e-30F));
+    }
+    origin += lift_ * facing;
+    const glm::vec3 direction = cosine_direction(facing, p, q);
     result.area = static_cast<float>(static_cast<double>(areas_[patch]) /
                                      (shares_[patch] * static_cast<double>(starts_.size())));
     RTCIntersectContext context;
@@ -255,7 +315,7 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
         const float along = glm::dot(normal, direction);
         const bool front = along < 0.0F;
         const std::uint32_t material = triangle_material_[triangle];
-        const std::uint32_t received = front ? triangle : back_patch_[triangle];
+        const std::uint32_t received = front ? triangle : back_side_[triangle];
         const float chance =
             random_number(number * max_passes + static_cast<std::uint64_t>(pass) + 1);
         bool passes = !coverage_.empty() && chance >= coverage_[triangle];
@@ -271,7 +331,7 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
             return result;
         }
         if (!passes) {
-            result.to = received;
+            result.to = patch_of(received);
             return result;
         }
         hit.ray.tnear = hit.ray.tfar + lift_;
@@ -296,7 +356,7 @@ std::uint32_t ExchangeRays::front_beside(const RTCRayHit& back) const {
     }
     const float along =
         hit.hit.Ng_x * hit.ray.dir_x + hit.hit.Ng_y * hit.ray.dir_y + hit.hit.Ng_z * hit.ray.dir_z;
-    return along < 0.0F ? hit.hit.primID : back_patch_[hit.hit.primID];
+    return patch_of(along < 0.0F ? hit.hit.primID : back_side_[hit.hit.primID]);
 }
 
 std::vector<ExchangeRay> ExchangeRays::trace() const {

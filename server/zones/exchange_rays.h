@@ -67,6 +67,14 @@ class ExchangeRays {
     };
 
     [[nodiscard]] Corners corners_of(std::size_t triangle) const;
+    [[nodiscard]] std::uint32_t patch_of(std::uint32_t side) const {
+        return sets_.empty() ? side : sets_.side_patch[side];
+    }
+    [[nodiscard]] PatchSides sides_of(std::uint32_t patch) const {
+        return sets_.empty() ? PatchSides(patch) : PatchSides(sets_, patch);
+    }
+    void measure(std::uint32_t patch);
+    [[nodiscard]] std::uint32_t side_within(std::uint32_t patch, float& share) const;
     [[nodiscard]] ExchangeRay follow(std::uint32_t patch, std::uint64_t number) const;
     [[nodiscard]] std::uint32_t front_beside(const RTCRayHit& back) const;
     static void reject_backs(const RTCFilterFunctionNArguments* arguments);
@@ -75,14 +83,15 @@ class ExchangeRays {
     const Scene& scene_;
     std::vector<glm::vec3> positions_;  // object space
     std::vector<glm::uvec3> triangles_;
-    std::vector<std::uint32_t> vertex_object_, triangle_material_, back_patch_, patch_triangle_;
+    std::vector<std::uint32_t> vertex_object_, triangle_material_, back_side_, side_triangle_;
+    PatchSets sets_;  // sides of every patch
     std::vector<float> coverage_;
     std::vector<BundleGlass> glass_;  // by material
     std::vector<bool> is_glass_;
     std::vector<glm::mat4> world_from_object_;
     std::vector<std::uint32_t> objects_;  // by patch
     std::vector<glm::vec3> centres_, normals_;
-    std::vector<float> areas_;
+    std::vector<float> areas_, side_areas_;  // the latter without cut-outs
     std::vector<double> shares_;
     std::vector<std::uint32_t> starts_;  // patch of each ray
     glm::vec4 offsets_;                  // of the sequence of points

@@ -94,7 +94,7 @@ Lighting measure(Screen screen, const StrategyProbabilities& probabilities) {
     int patches = 0;
     const auto irradiance = solver.store().read_irradiance();
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
-        if (mesh.triangle_material[mesh.patch_triangle[i]] == 0) {
+        if (mesh.triangle_material[mesh.side_triangle[i]] == 0) {
             result.floor += static_cast<double>(irradiance[i].g);
             ++patches;
         }

@@ -82,14 +82,14 @@ void iterate(Solver& solver, int iterations) {
 }
 
 double patch_area(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     return 0.5 *
            static_cast<double>(glm::length(glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
                                                       mesh.positions[t.z] - mesh.positions[t.x])));
 }
 
 glm::vec3 centroid(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
 }
 

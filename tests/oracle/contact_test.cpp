@@ -38,7 +38,7 @@ TEST(Contact, NoLightGoesUnderAWallIntoTheNextRoom) {
     float lit = 0.0F;
     float dark = 0.0F;
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
+        const glm::uvec3& t = mesh.triangles[mesh.side_triangle[i]];
         const float x =
             (mesh.positions[t.x].x + mesh.positions[t.y].x + mesh.positions[t.z].x) / 3.0F;
         if (x < 2.93F || x > 3.13F) {  // else: inside the wall, where nobody looks

@@ -141,7 +141,7 @@ DefectiveRoom::DefectiveRoom(Defect defect) : scene(load(defect)) {
 
 double DefectiveRoom::floor_mean(const std::vector<double>& values) const {
     return area_mean(mesh, values, [&](std::size_t patch) {
-        const std::uint32_t triangle = mesh.patch_triangle[patch];
+        const std::uint32_t triangle = mesh.side_triangle[patch];
         return scene.materials[mesh.triangle_material[triangle]].name == "floor";
     });
 }

@@ -10,7 +10,7 @@ namespace raybundle {
 namespace {
 
 double patch_area(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     const glm::dvec3 a(mesh.positions[t.x]);
     return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a,
                                         glm::dvec3(mesh.positions[t.z]) - a));

@@ -66,7 +66,7 @@ std::vector<std::pair<std::size_t, std::size_t>> painter_pairs(const PatchMesh& 
                                                                const ParallelWindow& window) {
     std::vector<Triangle> triangles;
     for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-        const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[i]];
+        const glm::uvec3& t = mesh.triangles[mesh.side_triangle[i]];
         triangles.push_back({window.frame.to_bundle(mesh.positions[t.x]),
                              window.frame.to_bundle(mesh.positions[t.y]),
                              window.frame.to_bundle(mesh.positions[t.z])});

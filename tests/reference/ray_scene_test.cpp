@@ -86,8 +86,8 @@ TEST(RayScene, BacksAbsorbUnlessDoubleSided) {
     EXPECT_TRUE(hit->absorbs());
 
     for (std::uint32_t t = 0; t < 2; ++t) {
-        b.mesh.back_patch[t] = 2 + t;
-        b.mesh.patch_triangle.push_back(t);
+        b.mesh.back_side[t] = 2 + t;
+        b.mesh.side_triangle.push_back(t);
         b.mesh.base_colour.emplace_back(0.25F);
         b.mesh.emission.emplace_back(7.0F);
     }

@@ -39,8 +39,8 @@ TEST(VertexIrradiance, IsTheMeanOverThePatchesOfAVertex) {
 TEST(VertexIrradiance, KeepsTheSidesOfADoubleSidedTriangleApart) {
     SceneBuilder b = square(true);
     for (std::uint32_t t = 0; t < 2; ++t) {
-        b.mesh.back_patch[t] = 2 + t;
-        b.mesh.patch_triangle.push_back(t);
+        b.mesh.back_side[t] = 2 + t;
+        b.mesh.side_triangle.push_back(t);
         b.mesh.base_colour.emplace_back(0.5F);
         b.mesh.emission.emplace_back(0.0F);
     }

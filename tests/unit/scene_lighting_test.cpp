@@ -170,8 +170,8 @@ TEST(SceneLighting, BothSidesOfDoubleSidedEmittersEmit) {
     const PatchMesh mesh = tessellate(scene, settings);
     ASSERT_EQ(mesh.patch_count(), 4U);
     ASSERT_EQ(mesh.triangle_count(), 2U);
-    EXPECT_EQ(mesh.back_patch[1], 3U);
-    EXPECT_EQ(mesh.patch_triangle[3], 1U);
+    EXPECT_EQ(mesh.back_side[1], 3U);
+    EXPECT_EQ(mesh.side_triangle[3], 1U);
     EXPECT_EQ(mesh.emission[3], glm::vec3(1));
 }
 

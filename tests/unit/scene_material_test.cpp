@@ -180,7 +180,7 @@ TEST(SceneMaterial, AlbedoIsTheAreaMeanInLinearLight) {
     for (std::size_t p = 0; p < fine.patch_count(); ++p) {
         glm::vec3 centre(0.0F);
         for (int k = 0; k < 3; ++k) {
-            centre += fine.positions[fine.triangles[fine.patch_triangle[p]][k]] / 3.0F;
+            centre += fine.positions[fine.triangles[fine.side_triangle[p]][k]] / 3.0F;
         }
         if (std::abs(centre.x - 0.5F) > 0.15F) {
             EXPECT_NEAR(fine.base_colour[p].r, centre.x < 0.5F ? 0.999F : 0.0F, 1e-6F);

@@ -162,8 +162,8 @@ TEST(SceneTessellation, BackSidesCountAsPatches) {
     EXPECT_EQ(mesh.patch_count(), 2 * mesh.triangle_count());
     EXPECT_NEAR(static_cast<double>(mesh.patch_count()), 10'000.0, 2500.0);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        EXPECT_EQ(mesh.patch_triangle[t], t);
-        EXPECT_EQ(mesh.patch_triangle[mesh.back_patch[t]], t);
+        EXPECT_EQ(mesh.side_triangle[t], t);
+        EXPECT_EQ(mesh.side_triangle[mesh.back_side[t]], t);
     }
 }
 

@@ -40,10 +40,10 @@ struct Rooms {
             mesh.positions.push_back(corner);
             mesh.vertex_object.push_back(0);
         }
-        mesh.patch_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+        mesh.side_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
         mesh.triangles.push_back(first + glm::uvec3(0, 1, 2));
         mesh.triangle_material.push_back(0);
-        mesh.back_patch.push_back(PatchMesh::no_patch);
+        mesh.back_side.push_back(PatchMesh::no_patch);
         mesh.base_colour.emplace_back(0.7F);
         mesh.emission.emplace_back(0.0F);
     }

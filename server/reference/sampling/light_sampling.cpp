@@ -67,11 +67,11 @@ std::optional<SurfacePoint> first_hit(const RayScene& scene, const EmittedPartic
 }
 
 LightSampling::LightSampling(const RayScene& scene)
-    : scene_(scene), density_per_area_(scene.mesh().patch_count(), 0.0), sky_(scene.scene()) {
+    : scene_(scene), density_per_area_(scene.mesh().side_count(), 0.0), sky_(scene.scene()) {
     std::vector<double> powers;
     double total_power = 0.0;
     double total_area = 0.0;
-    for (std::uint32_t patch = 0; patch < scene.mesh().patch_count(); ++patch) {
+    for (std::uint32_t patch = 0; patch < scene.mesh().side_count(); ++patch) {
         const double area = scene.patch_area(patch);
         const double power = pi * area * luminance(scene.mesh().emission[patch]);
         if (power > 0.0) {

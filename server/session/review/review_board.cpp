@@ -23,11 +23,11 @@ std::string stored(const Pin& pin) {
 
 }  // namespace
 
-ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t patch_count) : log_(log) {
+ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count) : log_(log) {
     for (const std::string& body : log.notes(NoteKind::pin)) {
         v1::JournalPin note;
         if (note.ParseFromString(body)) {
-            const std::uint32_t patch = std::min(note.patch(), patch_count - 1);
+            const std::uint32_t patch = std::min(note.patch(), side_count - 1);
             pins_[note.pin().pin()] = {note.pin(), patch, note.patch_illuminance()};
         }
     }

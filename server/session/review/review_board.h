@@ -30,7 +30,7 @@ class ReviewBoard {
     static constexpr std::size_t max_viewpoints = 64;
 
     /// Takes up what the journal holds. Notes of patches that the mesh lacks keep their text.
-    ReviewBoard(ChangeLog& log, std::uint32_t patch_count);
+    ReviewBoard(ChangeLog& log, std::uint32_t side_count);
 
     /// Numbers a pin and stores it. Nothing where the board is full or it cannot be stored; the
     /// reason is in refusal().
