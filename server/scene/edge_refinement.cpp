@@ -110,7 +110,10 @@ EdgeRefinement::EdgeRefinement(const Scene& scene) {
 void EdgeRefinement::begin_refinement() {
     nodes_.assign(triangles_.size(), Node{});
     patch_count_ = 0;
+    const bool cut = !origins_.empty();  // then a piece has in `node` what it is a piece of
+    origins_.clear();
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        origins_.push_back(cut ? triangles_[t].node : static_cast<std::uint32_t>(t));
         triangles_[t].node = static_cast<std::uint32_t>(t);
         patch_count_ += triangles_[t].two_sided ? 2 : 1;
     }

@@ -63,6 +63,8 @@ class EdgeRefinement {
     [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
     /// The scene's triangles, cut, as they were before refine(); triangle i has node i.
     [[nodiscard]] const std::vector<RefinedTriangle>& unrefined() const { return unrefined_; }
+    /// Of each of them the triangle of the scene that it is, or is cut from.
+    [[nodiscard]] const std::vector<std::uint32_t>& origins() const { return origins_; }
     /// All triangles there ever were since; the unrefined come first, in their order.
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     /// Front sides, and back sides of two-sided triangles.
@@ -97,6 +99,7 @@ class EdgeRefinement {
                                          std::uint32_t midpoint);
 
     std::vector<RefinedTriangle> triangles_, unrefined_;
+    std::vector<std::uint32_t> origins_;
     std::vector<Node> nodes_;
     std::vector<glm::vec3> points_;  // object space
     std::vector<glm::dvec3> world_points_;

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles that are smaller than patches share their light.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "oracle/oracle_solve.h"
+#include "oracle/scene_builder.h"
+#include "scene/patch_means.h"
+#include "scene/patch_mesh.h"
+
+namespace raybundle {
+namespace {
+
+TessellationSettings with_size(float size) {
+    TessellationSettings settings;
+    settings.patch_size = size;
+    return settings;
+}
+
+/// A ball of n x 2n quads.
+void add_ball(SceneBuilder& b, const glm::vec3& centre, float radius, int n,
+              std::uint32_t material) {
+    const auto at = [&](int i, int j) {
+        const float polar =
+            std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(n);
+        const float round =
+            std::numbers::pi_v<float> * static_cast<float>(j) / static_cast<float>(n);
+        return centre + radius * glm::vec3(std::sin(polar) * std::cos(round), std::cos(polar),
+                                           std::sin(polar) * std::sin(round));
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < 2 * n; ++j) {
+            if (i + 1 < n) {
+                b.add_triangle(at(i, j), at(i + 1, j + 1), at(i + 1, j), material);
+            }
+            if (i > 0) {
+                b.add_triangle(at(i, j), at(i, j + 1), at(i + 1, j + 1), material);
+            }
+        }
+    }
+}
+
+glm::vec3 side_normal(const PatchMesh& mesh, std::uint32_t side) {
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[side]];
+    const glm::vec3& a = mesh.positions[t.x];
+    const glm::vec3 n = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    return glm::normalize(side < mesh.triangle_count() ? n : -n);
+}
+
+glm::vec3 side_middle(const PatchMesh& mesh, std::uint32_t side) {
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[side]];
+    return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
+}
+
+/// A room of 4 x 3 x 4 m, each wall cut into 2 n² triangles.
+SceneBuilder room(std::uint32_t n) {
+    SceneBuilder b;
+    b.add_box({0, 0, 0}, {4, 3, 4}, true, n, b.add_material(glm::vec3(0.6F)));
+    return b;
+}
+
+TEST(JoinedPatches, AreAboutAsLargeAsPatchesOfTheTargetEdge) {
+    Scene scene = room(40).loaded_scene();  // triangles of 0.1 m
+    const PatchMesh mesh = tessellate(scene, with_size(0.8F));
+    Scene coarse_scene = room(1).loaded_scene();
+    const PatchMesh coarse = tessellate(coarse_scene, with_size(0.8F));
+    EXPECT_TRUE(coarse.patch_sets.empty());
+    EXPECT_EQ(mesh.triangle_count(), 19'200U);
+    EXPECT_LT(mesh.patch_count(), 2 * coarse.patch_count());
+    EXPECT_GT(2 * mesh.patch_count(), coarse.patch_count());
+    double largest = 0.0;
+    for (std::uint32_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        double area = 0.0;
+        const glm::vec3 normal = side_normal(mesh, mesh.sides_of(patch).front());
+        for (const std::uint32_t side : mesh.sides_of(patch)) {
+            area += double{side_area(mesh, side)};
+            EXPECT_GT(glm::dot(normal, side_normal(mesh, side)), 0.99F);  // of one wall
+            EXPECT_EQ(mesh.patch_of(side), patch);
+        }
+        largest = std::max(largest, area);
+    }
+    EXPECT_LT(largest, 0.8 * 0.8);
+}
+
+TEST(JoinedPatches, LargeTrianglesStayAsTheyAre) {
+    const auto with_join = [](bool join) {
+        Scene scene = room(2).loaded_scene();
+        TessellationSettings settings = with_size(0.5F);
+        settings.join_triangles = join;
+        return tessellate(scene, settings);
+    };
+    const PatchMesh joined = with_join(true);
+    EXPECT_TRUE(joined.patch_sets.empty());
+    EXPECT_EQ(joined.triangles, with_join(false).triangles);
+}
+
+TEST(JoinedPatches, AreNoMoreThanTwiceTheTarget) {
+    SceneBuilder b = room(1);
+    const auto paint = b.add_material(glm::vec3(0.5F));
+    for (int i = 0; i < 60; ++i) {  // apart from each other, and small
+        add_ball(
+            b,
+            {0.5F + 0.3F * static_cast<float>(i % 10), 0.5F + 0.3F * static_cast<float>(i / 10), 2},
+            0.01F, 10, paint);
+    }
+    Scene scene = b.loaded_scene();
+    TessellationSettings settings;
+    settings.target_patches = 300;
+    const PatchMesh mesh = tessellate(scene, settings);
+    EXPECT_GT(mesh.triangle_count(), 20'000U);
+    EXPECT_LE(mesh.patch_count(), 600U);
+    EXPECT_GT(mesh.patch_count(), 200U);
+}
+
+TEST(JoinedPatches, HaveNormalsOnOneSide) {
+    SceneBuilder b = room(1);
+    add_ball(b, {2, 1, 2}, 0.05F, 12, b.add_material(glm::vec3(0.5F)));
+    Scene scene = b.loaded_scene();
+    const PatchMesh mesh = tessellate(scene, with_size(1.0F));
+    std::size_t sets = 0;
+    for (std::uint32_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        glm::vec3 mean(0.0F);
+        for (const std::uint32_t side : mesh.sides_of(patch)) {
+            mean += side_area(mesh, side) * side_normal(mesh, side);
+        }
+        for (const std::uint32_t side : mesh.sides_of(patch)) {
+            EXPECT_GT(glm::dot(mean, side_normal(mesh, side)), 0.0F);
+        }
+        sets += mesh.sides_of(patch).size() > 1 ? 1 : 0;
+    }
+    EXPECT_GE(sets, 2U);
+    EXPECT_LE(sets, 12U);
+}
+
+/// Two rooms whose floor is one mesh, with a wall between them whose foot falls between its edges.
+SceneBuilder rooms_on_one_floor(std::uint32_t floor_material, std::uint32_t wall) {
+    SceneBuilder b;
+    b.add_material(glm::vec3(0.8F));
+    b.add_material(glm::vec3(0.8F));
+    b.add_quad({0, 0, 0}, {0, 0, 3}, {6, 0, 0}, 30, 60, floor_material);
+    b.add_quad({0, 3, 0}, {6, 0, 0}, {0, 0, 3}, 2, 2, wall);
+    b.add_quad({0, 0, 0}, {0, 3, 0}, {0, 0, 3}, 2, 2, wall);
+    b.add_quad({6, 0, 0}, {0, 0, 3}, {0, 3, 0}, 2, 2, wall);
+    b.add_quad({0, 0, 0}, {6, 0, 0}, {0, 3, 0}, 2, 2, wall);
+    b.add_quad({0, 0, 3}, {0, 3, 0}, {6, 0, 0}, 2, 2, wall);
+    b.add_box({2.95F, 0, 0}, {3.05F, 3, 3}, false, 1, wall);
+    return b;
+}
+
+TEST(JoinedPatches, DoNotReachBelowAWall) {
+    Scene scene = rooms_on_one_floor(0, 1).loaded_scene();
+    const PatchMesh mesh = tessellate(scene, with_size(1.0F));
+    std::size_t joined = 0;
+    for (std::uint32_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        if (mesh.triangle_material[mesh.triangle_of(patch)] != 0) {
+            continue;
+        }
+        const bool low = side_middle(mesh, mesh.sides_of(patch).front()).x < 3.0F;
+        for (const std::uint32_t side : mesh.sides_of(patch)) {
+            EXPECT_EQ(side_middle(mesh, side).x < 3.0F, low);
+        }
+        joined += mesh.sides_of(patch).size() > 1 ? 1 : 0;
+    }
+    EXPECT_GT(joined, 50U);
+}
+
+TEST(JoinedPatches, AreTheSameEveryTime) {
+    Scene first = room(30).loaded_scene();
+    Scene second = room(30).loaded_scene();
+    EXPECT_EQ(tessellate(first, with_size(0.7F)).patch_sets.side_patch,
+              tessellate(second, with_size(0.7F)).patch_sets.side_patch);
+}
+
+/// A room with a lamp below its ceiling and a finely cut ball on its floor.
+struct RoomWithBall {
+    explicit RoomWithBall(float size, bool join, int cuts = 24) {
+        const auto paint = b.add_material(glm::vec3(0.7F));
+        const auto red = b.add_material(glm::vec3(0.6F, 0.3F, 0.2F));
+        const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+        b.add_box({0, 0, 0}, {4, 3, 4}, true, 1, paint);
+        b.add_quad({1.5F, 2.9F, 1.5F}, {1, 0, 0}, {0, 0, 1}, 1, 1, lamp);
+        add_ball(b, {2, 0.7F, 2}, 0.6F, cuts, red);
+        scene = b.loaded_scene();
+        TessellationSettings settings = with_size(size);
+        settings.join_triangles = join;
+        mesh = tessellate(scene, settings);
+    }
+
+    /// Mean irradiance of the room, then of the ball.
+    [[nodiscard]] glm::dvec2 solved(std::uint64_t iterations) const {
+        OracleSettings settings;
+        settings.iterations = iterations;
+        settings.resolution = {128, 200};
+        const auto irradiance = solve(scene, mesh, settings).store().read_irradiance();
+        glm::dvec2 sum(0.0);
+        glm::dvec2 area(0.0);
+        for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
+            const int which = mesh.triangle_material[mesh.side_triangle[side]] == 1 ? 1 : 0;
+            const double own = side_area(mesh, side);
+            sum[which] += own * static_cast<double>(irradiance[mesh.patch_of(side)].g);
+            area[which] += own;
+        }
+        return sum / area;
+    }
+
+    SceneBuilder b;
+    Scene scene;
+    PatchMesh mesh;
+};
+
+TEST(JoinedPatches, LightARoomAsTheirTrianglesDo) {
+    const RoomWithBall apart(0.5F, false);
+    const RoomWithBall joined(0.5F, true);
+    const RoomWithBall finer(0.25F, true);
+    EXPECT_LT(joined.mesh.patch_count() + 2000, apart.mesh.patch_count());
+    const glm::dvec2 exact = apart.solved(1536);
+    for (const RoomWithBall* room : {&joined, &finer}) {
+        const glm::dvec2 found = room->solved(1536);
+        EXPECT_NEAR(found.x / exact.x, 1.0, 0.01);
+        EXPECT_NEAR(found.y / exact.y, 1.0, 0.02);
+    }
+}
+
+/// Largest irradiance in the dark one of two rooms.
+double leaked(bool join) {
+    SceneBuilder b = rooms_on_one_floor(0, 1);
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_quad({1, 2.9F, 1}, {1, 0, 0}, {0, 0, 1}, 1, 1, lamp);
+    Scene scene = b.loaded_scene();
+    TessellationSettings settings = with_size(0.8F);
+    settings.join_triangles = join;
+    const PatchMesh mesh = tessellate(scene, settings);
+    EXPECT_EQ(mesh.patch_sets.empty(), !join);
+    OracleSettings brief;
+    brief.iterations = 256;
+    const auto irradiance = solve(scene, mesh, brief).store().read_irradiance();
+    double largest = 0.0;
+    for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
+        if (side_middle(mesh, side).x > 3.0F) {
+            largest = std::max(largest, static_cast<double>(irradiance[mesh.patch_of(side)].g));
+        }
+    }
+    return largest;
+}
+
+/// Triangles that stand half below a wall leak by themselves, joined ones no more.
+TEST(JoinedPatches, LeakNoMoreThanTheirTriangles) {
+    EXPECT_LE(leaked(true), leaked(false));
+}
+
+}  // namespace
+}  // namespace raybundle
