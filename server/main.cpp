@@ -13,7 +13,7 @@
 #include "options/cli_options.h"
 #include "options/log_settings.h"
 #include "options/usage_message.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace {
 

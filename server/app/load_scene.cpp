@@ -5,8 +5,8 @@
 
 #include "app/load_scene.h"
 #include "journal/session_journal.h"
-#include "scene/gltf_container.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/file/gltf_container.h"
+#include "scene/gltf/gltf_loader.h"
 #include "scene/scene_report.h"
 
 namespace raybundle {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "options/cli_options.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "scene/gltf_confinement.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/file/gltf_confinement.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace raybundle {
 

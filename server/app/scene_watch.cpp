@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/gltf_confinement.h"
+#include "scene/gltf/file/gltf_confinement.h"
 
 namespace raybundle {
 namespace {

@@ -15,8 +15,8 @@
 #include "reference/measures/emitter_pixels.h"
 #include "research/accuracy/error_map.h"
 #include "research/accuracy/scene_fingerprint.h"
-#include "scene/effect_removal.h"
-#include "scene/effects_plan.h"
+#include "scene/effects/effect_removal.h"
+#include "scene/effects/effects_plan.h"
 #include "view/tone_curve.h"
 
 namespace raybundle {

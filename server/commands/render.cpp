@@ -10,7 +10,7 @@
 #include "app/render_job.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
-#include "scene/effects_plan.h"
+#include "scene/effects/effects_plan.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"
 #include "view/image_file.h"

@@ -23,7 +23,7 @@
 #include "options/config_file.h"
 #include "options/log_settings.h"
 #include "options/serve_settings.h"
-#include "scene/gltf_confinement.h"
+#include "scene/gltf/file/gltf_confinement.h"
 #include "session/changes/change_log.h"
 #include "session/render_loop.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/cie_sky.h"
+#include "scene/light/cie_sky.h"
 
 namespace raybundle {
 namespace {

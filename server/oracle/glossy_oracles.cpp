@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "oracle/oracle_solve.h"
-#include "scene/brdf.h"
-#include "scene/reflectance_table.h"
+#include "scene/material/brdf.h"
+#include "scene/material/reflectance_table.h"
 
 namespace raybundle {
 

@@ -8,7 +8,7 @@ namespace raybundle {
 /// Illuminance, lx, that a lamp sends to a black plate only by way of a glossy floor: lamp and
 /// plate lie side by side in one plane that looks down on a metal of the given roughness.
 struct GlossyReflection {
-    double exact = 0.0;      ///< by quadrature over lamp, floor and plate, of scene/brdf.h
+    double exact = 0.0;      ///< by quadrature over lamp, floor and plate, of scene/material/brdf.h
     double main_part = 0.0;  ///< the same with a(w_in)/pi in the place of f_r: df_r left out
     double solved = 0.0;
 };

@@ -4,8 +4,8 @@
 #include <random>
 #include <utility>
 
-#include "scene/lights.h"
-#include "scene/solid_shells.h"
+#include "scene/contact/solid_shells.h"
+#include "scene/light/lights.h"
 
 namespace raybundle {
 

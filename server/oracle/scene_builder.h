@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

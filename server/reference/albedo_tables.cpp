@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "scene/patch_colour.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "reference/scattering.h"
-#include "scene/reflectance_grid.h"
-#include "scene/reflectance_table.h"
+#include "scene/material/reflectance_grid.h"
+#include "scene/material/reflectance_table.h"
 
 namespace raybundle {
 
 /// Directional albedo and importance of all materials of a scene, by the tables of
-/// scene/reflectance_table.h; one table for each distinct reflectance,
+/// scene/material/reflectance_table.h; one table for each distinct reflectance,
 /// and one for each level of roughness of a material where that is textured.
 class AlbedoTables {
   public:

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reference/ray_scene.h"
-#include "scene/camera_axes.h"
+#include "scene/walk/camera_axes.h"
 
 namespace raybundle {
 

@@ -3,7 +3,7 @@
 
 #include "reference/sampling/next_event.h"
 #include "reference/specular_walk.h"
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 

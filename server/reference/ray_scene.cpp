@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scene/reflectance_grid.h"
+#include "scene/material/reflectance_grid.h"
 
 namespace raybundle {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "scene/brdf.h"
-#include "scene/patch_mesh.h"
+#include "scene/material/brdf.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 struct RTCDeviceTy;
@@ -96,7 +96,7 @@ class RayScene {
     /// itself where the triangle is flat.
     [[nodiscard]] glm::dvec3 shading_normal(const SurfacePoint& point) const;
     /// The same after the material's normal map, for a viewer in this direction, unit; see
-    /// scene/normal_map.h. As patches know neither, only what a picture shows has it.
+    /// scene/material/normal_map.h. As patches know neither, only what a picture shows has it.
     [[nodiscard]] glm::dvec3 shading_normal(const SurfacePoint& point,
                                             const glm::dvec3& to_eye) const;
     /// Whether alpha MASK leaves the surface standing at this point.

@@ -5,7 +5,7 @@
 
 #include "reference/ray_scene.h"
 #include "reference/texture_lookup.h"
-#include "scene/normal_map.h"
+#include "scene/material/normal_map.h"
 
 namespace raybundle {
 namespace {

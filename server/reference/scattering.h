@@ -6,7 +6,7 @@
 
 #include "reference/ray_scene.h"
 #include "reference/sampling/directions.h"
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 
 namespace raybundle {
 
@@ -19,9 +19,9 @@ struct ScatterSample {
 
 enum class NormalKind { geometric, shading };
 
-/// Reflection at a surface point to one outgoing direction, by the BRDF of scene/brdf.h. Directions
-/// are unit, point away from the surface and lie in the space of the ray scene. BRDFs are
-/// reciprocal, so light that comes in from `outgoing` is scattered by the same formulas.
+/// Reflection at a surface point to one outgoing direction, by the BRDF of scene/material/brdf.h.
+/// Directions are unit, point away from the surface and lie in the space of the ray scene. BRDFs
+/// are reciprocal, so light that comes in from `outgoing` is scattered by the same formulas.
 class Scattering {
   public:
     /// normal: shading where the picture shows the point, geometric for light between surfaces, as

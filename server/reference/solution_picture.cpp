@@ -5,7 +5,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

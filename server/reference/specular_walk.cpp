@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "scene/ggx_albedo.h"
-#include "scene/patch_colour.h"
-#include "scene/specular_surface.h"
+#include "scene/material/ggx_albedo.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 namespace {

@@ -54,7 +54,7 @@ SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoi
                            const glm::dvec3& direction, Carried carried, Sampler& sampler);
 
 /// The same by the stronger way at each surface of glass, without chance: what a viewer takes a
-/// pixel to show. Mirrors are all those of scene/specular_surface.h, ideal or not.
+/// pixel to show. Mirrors are all those of scene/material/specular_surface.h, ideal or not.
 SpecularWalk walk_strongest(const RayScene& scene, const std::optional<SurfacePoint>& hit,
                             const glm::dvec3& direction);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "scene/texture_mean.h"
+#include "scene/material/texture_mean.h"
 
 namespace raybundle {
 namespace {

@@ -6,7 +6,7 @@
 #include "reference/sampling/roulette.h"
 #include "reference/scattering.h"
 #include "reference/specular_walk.h"
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 glm::dvec3 LightTracer::radiance(const glm::dvec3& direction, PixelSampler& sampler,

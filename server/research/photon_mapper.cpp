@@ -3,7 +3,7 @@
 
 #include "reference/sampling/next_event.h"
 #include "reference/sampling/roulette.h"
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

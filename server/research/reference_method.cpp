@@ -16,7 +16,7 @@
 #include "research/metropolis.h"
 #include "research/photon_mapper.h"
 #include "research/single_ray_picture.h"
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
 
 namespace raybundle {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/canonical_pairs.h"
+#include "scene/contact/canonical_pairs.h"
 
 namespace raybundle {
 namespace {

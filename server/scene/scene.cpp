@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace raybundle {
 namespace {

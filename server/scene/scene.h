@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/punctual_light.h"
+#include "scene/light/punctual_light.h"
 
 namespace raybundle {
 
@@ -48,7 +48,7 @@ struct TextureSlot {
     glm::mat3 uv_from_mesh_uv{1.0F};  ///< homogeneous 2D transform
 };
 
-enum class AlphaMode { opaque, mask };  // BLEND: see scene/alpha_blend.h
+enum class AlphaMode { opaque, mask };  // BLEND: see scene/material/alpha_blend.h
 
 /// A specular lobe after Neumann, Neumann and Szirmay-Kalos 1999, "Compact Metallic Reflectance
 /// Models": k cos^exponent / max(cos_in, cos_out). The dissertation's scenes have it.
@@ -72,7 +72,7 @@ struct Material {
     float roughness = 1.0F;
     /// Factors of roughness in G, of metalness in B. None for materials without a GGX lobe.
     TextureSlot metallic_roughness_texture;
-    TextureSlot normal_texture;       ///< in tangent space, see scene/normal_map.h
+    TextureSlot normal_texture;       ///< in tangent space, see scene/material/normal_map.h
     float normal_scale = 1.0F;        ///< of its x and y
     float specular = 1.0F;            ///< KHR_materials_specular specularFactor; 0: pure Lambert
     glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
@@ -183,7 +183,7 @@ struct Triangle {
     std::uint32_t vertex[3] = {0, 0, 0};
     std::uint32_t material = 0;
     std::uint32_t object = 0;  ///< index into Scene::objects (not id)
-    bool solid = false;        ///< behind it is a solid: no light, scene/solid_shells.h
+    bool solid = false;        ///< behind it is a solid: no light, scene/contact/solid_shells.h
 };
 
 struct Vertex {

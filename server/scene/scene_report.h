@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "scene/geometry_defects.h"
-#include "scene/patch_mesh.h"
+#include "scene/contact/solid_shells.h"
+#include "scene/mesh/geometry_defects.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
-#include "scene/solid_shells.h"
 
 namespace raybundle {
 

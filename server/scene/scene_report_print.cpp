@@ -6,8 +6,8 @@
 
 #include "scene/scene_report.h"
 
-#include "scene/environment.h"
-#include "scene/light_figures.h"
+#include "scene/light/environment.h"
+#include "scene/light/light_figures.h"
 
 namespace raybundle {
 namespace {

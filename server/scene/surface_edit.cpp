@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/base_colour.h"
-#include "scene/environment.h"
-#include "scene/patch_colour.h"
+#include "scene/light/environment.h"
+#include "scene/material/base_colour.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "net/server.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "session/changes/change_gate.h"
 #include "session/changes/change_log.h"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "bundle/low_discrepancy.h"
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
 #include "session/render_loop.h"
 #include "session/scene_messages.h"
 #include "session/unix_time.h"

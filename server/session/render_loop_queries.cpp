@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What viewers ask the render loop about the scene, and what they do not want to see of it.
-#include "scene/walk_map.h"
+#include "scene/walk/walk_map.h"
 #include "session/render_loop.h"
 #include "session/scene_messages.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "journal/change_sum.h"
-#include "scene/effects_plan.h"
-#include "scene/light_figures.h"
+#include "scene/effects/effects_plan.h"
+#include "scene/light/light_figures.h"
 #include "scene/object_kind.h"
 #include "scene/object_limits.h"
 

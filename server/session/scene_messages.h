@@ -3,7 +3,7 @@
 
 #include "net/ws/client_event.h"
 #include "raybundle.pb.h"
-#include "scene/effects_plan.h"
+#include "scene/effects/effects_plan.h"
 #include "scene/scene.h"
 #include "scene/surface_edit.h"
 

@@ -12,7 +12,7 @@
 
 #include "net/ws/client_event.h"
 #include "scene/scene.h"
-#include "scene/walk_map.h"
+#include "scene/walk/walk_map.h"
 
 namespace raybundle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflectance of surfaces, as in scene/brdf.h and scene/reflectance_table.h, which say what is what.
+// Reflectance of surfaces, as in scene/material/brdf.h and scene/material/reflectance_table.h, which say what is what.
 // MAX_PHONG, CLEAR_COAT and COATS (smooth ones, and polished surfaces) are defined where the scene has such a material;
 // else their code is not compiled.
 
@@ -55,7 +55,7 @@ Brdf make_brdf(uint record, vec3 base_colour) {
     if (b.kind == LOBE_COATED) {
         b.kind = LOBE_GGX;
         b.coat = int(table.x);
-        b.grazing = b.width / (1.0 + 3.0 * b.width);  // grazing_scale() of scene/reflectance_nodes.h
+        b.grazing = b.width / (1.0 + 3.0 * b.width);  // grazing_scale() of scene/material/reflectance_nodes.h
     }
 #endif
 #ifdef MAX_PHONG
@@ -68,7 +68,7 @@ Brdf make_brdf(uint record, vec3 base_colour) {
     return b;
 }
 
-/// Position of an angle among the nodes: node_of_cosine() of scene/reflectance_nodes.h.
+/// Position of an angle among the nodes: node_of_cosine() of scene/material/reflectance_nodes.h.
 float brdf_node(float grazing, float cosine) {
     float c = clamp(cosine, 0.0, 1.0);
     float shadowing = c * (1.0 + grazing) / (c + grazing);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an eye sees beyond the scene: an equirectangular picture of the environment, and the sun's disc.
-// Row 0 is the zenith, the middle column north (-Z); see scene/environment_map.h.
+// Row 0 is the zenith, the middle column north (-Z); see scene/light/environment_map.h.
 layout(binding = UNIT_ENVIRONMENT) uniform sampler2D environment_texels;
 
 /// Radiance from a unit direction, cd/m^2.

@@ -25,7 +25,7 @@ Facet load_facet(uint index) {
                  floatBitsToUint(texelFetch(facet_texels, at + 3).xy));
 }
 
-/// One bisection of scene/facet_tree.h: from a triangle to the half with the point.
+/// One bisection of scene/contact/facet_tree.h: from a triangle to the half with the point.
 void descend(uint code, inout uint bisection, inout uint exit, inout vec3 weights, inout vec3 slope) {
     uint edge = code >> (2u * bisection) & 3u;
     bool whole = edge == 3u;

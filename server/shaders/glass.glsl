@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass (scene/specular_surface.h) lets bundles straight through, line by line; only pictures show it (SHOW_GLASS).
+// Glass (scene/material/specular_surface.h) lets bundles straight through, line by line; only pictures show it (SHOW_GLASS).
 // What it absorbs (GLASS_ABSORBS) are single fragments, by chance: those stay, as a black surface. Punctual lights see
 // through all of it (CLEAR_GLASS), since solution/caustic_rays.h knows what of their light arrives.
 // Only compiled where a scene has any (GLASS). For GLASS_ABSORBS the including shader declares uint facet_base of the
@@ -13,7 +13,7 @@ layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
 #if defined(GLASS_ABSORBS) && !defined(CLEAR_GLASS)
 #include "random_hash.glsl"
 
-/// fresnel_reflectance() of scene/specular_surface.h.
+/// fresnel_reflectance() of scene/material/specular_surface.h.
 float fresnel_reflectance(float cosine, float relative_index) {
     float sine2 = (1.0 - cosine * cosine) / (relative_index * relative_index);
     float behind = sqrt(max(1.0 - sine2, 0.0));

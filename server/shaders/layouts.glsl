@@ -117,7 +117,7 @@
 #define UNIT_VERTEX_DATA 11       // rgba32ui: VertexData, two texels each
 #define UNIT_MATERIALS 12         // rgba32f: MaterialData, five texels each
 #define UNIT_FACETS 13            // rgba32f: FacetGeometry, four texels each
-#define UNIT_FACET_NODES 14       // rg32ui: FacetNode of scene/facet_tree.h
+#define UNIT_FACET_NODES 14       // rg32ui: FacetNode of scene/contact/facet_tree.h
 #define UNIT_REFLECTANCE 15       // rgba32f: Reflectance, three texels each, of materials and then of grids, then tables, see brdf.glsl
 #define UNIT_REFLECTORS 16        // rgba32f
 #define UNIT_GLOSS 17             // rgba32f
@@ -269,7 +269,7 @@ struct VertexData {
 
 struct MaterialData {
     vec4 base_colour;   // rgb factor of the Lambert albedo; w: alpha of the texture below which nothing is there, 0: none
-    vec4 emission;      // rgb, radiance units; w: BundleGlass::tint of glass, see scene/specular_surface.h, else 0
+    vec4 emission;      // rgb, radiance units; w: BundleGlass::tint of glass, see scene/material/specular_surface.h, else 0
     vec4 uv_row0;       // xyz: first row of uv_from_mesh_uv; w: BundleGlass::ior
     vec4 uv_row1;       // xyz: second row; w: 1/BundleGlass::surfaces
     uvec4 texture_info;  // offset into texels, width, height, flags: 1 repeat u, 2 repeat v; width 0: none
@@ -289,8 +289,8 @@ struct MaterialDetails {
 };
 #define MATERIAL_DETAILS_TEXELS 9
 
-#define MIN_ROUGHNESS 0.045  // smallest that is told apart, see scene/ggx_albedo.h
-#define LEAST_VIEW_COSINE 0.02  // between a mapped normal and the view, see scene/normal_map.h
+#define MIN_ROUGHNESS 0.045  // smallest that is told apart, see scene/material/ggx_albedo.h
+#define LEAST_VIEW_COSINE 0.02  // between a mapped normal and the view, see scene/material/normal_map.h
 #define LEAST_MAP_HEIGHT 1e-3  // z of a normal map's normal at least
 #define UNLIT_WHITE 80.0  // cd/m^2, see scene/scene.h
 #define MAX_ALBEDO 0.999  // of a base colour: the iteration contracts
@@ -301,7 +301,7 @@ struct MaterialDetails {
 #define LOBE_COATED 4    // GGX below a clear coat
 #define LOBE_TEXTURED 3  // roughness and metalness vary: f0.x is the first record of its grid, see ReflectanceGrid
 
-// A material's BRDF apart from its base colour, see scene/brdf.h.
+// A material's BRDF apart from its base colour, see scene/material/brdf.h.
 struct Reflectance {
     vec4 f0;     // rgb: f0 of a colour of its own; w: share of the base colour in f0
     vec4 lobe;   // alpha (max-Phong: exponent), f90 (below 0: a lobe that view rays show, see traced_value), share of the
@@ -319,7 +319,7 @@ struct Reflectance {
 #define PUNCTUAL_DIRECTIONAL 2u
 #define NO_PROFILE 0xffffffffu
 
-// A punctual light in the shifted world, see scene/punctual_light.h.
+// A punctual light in the shifted world, see scene/light/punctual_light.h.
 struct PunctualData {
     vec4 position;   // w: half width of its map: tangent, or m (directional)
     vec4 axis_x;     // of its map; w: cosine of the inner cone

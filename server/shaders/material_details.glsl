@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures of a material besides its base colour, at a pixel: metalness and roughness as a place in the
-// material's grid (scene/reflectance_grid.h), and normal maps (scene/normal_map.h).
+// material's grid (scene/material/reflectance_grid.h), and normal maps (scene/material/normal_map.h).
 layout(binding = UNIT_MATERIAL_DETAILS) uniform samplerBuffer details_texels;
 
 #ifdef TEXTURED

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Read access to the scene's geometry. DOUBLE_SIDED: some triangles have light on their back. PATCH_SETS: some patches are
-// several triangles. A side is the front or the back of a triangle (scene/patch_mesh.h); it has the triangle's number where
+// several triangles. A side is the front or the back of a triangle (scene/mesh/patch_mesh.h); it has the triangle's number where
 // it is the front.
 layout(binding = UNIT_PATCHES) uniform samplerBuffer patch_texels;
 #ifdef DOUBLE_SIDED

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 
-#include "scene/patch_colour.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 

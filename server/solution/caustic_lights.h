@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "solution/gpu_scene.h"
 
 namespace raybundle {

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "scene/facet_walk.h"
+#include "scene/contact/facet_walk.h"
+#include "scene/mesh/patch_colour.h"
 #include "scene/mix_bits.h"
-#include "scene/patch_colour.h"
 #include "solution/reflectance_tables.h"
 
 namespace raybundle {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "scene/brdf.h"
-#include "scene/patch_mesh.h"
+#include "scene/material/brdf.h"
+#include "scene/mesh/patch_mesh.h"
 #include "solution/caustic_lights.h"
 #include "solution/specular_rays.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "gpu/gl_scope.h"
-#include "scene/patch_means.h"
+#include "scene/mesh/patch_means.h"
 
 namespace raybundle {
 namespace {

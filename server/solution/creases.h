@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 

@@ -8,7 +8,7 @@
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 

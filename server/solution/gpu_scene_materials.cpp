@@ -5,10 +5,10 @@
 #include <array>
 #include <bit>
 
-#include "scene/ggx_albedo.h"
-#include "scene/normal_map.h"
-#include "scene/patch_colour.h"
-#include "scene/patch_means.h"
+#include "scene/material/ggx_albedo.h"
+#include "scene/material/normal_map.h"
+#include "scene/mesh/patch_colour.h"
+#include "scene/mesh/patch_means.h"
 #include "solution/gpu_scene.h"
 #include "solution/texture_levels.h"
 

@@ -53,7 +53,7 @@ ScenePiece GpuScene::piece_at(std::uint32_t object, const glm::mat4& world_from_
     return piece;
 }
 
-/// Of all objects at both places. What a file has is there for good, see scene/gltf_place.h.
+/// Of all objects at both places. What a file has is there for good, see scene/gltf/gltf_place.h.
 std::vector<glm::mat4> GpuScene::kept_places(const Scene& scene) const {
     std::vector<glm::mat4> places;
     for (std::uint32_t i = 0; i < 2 * object_count_; ++i) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gpu/gl_objects.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 

@@ -7,9 +7,9 @@
 
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
-#include "scene/base_colour.h"
-#include "scene/patch_colour.h"
-#include "scene/specular_surface.h"
+#include "scene/material/base_colour.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 namespace {

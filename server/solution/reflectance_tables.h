@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gpu/gl_objects.h"
-#include "scene/reflectance_grid.h"
-#include "scene/reflectance_table.h"
+#include "scene/material/reflectance_grid.h"
+#include "scene/material/reflectance_table.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scene/patch_colour.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle {
 namespace {

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
-#include "scene/specular_surface.h"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
@@ -32,9 +32,10 @@ struct ContinuedRay {
 };
 
 /// Follows view rays from surface to surface where these are mirrors, glass or coats
-/// (scene/specular_surface.h), through the facets of the mesh at the present places of the objects.
-/// One hierarchy per object, so that a move costs no more than a matrix. Exists only in scenes that
-/// have such surfaces. Alpha MASK is not looked at: what it cuts out is whole behind a mirror.
+/// (scene/material/specular_surface.h), through the facets of the mesh at the present places of the
+/// objects. One hierarchy per object, so that a move costs no more than a matrix. Exists only in
+/// scenes that have such surfaces. Alpha MASK is not looked at: what it cuts out is whole behind a
+/// mirror.
 class SpecularRays {
   public:
     static constexpr std::size_t most_ends = 4;  ///< of one view ray

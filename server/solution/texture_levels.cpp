@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <utility>
 
-#include "scene/texture_mean.h"
+#include "scene/material/texture_mean.h"
 
 namespace raybundle {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 
-#include "scene/patch_means.h"
+#include "scene/mesh/patch_means.h"
 
 namespace raybundle {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 #include "transport/patch_area.h"
 
 namespace raybundle {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "solution/gpu_scene.h"
 

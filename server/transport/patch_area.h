@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 #include "transport/patch_area.h"
 
 namespace raybundle {

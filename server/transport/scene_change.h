@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "scene/environment.h"
-#include "scene/patch_mesh.h"
+#include "scene/light/environment.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/camera_matrices.h"
 
-#include "scene/camera_axes.h"
+#include "scene/walk/camera_axes.h"
 
 namespace raybundle {
 

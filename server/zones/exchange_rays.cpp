@@ -11,8 +11,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "scene/environment.h"
-#include "scene/patch_means.h"
+#include "scene/light/environment.h"
+#include "scene/mesh/patch_means.h"
 
 namespace raybundle {
 

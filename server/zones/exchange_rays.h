@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
-#include "scene/specular_surface.h"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;

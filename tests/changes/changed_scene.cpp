@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "scene/surface_edit.h"
 
 namespace raybundle {

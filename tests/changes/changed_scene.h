@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

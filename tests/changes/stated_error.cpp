@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/measures/emitter_pixels.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 

@@ -8,8 +8,8 @@
 #include "daemon.h"
 #include "gpu/egl_context.h"
 #include "json_viewer.h"
-#include "scene/gltf_loader.h"
-#include "scene/patch_mesh.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/mesh/patch_mesh.h"
 #include "test_folder.h"
 #include "transport/solver.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "fuzz_target.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace {
 

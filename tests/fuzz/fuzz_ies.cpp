@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "fuzz_target.h"
-#include "scene/gltf_loader.h"
-#include "scene/ies_profile.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/light/ies_profile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace raybundle;

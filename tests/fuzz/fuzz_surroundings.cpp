@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fuzz_target.h"
-#include "scene/environment_map.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/light/environment_map.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace raybundle;

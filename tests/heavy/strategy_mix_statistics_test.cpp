@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf_loader.h"
-#include "scene/patch_mesh.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/mesh/patch_mesh.h"
 #include "transport/solver.h"
 #include "transport/strategy_mix.h"
 #include "view/viewer_image.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "oracle/scene_builder.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

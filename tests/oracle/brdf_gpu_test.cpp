@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf.glsl against scene/brdf.h and scene/reflectance_table.h.
+// brdf.glsl against scene/material/brdf.h and scene/material/reflectance_table.h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include "embedded_file.h"
 #include "gpu/egl_context.h"
 #include "gpu/layouts.h"
-#include "scene/patch_colour.h"
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/patch_colour.h"
 #include "solution/reflectance_tables.h"
 
 namespace raybundle {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../unit/case_files.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -10,7 +10,7 @@
 
 #include "oracle/scene_builder.h"
 #include "pictures.h"
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pictures.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -9,8 +9,8 @@
 
 #include "oracle/oracle_solve.h"
 #include "reference/camera_rays.h"
-#include "scene/environment.h"
-#include "scene/sky_dome.h"
+#include "scene/light/environment.h"
+#include "scene/light/sky_dome.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -6,7 +6,7 @@
 
 #include "../reference/lit_room.h"
 #include "oracle/oracle_solve.h"
-#include "scene/effects_plan.h"
+#include "scene/effects/effects_plan.h"
 #include "transport/solver.h"
 
 namespace raybundle {

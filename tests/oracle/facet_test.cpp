@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/scene_builder.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "transport/solver.h"
 
 namespace raybundle {

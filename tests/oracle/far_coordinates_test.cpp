@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "moved_box.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

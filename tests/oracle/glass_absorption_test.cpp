@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "oracle/scene_builder.h"
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
 #include "transport/solver.h"
 
 namespace raybundle {

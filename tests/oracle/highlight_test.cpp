@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../reference/lit_room.h"
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

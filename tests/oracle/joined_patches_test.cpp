@@ -8,8 +8,8 @@
 
 #include "oracle/oracle_solve.h"
 #include "oracle/scene_builder.h"
-#include "scene/patch_means.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_means.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 namespace {

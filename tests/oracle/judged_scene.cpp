@@ -7,7 +7,7 @@
 
 #include "reference/measures/emitter_pixels.h"
 #include "reference/measures/image_metrics.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "transport/solver.h"
 
 namespace raybundle {

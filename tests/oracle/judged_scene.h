@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "research/accuracy/reference_picture.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "view/final_picture.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches are small where direct light changes within them and surfaces close by see it.
-#include "scene/near_field.h"
+#include "scene/contact/near_field.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "oracle/scene_builder.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 namespace {

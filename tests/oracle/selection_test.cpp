@@ -8,7 +8,7 @@
 
 #include "../reference/lit_room.h"
 #include "methods.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "solution/first_shot.h"
 #include "transport/patch_area.h"
 #include "transport/solver.h"

@@ -9,7 +9,7 @@
 
 #include "fresh_solves.h"
 #include "moved_box.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "scene/surface_edit.h"
 
 namespace raybundle {

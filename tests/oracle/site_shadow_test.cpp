@@ -9,7 +9,7 @@
 
 #include "../reference/lit_room.h"
 #include "pictures.h"
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -6,9 +6,9 @@
 
 #include "../unit/gltf_builder.h"
 #include "pictures.h"
-#include "scene/effect_removal.h"
-#include "scene/gltf_loader.h"
-#include "scene/specular_surface.h"
+#include "scene/effects/effect_removal.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/material/specular_surface.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "oracle/scene_builder.h"
-#include "scene/camera_axes.h"
+#include "scene/walk/camera_axes.h"
 #include "solution/texture_levels.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

@@ -5,7 +5,7 @@
 
 #include "lit_room.h"
 #include "rooms.h"
-#include "scene/sky_dome.h"
+#include "scene/light/sky_dome.h"
 
 namespace raybundle {
 namespace {

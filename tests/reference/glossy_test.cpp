@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflection by the BRDFs of scene/brdf.h against quadratures that share nothing with it but f_r.
-// Bounds in standard errors are 4.5: passed by chance once in 150 000.
+// Reflection by the BRDFs of scene/material/brdf.h against quadratures that share nothing with it
+// but f_r. Bounds in standard errors are 4.5: passed by chance once in 150 000.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -153,8 +153,8 @@ TEST(GlossyFurnace, ConstantAlbedoHasTheClosedForm) {
 }
 
 /// White surfaces in a furnace, N reflections: no more than (N + 1) Le, and for a dielectric, whose
-/// Lambert part takes what the lobe leaves, hardly less (scene/brdf.h: 0.4 % each time). Rough
-/// metal loses what its facets would reflect to each other.
+/// Lambert part takes what the lobe leaves, hardly less (scene/material/brdf.h: 0.4 % each time).
+/// Rough metal loses what its facets would reflect to each other.
 TEST(GlossyFurnace, WhiteSurfacesNeverCreateEnergy) {
     constexpr int bounces = 12;
     PathSettings settings;

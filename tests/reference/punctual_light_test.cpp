@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Punctual lights on the CPU, against closed forms. That the methods agree with one another:
 // method_agreement_test.cpp.
-#include "scene/punctual_light.h"
+#include "scene/light/punctual_light.h"
 
 #include <gtest/gtest.h>
 

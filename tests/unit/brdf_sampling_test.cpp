@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "random_brdf.h"
-#include "scene/reflectance_table.h"
+#include "scene/material/reflectance_table.h"
 
 namespace raybundle::test {
 namespace {

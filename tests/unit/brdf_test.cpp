@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflectance of surfaces: values, symmetry and energy.
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 #include "hemisphere_quadrature.h"
 #include "random_brdf.h"
-#include "scene/base_colour.h"
-#include "scene/ggx_albedo.h"
+#include "scene/material/base_colour.h"
+#include "scene/material/ggx_albedo.h"
 
 namespace raybundle::test {
 namespace {

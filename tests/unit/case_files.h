@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace raybundle::test {
 

@@ -7,8 +7,8 @@
 #include "case_files.h"
 #include "gltf_builder.h"
 #include "scene/file_name_key.h"
-#include "scene/gltf_confinement.h"
-#include "scene/gltf_uri.h"
+#include "scene/gltf/file/gltf_confinement.h"
+#include "scene/gltf/file/gltf_uri.h"
 
 namespace raybundle::test {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "gltf_builder.h"
-#include "scene/gltf_container.h"
-#include "scene/gltf_loader.h"
-#include "scene/ies_profile.h"
+#include "scene/gltf/file/gltf_container.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/light/ies_profile.h"
 
 namespace raybundle::test {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "case_files.h"
 #include "gltf_builder.h"
-#include "scene/base_colour.h"
-#include "scene/solid_shells.h"
-#include "scene/specular_surface.h"
+#include "scene/contact/solid_shells.h"
+#include "scene/material/base_colour.h"
+#include "scene/material/specular_surface.h"
 #include "scene/surface_edit.h"
 
 namespace raybundle::test {

@@ -12,7 +12,7 @@
 
 #include "case_files.h"
 #include "gltf_builder.h"
-#include "scene/environment_map.h"
+#include "scene/light/environment_map.h"
 
 namespace raybundle::test {
 namespace {

@@ -9,9 +9,9 @@
 #include "gltf_builder.h"
 #include "hemisphere_quadrature.h"
 #include "random_brdf.h"
-#include "scene/ggx_albedo.h"
-#include "scene/reflectance_table.h"
-#include "scene/specular_surface.h"
+#include "scene/material/ggx_albedo.h"
+#include "scene/material/reflectance_table.h"
+#include "scene/material/specular_surface.h"
 
 namespace raybundle::test {
 namespace {

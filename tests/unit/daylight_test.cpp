@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Daylight against closed forms, and how scene files ask for it.
-#include "scene/daylight.h"
+#include "scene/light/daylight.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "gltf_builder.h"
-#include "scene/environment_map.h"
-#include "scene/gltf_loader.h"
-#include "scene/sky_dome.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/light/environment_map.h"
+#include "scene/light/sky_dome.h"
 
 namespace raybundle::test {
 namespace {

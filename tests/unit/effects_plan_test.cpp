@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/effects_plan.h"
+#include "scene/effects/effects_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gltf_builder.h"
-#include "scene/effect_removal.h"
+#include "scene/effects/effect_removal.h"
 
 namespace raybundle::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/gltf_loader.h"
+#include "scene/gltf/gltf_loader.h"
 #include "scene/scene.h"
 
 namespace raybundle::test {

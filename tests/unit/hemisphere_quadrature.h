@@ -4,7 +4,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 
 namespace raybundle::test {
 
@@ -18,7 +18,7 @@ glm::dvec3 integrate(const SpecularLobe& lobe, const glm::vec3& w_in,
 /// The directional albedo of a BRDF.
 glm::dvec3 albedo_by_quadrature(const Brdf& brdf, float cosine, int points = 256);
 
-/// S of scene/reflectance_table.h.
+/// S of scene/material/reflectance_table.h.
 double importance_by_quadrature(const Brdf& brdf, float cosine, int points = 256);
 
 /// The unit vector in the plane y = 0 at an angle to the normal.

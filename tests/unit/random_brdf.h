@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 
 namespace raybundle::test {
 

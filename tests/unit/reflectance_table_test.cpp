@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tabulated directional albedo and importance against numerical integration.
-#include "scene/reflectance_table.h"
+#include "scene/material/reflectance_table.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "hemisphere_quadrature.h"
 #include "random_brdf.h"
-#include "scene/ggx_albedo.h"
+#include "scene/material/ggx_albedo.h"
 
 namespace raybundle::test {
 namespace {

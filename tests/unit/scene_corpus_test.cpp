@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "gltf_builder.h"
-#include "scene/environment.h"
-#include "scene/patch_mesh.h"
+#include "scene/light/environment.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle::test {
 namespace {

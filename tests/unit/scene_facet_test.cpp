@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 namespace {

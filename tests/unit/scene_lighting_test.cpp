@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle::test {
 namespace {

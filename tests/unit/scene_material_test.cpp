@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "gltf_builder.h"
-#include "scene/base_colour.h"
-#include "scene/patch_mesh.h"
-#include "scene/specular_surface.h"
-#include "scene/texture_mean.h"
+#include "scene/material/base_colour.h"
+#include "scene/material/specular_surface.h"
+#include "scene/material/texture_mean.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle::test {
 namespace {

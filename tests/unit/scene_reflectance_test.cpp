@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "gltf_builder.h"
-#include "scene/brdf.h"
-#include "scene/patch_colour.h"
+#include "scene/material/brdf.h"
+#include "scene/mesh/patch_colour.h"
 
 namespace raybundle::test {
 namespace {

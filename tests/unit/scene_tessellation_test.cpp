@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "gltf_builder.h"
-#include "scene/contact_lines.h"
-#include "scene/patch_mesh.h"
+#include "scene/contact/contact_lines.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle::test {
 namespace {

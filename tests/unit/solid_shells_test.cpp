@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // doubleSided surfaces that are the outside of something solid have no inside.
-#include "scene/solid_shells.h"
+#include "scene/contact/solid_shells.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/specular_surface.h"
+#include "scene/material/specular_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "gltf_builder.h"
-#include "scene/brdf.h"
+#include "scene/material/brdf.h"
 
 namespace raybundle::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance by triangles: closed forms of rectangles (R. Siegel, J. Howell, "Thermal Radiation
 // Heat Transfer", configuration factors of a differential element).
-#include "scene/triangle_irradiance.h"
+#include "scene/mesh/triangle_irradiance.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 
 #include "gltf_builder.h"
 #include "scene/object_kind.h"
-#include "scene/standing_views.h"
-#include "scene/walk_map.h"
-#include "scene/world_rays.h"
+#include "scene/walk/standing_views.h"
+#include "scene/walk/walk_map.h"
+#include "scene/walk/world_rays.h"
 
 namespace raybundle::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/effects/effect_trial.h"
 #include "gpu/egl_context.h"
-#include "scene/effects_plan.h"
+#include "scene/effects/effects_plan.h"
 #include "view/image_file.h"
 #include "view/tone_curve.h"
 

@@ -6,7 +6,7 @@
 
 #include "net/server.h"
 #include "options/cli_options.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -4,8 +4,8 @@
 #include <stop_token>
 
 #include "options/cli_options.h"
-#include "scene/effects_plan.h"
-#include "scene/patch_mesh.h"
+#include "scene/effects/effects_plan.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 
 #include "app/render_job.h"
-#include "scene/effect_removal.h"
+#include "scene/effects/effect_removal.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -9,7 +9,7 @@
 #include "reference/measures/image_metrics.h"
 #include "reference/solution_picture.h"
 #include "reference/specular_walk.h"
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

@@ -22,7 +22,7 @@ struct IncomingLight {
 /// in the long run. Particles are independent of what is kept, so a reservoir (Chao 1982,
 /// "A General Purpose Unequal Probability Sampling Plan": s_new/(sum of all s)) has it at once.
 /// The importance is positive wherever anything but the main part is reflected, as in
-/// scene/reflectance_table.h, so nothing is divided by an albedo that may be 0.
+/// scene/material/reflectance_table.h, so nothing is divided by an albedo that may be 0.
 ///
 /// Its source is kept and not its direction alone, so that the patch mirrors the source as a plane
 /// does and not as a point.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

@@ -10,7 +10,7 @@
 #include "reference/albedo_tables.h"
 #include "reference/sampling/random.h"
 #include "reference/sampling/roulette.h"
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/environment.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {

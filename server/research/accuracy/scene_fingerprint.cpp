@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include "scene/gltf_container.h"
-#include "scene/gltf_uri.h"
+#include "scene/gltf/file/gltf_container.h"
+#include "scene/gltf/file/gltf_uri.h"
 
 namespace raybundle {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "journal/session_journal.h"
 #include "raybundle.pb.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "session/changes/change_records.h"
 #include "session/changes/scene_history.h"

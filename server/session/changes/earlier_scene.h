@@ -7,7 +7,7 @@
 #include <span>
 
 #include "raybundle.pb.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "reference/spot_check.h"
-#include "scene/patch_mesh.h"
+#include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "stream/viewer_id.h"
 #include "view/viewer_image.h"

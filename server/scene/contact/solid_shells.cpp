@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/contact/solid_shells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/contact/box_tree.h"
+#include "scene/contact/point_index.h"
+#include "scene/contact/world_triangle.h"
+#include "scene/material/specular_surface.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::size_t asked_points = 16;  // of a surface, to tell whether it lies within a shell
+constexpr double clearly_inside = 0.75;   // winding number: 1 inside, 0 outside, between on it
+// Triangles that may be looked at for that, in all; shells that come later count as not solid.
+constexpr std::size_t most_looks = 200'000'000;
+
+/// Triangles that are joined by edges.
+struct Shell {
+    std::vector<std::uint32_t> triangles;
+    BoxTree::Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+    bool closed = true;
+    bool opaque = true;
+    bool double_sided = false;
+};
+
+class Groups {
+  public:
+    explicit Groups(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t of(std::uint32_t i) {
+        while (parent_[i] != i) {
+            parent_[i] = parent_[parent_[i]];
+            i = parent_[i];
+        }
+        return i;
+    }
+    /// The one with the lower number names both.
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = of(a);
+        b = of(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+bool is_opaque(const Material& material) {
+    return material.alpha_mode == AlphaMode::opaque && !is_glass(material) && !transmits(material);
+}
+
+/// How often an edge is gone along, each way.
+struct EdgeUse {
+    std::uint32_t first_triangle = 0;
+    std::array<std::uint32_t, 2> ways{};
+};
+
+class ShellSearch {
+  public:
+    explicit ShellSearch(const Scene& scene) : scene_(scene), groups_(scene.triangles.size()) {
+        find_edges();
+        collect_shells();
+    }
+
+    /// Indices of the triangles of all solids.
+    std::vector<std::uint32_t> run() {
+        std::vector<BoxTree::Box> boxes(shells_.size());
+        std::transform(shells_.begin(), shells_.end(), boxes.begin(),
+                       [](const Shell& shell) { return shell.box; });
+        const BoxTree tree(std::move(boxes));
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t s = 0; s < shells_.size(); ++s) {
+            const Shell& shell = shells_[s];
+            if (shell.closed && shell.opaque && shell.double_sided && volume(shell) > 0.0 &&
+                !holds_a_place(shell) && !holds_a_surface(s, tree)) {
+                found.insert(found.end(), shell.triangles.begin(), shell.triangles.end());
+            }
+        }
+        return found;
+    }
+
+    /// Lamps within closed shells.
+    std::vector<EnclosedLight> enclosed_lights() {
+        std::vector<EnclosedLight> found;
+        const std::vector<Lamp> luminous = lamps();
+        for (std::uint32_t s = 0; s < shells_.size(); ++s) {
+            const Shell& shell = shells_[s];
+            if (!shell.closed || !shell.opaque || volume(shell) == 0.0 || holds_a_camera(shell)) {
+                continue;
+            }
+            const std::uint32_t first = shell.triangles.front();
+            const std::string& object = scene_.objects[scene_.triangles[first].object].name;
+            for (const PunctualLight& light : scene_.punctual_lights) {
+                if (holds_lamp(shell, light)) {
+                    found.push_back({light.name, object});
+                }
+            }
+            for (const Lamp& lamp : luminous) {
+                const Shell& other = shells_[lamp.shell];
+                if (lamp.shell != s && holds_box(shell, other.box) &&
+                    holds_all_of(shell, other.triangles)) {
+                    found.push_back({*lamp.name, object});
+                }
+            }
+            if (looks_ > most_looks) {  // holds() is not to be relied on any more
+                return {};
+            }
+        }
+        return found;
+    }
+
+  private:
+    struct Lamp {
+        std::uint32_t shell = 0;
+        const std::string* name = nullptr;
+    };
+
+    /// Shells with a material that emits, or would if it were switched on.
+    [[nodiscard]] std::vector<Lamp> lamps() const {
+        std::vector<const std::string*> name_of(scene_.materials.size(), nullptr);
+        for (const Light& light : scene_.lights) {
+            name_of[static_cast<std::size_t>(light.material)] = &light.name;
+        }
+        std::vector<Lamp> found;
+        for (std::uint32_t s = 0; s < shells_.size(); ++s) {
+            for (const std::uint32_t t : shells_[s].triangles) {
+                if (const std::string* name = name_of[scene_.triangles[t].material]) {
+                    found.push_back({s, name});
+                    break;
+                }
+            }
+        }
+        return found;
+    }
+
+    static bool holds_box(const Shell& shell, const BoxTree::Box& box) {
+        return glm::all(glm::lessThanEqual(shell.box.low, box.low)) &&
+               glm::all(glm::lessThanEqual(box.high, shell.box.high));
+    }
+
+    /// Joins triangles at their edges, and notes those that are not in a closed surface.
+    void find_edges() {
+        PointIndex points;
+        std::unordered_map<std::uint64_t, EdgeUse> edges;
+        edges.reserve(scene_.triangles.size() * 3 / 2);
+        std::uint32_t object = 0;
+        const auto finish_object = [&] {
+            for (const auto& [key, use] : edges) {
+                if (use.ways != std::array<std::uint32_t, 2>{1, 1}) {
+                    open_.push_back(use.first_triangle);
+                }
+            }
+            edges.clear();
+        };
+        for (const std::uint32_t t : by_object()) {
+            const Triangle& triangle = scene_.triangles[t];
+            if (triangle.object != object) {
+                finish_object();
+                object = triangle.object;
+                points = PointIndex();
+            }
+            std::array<std::uint32_t, 3> ids{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                ids[k] = points.id_of(scene_.vertices[triangle.vertex[k]].position);
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % 3]);
+                const auto [it, inserted] =
+                    edges.try_emplace(std::uint64_t{low} << 32U | high, EdgeUse{t, {}});
+                ++it->second.ways[low == ids[k] ? 0 : 1];
+                groups_.join(t, it->second.first_triangle);
+            }
+        }
+        finish_object();
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> by_object() const {
+        std::vector<std::uint32_t> order(scene_.triangles.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return scene_.triangles[a].object < scene_.triangles[b].object;
+        });
+        return order;
+    }
+
+    void collect_shells() {
+        constexpr std::uint32_t none = 0xffffffffU;
+        std::vector<std::uint32_t> shell_of(scene_.triangles.size(), none);
+        for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
+            std::uint32_t& number = shell_of[groups_.of(t)];
+            if (number == none) {
+                number = static_cast<std::uint32_t>(shells_.size());
+                shells_.emplace_back();
+            }
+            Shell& shell = shells_[number];
+            shell.triangles.push_back(t);
+            const Material& material = scene_.materials[scene_.triangles[t].material];
+            shell.opaque = shell.opaque && is_opaque(material);
+            shell.double_sided = shell.double_sided || material.double_sided;
+            for (const glm::dvec3& corner : world_corners(scene_, scene_.triangles[t])) {
+                shell.box.low = glm::min(shell.box.low, corner);
+                shell.box.high = glm::max(shell.box.high, corner);
+            }
+        }
+        for (const std::uint32_t t : open_) {
+            shells_[shell_of[groups_.of(t)]].closed = false;
+        }
+    }
+
+    /// Above zero where fronts look outwards, m³.
+    [[nodiscard]] double volume(const Shell& shell) const {
+        const glm::dvec3 middle = 0.5 * (shell.box.low + shell.box.high);
+        double sum = 0.0;
+        for (const std::uint32_t t : shell.triangles) {
+            const auto c = world_corners(scene_, scene_.triangles[t]);
+            sum += glm::dot(c[0] - middle, glm::cross(c[1] - middle, c[2] - middle));
+        }
+        return sum / 6.0;
+    }
+
+    [[nodiscard]] bool holds_a_camera(const Shell& shell) {
+        return std::any_of(scene_.cameras.begin(), scene_.cameras.end(),
+                           [&](const Camera& camera) { return holds(shell, camera.eye); });
+    }
+
+    [[nodiscard]] bool holds_lamp(const Shell& shell, const PunctualLight& light) {
+        const PlacedLight placed = place_light(scene_, light);
+        return placed.kind != PunctualKind::directional && holds(shell, placed.position);
+    }
+
+    [[nodiscard]] bool holds_a_place(const Shell& shell) {
+        return holds_a_camera(shell) ||
+               std::any_of(scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
+                           [&](const PunctualLight& light) { return holds_lamp(shell, light); });
+    }
+
+    [[nodiscard]] bool holds_a_surface(std::uint32_t number, const BoxTree& tree) {
+        const Shell& shell = shells_[number];
+        bool found = false;
+        tree.for_each_overlapping(shell.box, [&](std::uint32_t other) {
+            const BoxTree::Box& box = shells_[other].box;
+            if (!found && other != number && holds_box(shell, box)) {
+                found = holds_all_of(shell, shells_[other].triangles);
+            }
+        });
+        return found;
+    }
+
+    [[nodiscard]] bool holds_all_of(const Shell& shell, std::span<const std::uint32_t> triangles) {
+        const std::size_t step = (triangles.size() + asked_points - 1) / asked_points;
+        for (std::size_t i = 0; i < triangles.size(); i += step) {
+            const auto corners = world_corners(scene_, scene_.triangles[triangles[i]]);
+            if (!holds(shell, (corners[0] + corners[1] + corners[2]) / 3.0)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// By the solid angle of all triangles (van Oosterom and Strackee 1983, "The Solid Angle of a
+    /// Plane Triangle"). True where that would take too long.
+    [[nodiscard]] bool holds(const Shell& shell, const glm::dvec3& point) {
+        if (!shell.box.overlaps({point, point})) {
+            return false;
+        }
+        looks_ += shell.triangles.size();
+        if (looks_ > most_looks) {
+            return true;
+        }
+        double sum = 0.0;
+        for (const std::uint32_t t : shell.triangles) {
+            auto c = world_corners(scene_, scene_.triangles[t]);
+            std::array<double, 3> length{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                c[k] -= point;
+                length[k] = glm::length(c[k]);
+            }
+            const double above = glm::dot(c[0], glm::cross(c[1], c[2]));
+            const double below =
+                length[0] * length[1] * length[2] + glm::dot(c[0], c[1]) * length[2] +
+                glm::dot(c[1], c[2]) * length[0] + glm::dot(c[2], c[0]) * length[1];
+            sum += 2.0 * std::atan2(above, below);
+        }
+        return std::abs(sum) > clearly_inside * 4.0 * glm::pi<double>();
+    }
+
+    const Scene& scene_;
+    Groups groups_;
+    std::vector<Shell> shells_;
+    std::vector<std::uint32_t> open_;  // triangles at edges that do not join two
+    std::size_t looks_ = 0;
+};
+
+}  // namespace
+
+std::vector<EnclosedLight> find_enclosed_lights(const Scene& scene) {
+    return ShellSearch(scene).enclosed_lights();
+}
+
+std::size_t mark_solid_shells(Scene& scene) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return material.double_sided; })) {
+        return 0;
+    }
+    const std::vector<std::uint32_t> solid = ShellSearch(scene).run();
+    for (const std::uint32_t t : solid) {
+        scene.triangles[t].solid = true;
+    }
+    return solid.size();
+}
+
+}  // namespace raybundle

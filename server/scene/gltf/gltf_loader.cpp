@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf/gltf_loader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <new>
+
+#include "scene/contact/solid_shells.h"
+#include "scene/gltf/file/gltf_bake.h"
+#include "scene/gltf/file/gltf_container.h"
+#include "scene/gltf/file/gltf_document.h"
+#include "scene/gltf/gltf_camera.h"
+#include "scene/gltf/gltf_lights.h"
+#include "scene/gltf/gltf_material.h"
+#include "scene/gltf/gltf_node_tree.h"
+#include "scene/gltf/gltf_objects.h"
+#include "scene/gltf/gltf_place.h"
+#include "scene/gltf/gltf_primitive.h"
+#include "scene/gltf/lone_object.h"
+#include "scene/light/environment.h"
+#include "scene/light/lights.h"
+#include "scene/material/specular_surface.h"
+#include "scene/mesh/geometry_defects.h"
+#include "scene/walk/default_camera.h"
+
+namespace raybundle {
+namespace {
+
+/// glTF's default material is only kept where a triangle uses it, or as the only one.
+void drop_unused_default_material(Scene& scene, std::uint32_t default_material) {
+    for (const Triangle& triangle : scene.triangles) {
+        if (triangle.material == default_material) {
+            return;
+        }
+    }
+    if (scene.materials.size() > 1) {
+        scene.materials.pop_back();
+    }
+}
+
+void name_materials(Scene& scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (scene.materials[i].name.empty()) {
+            scene.materials[i].name = fmt::format("material {}", i + 1);
+        }
+    }
+}
+
+/// Gives the punctual lights of a name the distribution of a file, "LIGHT=FILE"; their colour
+/// stays.
+void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) {
+    const std::size_t equals = choice.find('=');
+    const std::string name = choice.substr(0, equals);
+    const std::string file = choice.substr(equals + 1);
+    std::shared_ptr<const IesProfile> profile;
+    std::string names;
+    for (PunctualLight& light : scene.punctual_lights) {
+        names += (names.empty() ? "'" : ", '") + light.name + "'";
+        if (light.name != name || light.kind == PunctualKind::directional) {
+            continue;
+        }
+        if (!profile) {
+            profile = std::make_shared<const IesProfile>(read_ies(file));
+        }
+        light.kind = PunctualKind::point;
+        light.intensity = colour_of(light);
+        light.profile = profile;
+    }
+    if (profile) {
+        for (const std::string& note : profile->data().notes) {
+            document.note(fmt::format("IES file '{}': {}", file, note));
+        }
+    } else {
+        throw SceneError(scene.path, "",
+                         fmt::format("--ies: there is no point light or spot '{}'; punctual "
+                                     "lights: {}",
+                                     name, names.empty() ? "none" : names));
+    }
+}
+
+void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
+    const Daylight daylight = overlaid(document.daylight(), settings.daylight);
+    if (settings.sky_luminance) {
+        scene.sky_radiance = glm::vec3(*settings.sky_luminance);
+    } else if (daylight.given()) {
+        apply_daylight(daylight, scene);
+    } else if (!has_emitter(scene)) {
+        scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
+        document.note(
+            fmt::format("nothing in the scene emits light: it is lit by a uniform sky "
+                        "of {} cd/m²",
+                        settings.default_sky_luminance));
+    }
+}
+
+/// Names the materials whose reflections are nearly mirror images that view rays do not show:
+/// bundles find those slowly.
+void note_materials(GltfDocument& document, const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Triangle& triangle : scene.triangles) {
+        used[triangle.material] = true;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const bool lamp = m.emission != glm::vec3(0.0F);
+        if (used[i] && !lamp && has_smooth_lobe(m) && specular_kind(m) == SpecularKind::none) {
+            names += (names.empty() ? "'" : ", '") + m.name + "'";
+        }
+    }
+    if (!names.empty()) {
+        document.note(fmt::format("nearly mirrors, their reflections settle slowly: {}", names));
+    }
+}
+
+Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
+    Scene scene;
+    scene.path = document.path();
+    scene.name = std::filesystem::path(scene.path).stem().string();
+    GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
+    const std::uint32_t default_material = read_materials(document, scene);
+    check_meshes(document);
+    const std::vector<NodeGeometry> geometries =
+        read_placed_geometry(document, tree, settings.metres_per_unit, scene);
+    const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
+    bake_objects(document, tree, geometries, plans, default_material, scene);
+    read_punctual_lights(document, tree, plans, scene);
+    for (const std::string& choice : settings.ies) {
+        apply_ies(choice, document, scene);
+    }
+    scene.removed.duplicate_faces = remove_duplicate_faces(scene);
+    if (scene.removed.duplicate_faces > 0) {
+        document.note(
+            fmt::format("{} duplicate faces are left out", scene.removed.duplicate_faces));
+    }
+    drop_unused_default_material(scene, default_material);
+    scene.lights = find_lights(scene);
+    name_materials(scene);
+    if (split_lone_object(scene) > 1 && plans.size() == 1) {
+        document.note(fmt::format("the only object is divided into {} connected parts",
+                                  scene.objects.size()));
+    }
+    scene.cameras = read_cameras(document, tree, scene.bounds);
+    scene.removed.solid_insides = mark_solid_shells(scene);
+    measure_lights(scene);
+    note_materials(document, scene);
+    set_sky(document, settings, scene);
+    scene.sky_light = find_sky_light(scene);
+    if (scene.cameras.empty()) {
+        scene.cameras = default_cameras(scene);
+        document.note("the file has no usable camera: default ones are used");
+    }
+    scene.notices.insert(scene.notices.begin(), document.notices().begin(),
+                         document.notices().end());
+    return scene;
+}
+
+/// read: gives the container.
+template <typename Read>
+Scene load(const std::string& path, const SceneSettings& settings, const Read& read) {
+    try {
+        GltfDocument document(path, read());
+        return load_checked(document, settings);
+    } catch (const std::bad_alloc&) {
+        throw SceneError(path, "", "not enough memory to load the scene");
+    } catch (const std::length_error& error) {
+        throw SceneError(path, "", fmt::format("too large: {}", error.what()));
+    }
+}
+
+}  // namespace
+
+Scene load_gltf(const std::string& path, const SceneSettings& settings) {
+    return load(path, settings, [&] { return read_gltf_container(path); });
+}
+
+Scene load_gltf(const std::string& path, std::span<const std::uint8_t> bytes,
+                const SceneSettings& settings) {
+    return load(path, settings, [&] { return parse_gltf_container(path, bytes); });
+}
+
+}  // namespace raybundle

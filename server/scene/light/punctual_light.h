@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/light/ies_profile.h"
+
+namespace raybundle {
+
+enum class PunctualKind { point, spot, directional };
+
+/// What can be changed of a punctual light while a scene is shown.
+struct PunctualSetting {
+    glm::vec3 intensity{0.0F};  ///< as PunctualLight::intensity, while it is on
+    glm::vec3 colour{1.0F};     ///< of luminance 1, kept while intensity is 0
+    bool on = true;
+    glm::vec3 loaded{0.0F};  ///< intensity as the file has it
+};
+
+/// A light without extent (glTF's KHR_lights_punctual): no ray can hit it. It shines along -z of
+/// its axes. Photometric, without a cut-off: glTF's `range` is not physical.
+struct PunctualLight {
+    static constexpr int no_object = -1;
+
+    std::string name;
+    PunctualKind kind = PunctualKind::point;
+    /// Index into Scene::objects of what carries it, or no_object.
+    int object = no_object;
+    glm::vec3 position{0.0F};  ///< in its object's space, else in the world's; metres
+    glm::mat3 axes{1.0F};      ///< x, y, z in the same space; z is opposite to its direction
+    /// Directional: illuminance of a surface that faces it, lx; else luminous intensity, cd, of a
+    /// spot along its axis.
+    glm::vec3 intensity{0.0F};
+    glm::vec3 dark_colour{
+        1.0F};  ///< of luminance 1: its colour where the file gives it intensity 0
+    float angular_radius = 0.0F;  ///< directional: half of the diameter of its disc, radians
+    bool of_sky = false;          ///< part of Scene::environment
+    float inner_cosine = 1.0F;    ///< spot: full intensity within this cone
+    float outer_cosine = 0.0F;    ///< spot: dark outside this one; below inner_cosine
+    /// Of a point light: its intensity over direction, whose factor `intensity` is then.
+    std::shared_ptr<const IesProfile> profile;
+    /// Once it has been changed; `intensity` is 0 while it is off.
+    std::optional<PunctualSetting> setting;
+};
+
+/// Of luminance 1.
+glm::vec3 colour_of(const PunctualLight& light);
+
+/// Also of a light that has never been changed.
+PunctualSetting setting_of(const PunctualLight& light);
+
+/// What the luminance of an intensity is multiplied by in the unit that people know it in: the flux
+/// (lm) of a luminaire whose profile is known, else 1, of cd and lx.
+float intensity_unit(const PunctualLight& light);
+
+/// A punctual light in the world.
+struct PlacedLight {
+    PunctualKind kind = PunctualKind::point;
+    glm::dvec3 position{0.0};  ///< m
+    glm::dmat3 axes{1.0};      ///< orthonormal; it shines along -axes[2]
+    glm::dvec3 intensity{0.0};
+    double angular_radius = 0.0;
+    double inner_cosine = 1.0, outer_cosine = 0.0;
+    std::shared_ptr<const IesProfile> profile;
+
+    [[nodiscard]] glm::dvec3 direction() const { return -axes[2]; }
+    /// Directional: lx; else cd, towards a unit direction away from the light.
+    [[nodiscard]] glm::dvec3 towards(const glm::dvec3& direction) const;
+    /// Its factor of `intensity` in that direction, cd where it has a profile.
+    [[nodiscard]] double attenuation(const glm::dvec3& direction) const;
+    /// Luminous flux, lm, of a light that is not directional.
+    [[nodiscard]] glm::dvec3 flux() const;
+};
+
+/// world_from_object: of the light's object; identity for a light without one.
+PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_object);
+
+/// The same light by lights without a disc: one that has a disc becomes eight, spread over it.
+std::vector<PunctualLight> without_discs(std::span<const PunctualLight> lights);
+
+}  // namespace raybundle

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/mesh/join_plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace raybundle {
+namespace {
+
+/// Of every node the unrefined triangle that it is part of.
+std::vector<std::uint32_t> roots(const EdgeRefinement& refinement) {
+    std::vector<std::uint32_t> root(refinement.nodes().size());
+    std::iota(root.begin(), root.end(), 0U);
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        const std::uint32_t child = refinement.nodes()[i].first_child;
+        if (child != EdgeRefinement::Node::no_children) {
+            root[child] = root[i];
+            root[child + 1] = root[i];
+        }
+    }
+    return root;
+}
+
+double area_of(const EdgeRefinement& refinement, const EdgeRefinement::RefinedTriangle& triangle) {
+    const auto corners = refinement.world_corners(triangle);
+    return 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+}  // namespace
+
+JoinPlan::JoinPlan(const Scene& scene) {
+    std::vector<glm::dmat4> world;
+    for (const Object& object : scene.objects) {
+        world.emplace_back(object.world_from_object());
+    }
+    for (const Triangle& triangle : scene.triangles) {
+        glm::dvec3 p[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = world[triangle.object] *
+                   glm::dvec4(glm::dvec3(scene.vertices[triangle.vertex[k]].position), 1.0);
+        }
+        area_.push_back(0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
+        total_ += (two_sided(scene, triangle) ? 2.0 : 1.0) * area_.back();
+    }
+}
+
+bool JoinPlan::any_small(double edge) const {
+    return std::any_of(area_.begin(), area_.end(),
+                       [&](double area) { return area < mean_area * edge * edge; });
+}
+
+std::vector<bool> JoinPlan::small(const EdgeRefinement& refinement, double edge) const {
+    const std::vector<std::uint32_t> root = roots(refinement);
+    std::vector<bool> result;
+    result.reserve(refinement.triangles().size());
+    for (const EdgeRefinement::RefinedTriangle& triangle : refinement.triangles()) {
+        result.push_back(area_[refinement.origins()[root[triangle.node]]] <
+                         mean_area * edge * edge);
+    }
+    return result;
+}
+
+std::size_t JoinPlan::patches(const EdgeRefinement& refinement, double edge) const {
+    constexpr double filled = 0.6;  // of a patch's area, by a set in the mean
+    const std::vector<bool> is_small = small(refinement, edge);
+    double joined = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < is_small.size(); ++i) {
+        const EdgeRefinement::RefinedTriangle& triangle = refinement.triangles()[i];
+        const std::size_t sides = triangle.two_sided ? 2 : 1;
+        if (is_small[i]) {
+            joined += static_cast<double>(sides) * area_of(refinement, triangle);
+        } else {
+            count += sides;
+        }
+    }
+    return count + static_cast<std::size_t>(joined / (filled * mean_area * edge * edge));
+}
+
+}  // namespace raybundle

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/mesh/edge_refinement.h"
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// Longest-edge bisection leaves edges between about half the target and the target; measured on
+/// boxes, the mean patch area is this many squared target edges.
+constexpr double mean_area = 0.18;
+
+/// Which triangles of a scene are smaller than a patch of some target edge, and how many patches
+/// there will be.
+class JoinPlan {
+  public:
+    explicit JoinPlan(const Scene& scene);
+    /// Area of all sides, m².
+    [[nodiscard]] double total_area() const { return total_; }
+    /// Whether some triangle of the scene is smaller than a patch of the target edge (m).
+    [[nodiscard]] bool any_small(double edge) const;
+    /// By number in refinement.triangles(): whether it is, or is part of, such a triangle.
+    [[nodiscard]] std::vector<bool> small(const EdgeRefinement& refinement, double edge) const;
+    /// Patches of refined triangles, where small ones are joined to about the size of a patch.
+    [[nodiscard]] std::size_t patches(const EdgeRefinement& refinement, double edge) const;
+
+  private:
+    std::vector<double> area_;  // of the scene's triangles, one side, m²
+    double total_ = 0.0;
+};
+
+}  // namespace raybundle

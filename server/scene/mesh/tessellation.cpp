@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scene/contact/near_field.h"
+#include "scene/gltf/gltf_loader.h"
+#include "scene/mesh/edge_refinement.h"
+#include "scene/mesh/join_plan.h"
+#include "scene/mesh/mesh_builder.h"
+#include "scene/mesh/patch_mesh.h"
+
+namespace raybundle {
+namespace {
+
+constexpr int max_search_steps = 7;
+constexpr double close_enough = 0.05;        // relative, of the patch count
+constexpr double misplaced_share = 1e-6;     // of the direct flux, that a patch may misplace
+constexpr std::size_t flux_samples = 1'000;  // patches that it is found from
+constexpr int max_rounds = 12;               // of splitting them
+
+/// Patches to aim for. A file whose triangles alone use up the target still gets half as many on
+/// top, so that its large walls are not left whole.
+std::size_t goal_of(const TessellationSettings& settings, std::size_t unrefined) {
+    const std::size_t target = settings.target_patches;
+    return std::min(settings.max_patches, std::max(target, unrefined + target / 2));
+}
+
+/// What refinement ends in, and the target edge that it had, m.
+struct Refined {
+    EdgeRefinement refinement;
+    double edge = 0.0;
+};
+
+/// Of patches of which so many cover all sides, m.
+double edge_for(const JoinPlan& plan, double goal) {
+    return std::sqrt(plan.total_area() / (mean_area * goal));
+}
+
+/// Finds the target edge whose patch count comes closest to the goal, by a bracketed search that
+/// takes the number of added patches as proportional to edge^-2. Where triangles are joined no
+/// patches are there from the beginning.
+Refined refine_to_count(const EdgeRefinement& unrefined, const JoinPlan& plan, bool join,
+                        std::size_t goal_count) {
+    const auto base = join ? 0.0 : static_cast<double>(unrefined.patch_count());
+    const auto goal = static_cast<double>(goal_count);
+    const std::size_t give_up = goal_count + goal_count / 2;
+    const std::size_t most = join ? give_up + 8 * unrefined.patch_count() : give_up;
+    double too_fine = 0.0;
+    double too_coarse = 1e30;
+    double edge = edge_for(plan, goal);
+    Refined best{unrefined, edge};
+    double best_error =
+        join ? 1e30 : std::abs(std::log(static_cast<double>(unrefined.patch_count()) / goal));
+    for (int step = 0; step < max_search_steps && best_error > close_enough; ++step) {
+        EdgeRefinement attempt = unrefined;
+        const bool finished = attempt.refine(edge, most);
+        const auto count =
+            static_cast<double>(join ? plan.patches(attempt, edge) : attempt.patch_count());
+        (count > goal ? too_fine : too_coarse) = edge;
+        if (finished && std::abs(std::log(count / goal)) < best_error) {
+            best_error = std::abs(std::log(count / goal));
+            best = {std::move(attempt), edge};
+        }
+        edge *= std::sqrt(std::clamp((count - base) / std::max(goal - base, 1.0), 0.1, 10.0));
+        if (edge <= too_fine || edge >= too_coarse) {
+            edge = std::sqrt(too_fine * too_coarse);
+        }
+    }
+    return best;
+}
+
+NearField::Face face_of(const EdgeRefinement& refinement,
+                        const EdgeRefinement::RefinedTriangle& triangle) {
+    return {refinement.world_corners(triangle), triangle.material, triangle.two_sided};
+}
+
+/// Direct flux on all patches, lm, from some of them.
+double direct_flux(const EdgeRefinement& refinement, const NearField& field) {
+    const auto& triangles = refinement.triangles();
+    const std::size_t stride = std::max<std::size_t>(triangles.size() / flux_samples, 1);
+    double sum = 0.0;
+    for (std::size_t t = 0; t < triangles.size(); t += stride) {
+        sum += field.direct_flux(face_of(refinement, triangles[t]));
+    }
+    return sum * static_cast<double>(stride);
+}
+
+/// Splits patches on which light changes, as surfaces close by see, the worst first where not all
+/// can be. Triangles that will be joined stay.
+void refine_near_field(const Scene& scene, const TessellationSettings& settings,
+                       const JoinPlan& plan, bool join, Refined& refined) {
+    const NearField field(scene);
+    EdgeRefinement& refinement = refined.refinement;
+    const auto& triangles = refinement.triangles();
+    const std::size_t patches =
+        join ? plan.patches(refinement, refined.edge) : refinement.patch_count();
+    const std::size_t most_patches =
+        std::min(settings.max_patches, refinement.patch_count() + patches / 2);
+    const double least = misplaced_share * direct_flux(refinement, field);
+    double threshold = least;      // lm
+    std::vector<float> misplaced;  // lm, by node; below zero: not known yet
+    for (int round = 0; least > 0.0 && round < max_rounds; ++round) {
+        misplaced.resize(refinement.nodes().size(), -1.0F);
+        const std::vector<bool> small =
+            join ? plan.small(refinement, refined.edge) : std::vector<bool>(triangles.size());
+        tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
+            float& value = misplaced[triangles[t].node];
+            value = small[t] ? 0.0F : value;
+            if (value < 0.0F) {
+                value = static_cast<float>(
+                    field.misplaced_flux(face_of(refinement, triangles[t]), least));
+            }
+        });
+        std::vector<bool> chosen(triangles.size());
+        do {
+            std::transform(triangles.begin(), triangles.end(), chosen.begin(),
+                           [&](const auto& t) { return double{misplaced[t.node]} > threshold; });
+            if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
+                return;
+            }
+            threshold *= 2.0;
+        } while (!refinement.split(chosen, most_patches));
+        threshold *= 0.5;
+    }
+}
+
+/// Whether triangles of the scene are to be joined.
+bool joins(const JoinPlan& plan, const TessellationSettings& settings) {
+    const double edge = settings.patch_size > 0.0F
+                            ? double{settings.patch_size}
+                            : edge_for(plan, static_cast<double>(std::min(settings.target_patches,
+                                                                          settings.max_patches)));
+    return settings.join_triangles && plan.any_small(edge);
+}
+
+/// Refines the scene's triangles, those that are cut where others stand on them. join: those that
+/// are small will be joined.
+Refined refine(const Scene& scene, const TessellationSettings& settings, const JoinPlan& plan,
+               bool join) {
+    EdgeRefinement refinement(scene);
+    if (refinement.patch_count() > settings.max_patches) {
+        throw SceneError(scene.path, "",
+                         fmt::format("{} patches without any tessellation; the limit is {}",
+                                     refinement.patch_count(), settings.max_patches));
+    }
+    const auto goal = [&] {
+        return goal_of(settings, join ? std::size_t{0} : refinement.patch_count());
+    };
+    const double edge = settings.patch_size > 0.0F ? double{settings.patch_size}
+                                                   : edge_for(plan, static_cast<double>(goal()));
+    refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
+    Refined refined{std::move(refinement), edge};
+    if (!(settings.patch_size > 0.0F)) {
+        const std::size_t patches =
+            goal_of(settings, join ? std::size_t{0} : refined.refinement.patch_count());
+        refined = refine_to_count(refined.refinement, plan, join, patches);
+    } else if (!refined.refinement.refine(edge, settings.max_patches)) {
+        throw SceneError(scene.path, "",
+                         fmt::format("patch size {} m gives more than {} patches",
+                                     settings.patch_size, settings.max_patches));
+    }
+    refine_near_field(scene, settings, plan, join, refined);
+    return refined;
+}
+
+JoinedFaces joined_faces(const TessellationSettings& settings, const JoinPlan& plan,
+                         const Refined& refined) {
+    JoinedFaces joined;
+    joined.small = plan.small(refined.refinement, refined.edge);
+    joined.settings.edge = refined.edge;
+    joined.settings.patch_area = mean_area * refined.edge * refined.edge;
+    joined.settings.most_sets = settings.patch_size > 0.0F
+                                    ? settings.max_patches
+                                    : std::min(2 * settings.target_patches, settings.max_patches);
+    return joined;
+}
+
+}  // namespace
+
+PatchMesh tessellate(Scene& scene, const TessellationSettings& settings) {
+    const JoinPlan plan(scene);
+    const bool join = joins(plan, settings);
+    const Refined refined = refine(scene, settings, plan, join);
+    JoinedFaces joined;
+    if (join) {
+        joined = joined_faces(settings, plan, refined);
+    } else {
+        joined.small.assign(refined.refinement.triangles().size(), false);
+    }
+    return build_mesh(scene, refined.refinement, joined);
+}
+
+}  // namespace raybundle
