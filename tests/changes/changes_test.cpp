@@ -19,12 +19,6 @@ std::string test_name(const testing::TestParamInfo<ChangeCase>& info) {
     return info.param.name;
 }
 
-#ifndef RAYBUNDLE_LONG_TESTS
-
-constexpr std::uint64_t iterations_before = 240;
-constexpr std::uint64_t iterations_after = 120;
-constexpr std::uint64_t iterations_of_truth = 320;
-
 double mean_of(const std::vector<double>& values) {
     double sum = 0.0;
     for (const double value : values) {
@@ -32,6 +26,12 @@ double mean_of(const std::vector<double>& values) {
     }
     return sum;
 }
+
+#ifndef RAYBUNDLE_LONG_TESTS
+
+constexpr std::uint64_t iterations_before = 240;
+constexpr std::uint64_t iterations_after = 120;
+constexpr std::uint64_t iterations_of_truth = 320;
 
 class Changes : public testing::TestWithParam<ChangeCase> {};
 

@@ -103,7 +103,7 @@ const SceneFault scene_faults[] = {
      [](Json& j) {
          j["buffers"] = {{{"byteLength", 42}, {"uri", ".."}}};
      },
-     "buffers[0].uri", "not found"},
+     "buffers[0].uri", "is no file"},
     {"buffer_without_uri",
      [](Json& j) {
          j["buffers"] = {{{"byteLength", 42}}};
