@@ -22,6 +22,8 @@ const UNITS = {CD_PER_M2: 'cd/m²', CD: 'cd', LX: 'lx', LM: 'lm'};
 const DIMMEST = 0.01;
 /** A dimmer's highest step. */
 const BRIGHTEST = 4;
+/** Kinds of lights that are no lamps: the sky and its suns. */
+const OUTSIDE = ['SKY', 'ENVIRONMENT', 'DIRECTIONAL'];
 const WARMEST_K = 1800;
 const COLDEST_K = 10000;
 
@@ -134,6 +136,21 @@ export class NewestOnly {
     }
 }
 
+/**
+ * What is to be known of a scene without a lamp of its own.
+ *
+ * @param {import('./protocol.js').Light[]} lights
+ * @returns {string} empty: it has some
+ */
+export function lampless(lights) {
+    if (lights.some(({kind}) => !OUTSIDE.includes(kind))) {
+        return '';
+    }
+    return lights.length === 0
+        ? 'Nothing in the file emits light, and there is no sky: all is dark.'
+        : 'The file has no lamps: the scene has daylight alone. Where nothing else is said, the server adds a uniform sky.';
+}
+
 export class LightPanel {
     /** Lights as the file has them, or as this page was told first, by id. @type {Map<number, LoadedLight>} */
     #loaded = new Map();
@@ -179,6 +196,9 @@ export class LightPanel {
             }
         }
         this.#refresh = [];
+        const none = byId('lights-none', HTMLElement);
+        none.textContent = lampless(scene.lights);
+        none.hidden = none.textContent === '';
         byId('lights-note', HTMLElement).hidden = true;
         byId('materials-note', HTMLElement).hidden = true;
         const lights = scene.lights.map((light) => this.#lightCard(light));

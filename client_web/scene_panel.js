@@ -103,7 +103,7 @@ export function sizeHint({min, max}) {
     const height = max.y - min.y;
     const size = Math.max(max.x - min.x, height, max.z - min.z);
     return size > LARGEST.scene || height > LARGEST.height
-        ? `This scene is ${threeDigits(size)} m large and ${threeDigits(height)} m high. If it was drawn in another unit, whoever runs the server can say so (--unit).`
+        ? `This scene is ${threeDigits(size)} m large and ${threeDigits(height)} m high. If it was drawn in another unit, whoever runs the server can say so (-\u2060-\u2060unit).`
         : '';
 }
 

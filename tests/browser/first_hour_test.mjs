@@ -157,10 +157,21 @@ describe('what the page shows', () => {
         await keepScreenshot(page, 'size_hint');
     });
 
-    it('says nothing of the size of a house', async () => {
+    it('says nothing of the size of a house, nor of lamps where it has some', async () => {
         const {page} = await openPage(server());
         await page.waitForFunction(CONNECTED);
         assert.ok(await page.isHidden('#size-hint'));
+        await page.click('#tab-light');
+        assert.ok(await page.isHidden('#lights-none'));
+    });
+
+    it('says that the file has no lamps, and what lights it', async () => {
+        const sky = {id: 1, name: 'sky', kind: 'SKY', intensity: 1000, unit: 'CD_PER_M2', colour: {x: 1, y: 1, z: 1}, on: true};
+        const {page} = await openPage(server({}, {...WELCOME, scene: {...WELCOME.scene, lights: [sky]}}));
+        await page.waitForFunction(CONNECTED);
+        await page.click('#tab-light');
+        assert.match(await page.textContent('#lights-none'), /^The file has no lamps: the scene has daylight alone\./);
+        await keepScreenshot(page, 'no_lamps');
     });
 
     it('has the legend of the picture that is there, not of the one that is coming', async () => {
