@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "gpu/gl_objects.h"
+#include "gpu/shader_program.h"
+
+namespace raybundle {
+
+struct ConfidencePrograms {
+    ShaderProgram look, evaluate;
+};
+
+/// How much a picture's pixels believe their own samples beside the light of the patches
+/// (shaders/view_confidence.glsl): measured in tiles each time that there are twice as many
+/// samples, since the noise that went meanwhile tells how much is left. Costs nothing in between.
+class Confidence {
+  public:
+    explicit Confidence(glm::uvec2 size);
+
+    /// Nothing is known: the patches' light is shown.
+    void forget();
+    /// Takes over what another one knows of its whole picture.
+    void inherit(const Confidence& other) const;
+    /// The pixels show something else, or have other samples: what is known of the whole picture
+    /// counts, and no longer that of its tiles.
+    void restart();
+
+    /// Whether it wants to look at a picture with so many samples.
+    [[nodiscard]] bool due(std::uint64_t samples) const { return samples == next_; }
+    /// Looks at the pixels of a picture, which are bound, with the vertices' light. most_decay: of
+    /// the variance of a mean, by twice as many samples.
+    void look(const ConfidencePrograms& programs, glm::uvec2 size, std::uint32_t triangle_count,
+              std::uint64_t samples, float most_decay);
+    void bind() const;
+    /// Tiles in a row, 0 while nothing is known of them.
+    [[nodiscard]] std::uint32_t columns() const { return columns_; }
+    [[nodiscard]] std::size_t bytes() const {
+        return looks_.bytes() + sums_.bytes() + light_.bytes();
+    }
+
+  private:
+    static constexpr std::uint64_t first_look = 4;  // samples: half a group
+
+    Buffer looks_, sums_, light_;
+    Texture2D texture_;
+    std::uint64_t next_ = first_look;
+    std::uint32_t columns_ = 0;
+};
+
+}  // namespace raybundle
