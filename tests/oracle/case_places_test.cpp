@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places of tests/cases: a corridor, a frosted globe.
+// Places of tests/cases: a furnace of small, thin and touching things, a corridor, a frosted globe.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "scene/gltf/gltf_loader.h"
 #include "scene/mesh/patch_mesh.h"
+#include "transport/patch_area.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
@@ -15,6 +16,50 @@ namespace raybundle {
 namespace {
 
 const std::string places = RAYBUNDLE_CASES "/places/";
+
+/// Every surface emits 100 cd/m² and reflects 0.7 of what it receives.
+constexpr double furnace_irradiance = 3.14159265358979 * 100.0 / (1.0 - 0.7);  // lx
+
+glm::vec3 centre_of(const PatchMesh& mesh, std::size_t patch) {
+    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
+}
+
+/// Area mean of the room's irradiance over the furnace's, without the floor round the three boxes
+/// that stand on it, where patches are covered in part.
+double furnace_level(std::uint64_t seed) {
+    Scene scene = load_gltf(places + "furnace.gltf");
+    TessellationSettings tessellation;
+    tessellation.patch_size = 0.3F;
+    const PatchMesh mesh = tessellate(scene, tessellation);
+    SolverSettings settings;
+    settings.seed = seed;
+    settings.coarse = {128, 256};
+    settings.coarse_iterations = 10'000;
+    Solver solver(scene, mesh, settings);
+    while (solver.iterations() < 800) {
+        solver.step({});
+    }
+    const auto irradiance = solver.store().read_irradiance();
+    double sum = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const glm::vec3 c = centre_of(mesh, i);
+        const std::uint32_t object = mesh.vertex_object[mesh.triangles[mesh.patch_triangle[i]].x];
+        if (object == 0 && c.y > 1e-3F) {
+            const double area = world_area(scene, mesh, i);
+            sum += area * static_cast<double>(irradiance[i].x);
+            total += area;
+        }
+    }
+    return sum / total / furnace_irradiance;
+}
+
+TEST(CasesPlaces, FurnaceOfSmallThinAndTouchingThingsKeepsItsLevel) {
+    for (const std::uint64_t seed : {4U, 5U}) {
+        EXPECT_NEAR(furnace_level(seed), 1.0, 0.015) << "seed " << seed;
+    }
+}
 
 double mean_luminance(ViewerImage& image) {
     const auto picture = image.read_radiance();
