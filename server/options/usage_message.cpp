@@ -57,13 +57,13 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
                                      : fmt::format("is '{}' meant?", meant));
 }
 
-std::string unknown_argument(const CLI::App& command, const std::string& word) {
-    const std::string name = command.get_name().empty() ? "raybundle" : command.get_name();
+std::string unknown_argument(const CLI::App& command, const std::string& name,
+                             const std::string& word) {
     if (!word.starts_with('-')) {
-        return fmt::format("{}: '{}' is one argument too many", name, word);
+        return fmt::format("{}'{}' is one argument too many", name, word);
     }
     const std::string meant = similar(word.substr(0, word.find('=')), option_names(command));
-    return fmt::format("{}: there is no option '{}'{}", name, word,
+    return fmt::format("{}there is no option '{}'{}", name, word,
                        meant.empty() ? "" : fmt::format("; is '{}' meant?", meant));
 }
 
@@ -72,6 +72,8 @@ std::string unknown_argument(const CLI::App& command, const std::string& word) {
 std::string usage_message(const CLI::App& app, const CLI::Error& error) {
     const auto parsed = app.get_subcommands();
     const CLI::App& command = parsed.empty() ? app : *parsed.front();
+    // The name of the whole program is how it has been called, a path.
+    const std::string name = parsed.empty() ? "" : command.get_name() + ": ";
     std::string text = error.what();
     // Its name is that of the command.
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
@@ -79,11 +81,11 @@ std::string usage_message(const CLI::App& app, const CLI::Error& error) {
         if (!words.empty()) {
             const std::string& word = words.front();
             text = parsed.empty() && !word.starts_with('-') ? unknown_command(app, word)
-                                                            : unknown_argument(command, word);
+                                                            : unknown_argument(command, name, word);
         }
     }
-    return fmt::format("raybundle: {}\nraybundle {}{}--help lists what there is\n", text,
-                       command.get_name(), command.get_name().empty() ? "" : " ");
+    return fmt::format("raybundle: {}\nraybundle {}--help lists what there is\n", text,
+                       parsed.empty() ? "" : command.get_name() + " ");
 }
 
 }  // namespace raybundle

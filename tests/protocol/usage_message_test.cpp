@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <vector>
 
 #include "options/cli_options.h"
 
@@ -16,9 +16,13 @@ std::string message_of(std::vector<std::string> arguments) {
     CLI::App app;
     Options options;
     define_options(app, options);
-    std::reverse(arguments.begin(), arguments.end());
+    arguments.insert(arguments.begin(), "build/raybundle");
+    std::vector<const char*> words;
+    for (const std::string& argument : arguments) {
+        words.push_back(argument.c_str());
+    }
     try {
-        app.parse(arguments);
+        app.parse(static_cast<int>(words.size()), words.data());
         return {};
     } catch (const CLI::ParseError& error) {
         return usage_message(app, error);
@@ -42,6 +46,8 @@ TEST(UsageMessage, NamesTheWordThatIsNotKnownAndWhatIsMeant) {
     begins(message_of({"inspect", "a.glb", "b.glb"}),
            "raybundle: inspect: 'b.glb' is one argument too many\n");
     begins(message_of({"render", "a.glb"}), "raybundle: --output is required\n");
+    begins(message_of({"--verison"}),
+           "raybundle: there is no option '--verison'; is '--version' meant?");
     EXPECT_EQ(message_of({"inspect", "a.glb"}), "");
 }
 
