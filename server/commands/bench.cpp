@@ -16,6 +16,7 @@
 #include "gpu/gl_scope.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
+#include "view/whole_file.h"
 
 namespace raybundle {
 
@@ -360,6 +361,9 @@ class SceneBench {
 }  // namespace
 
 int run_bench(const Options& options) {
+    if (!options.json_file.empty()) {
+        require_writable(options.json_file);
+    }
     const EglContext context = create_egl_context({options.gpu, false});
     Json report = {{"device", context.renderer()}};
     fmt::print("device: {}\n", context.renderer());

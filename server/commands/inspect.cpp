@@ -10,6 +10,7 @@
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "scene/scene_report.h"
+#include "view/whole_file.h"
 
 namespace raybundle {
 namespace {
@@ -55,6 +56,9 @@ int inspect_effect(const Options& options, const LoadedScene& loaded) {
 }  // namespace
 
 int run_inspect(const Options& options) {
+    if (!options.contact_sheet.empty()) {
+        require_writable(options.contact_sheet);
+    }
     const LoadedScene loaded = load_scene(options);
     if (!options.contact_sheet.empty()) {
         return inspect_effect(options, loaded);

@@ -14,6 +14,7 @@
 #include "transport/solver.h"
 #include "view/final_picture.h"
 #include "view/image_file.h"
+#include "view/whole_file.h"
 
 namespace raybundle {
 
@@ -135,6 +136,10 @@ void write_statistics(const Options& options, const EglContext& context, const S
 
 int run_render(const Options& options) {
     require_picture_format(options.output);
+    require_writable(options.output);
+    if (!options.stats.empty()) {
+        require_writable(options.stats);
+    }
     check_camera(options);
     const glm::uvec2 size = parse_size(options.size);
     const RenderMethod method = parse_method(options.method);

@@ -176,10 +176,21 @@ class Sequence {
 
 namespace {
 
-AnimationScript read_script(const Options& options, const Scene& scene) {
+/// The script's text, as far as it can be right without a scene.
+std::string script_text(const Options& options) {
     try {
         numbered_file(options.output, 0);
-        return {read_text(options.script), options.script, scene, choose_camera(scene, options)};
+        std::string text = read_text(options.script);
+        AnimationScript::require_json(text, options.script);
+        return text;
+    } catch (const ScriptError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+AnimationScript read_script(const std::string& text, const Options& options, const Scene& scene) {
+    try {
+        return {text, options.script, scene, choose_camera(scene, options)};
     } catch (const ScriptError& error) {
         throw UsageError(error.what());
     }
@@ -189,8 +200,9 @@ AnimationScript read_script(const Options& options, const Scene& scene) {
 
 int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 size,
                       const Options& options) {
+    const std::string text = script_text(options);  // before a scene that takes long
     LoadedScene loaded = load_scene(options);
-    const AnimationScript script = read_script(options, loaded.scene);
+    const AnimationScript script = read_script(text, options, loaded.scene);
     const StopRule rule(options);
     const EglContext context = create_egl_context({options.gpu, false});
     SolverSettings settings;

@@ -8,10 +8,14 @@
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "oracle/oracles.h"
+#include "view/whole_file.h"
 
 namespace raybundle {
 
 int run_selftest(const Options& options) {
+    if (!options.json_file.empty()) {
+        require_writable(options.json_file);
+    }
     const EglContext context = create_egl_context({options.gpu, false});
     nlohmann::ordered_json report = {{"device", context.renderer()},
                                      {"tests", nlohmann::ordered_json::array()}};

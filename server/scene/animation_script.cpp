@@ -140,6 +140,20 @@ std::vector<Value> between(const std::multimap<double, Value>& keys, double afte
     return result;
 }
 
+/// "[json.exception.parse_error.101] parse error at line 1 ..." without the bracket.
+std::string without_exception_id(const std::string& what) {
+    const std::size_t end = what.find("] ");
+    return end == std::string::npos ? what : what.substr(end + 2);
+}
+
+Json parsed(const std::string& text, const std::string& name) {
+    try {
+        return Json::parse(text);
+    } catch (const Json::exception& error) {
+        throw ScriptError(name + ": " + without_exception_id(error.what()));
+    }
+}
+
 }  // namespace
 
 /// Reads the keys of a script.
@@ -304,13 +318,17 @@ class ScriptReader {
     const Camera& camera_;
 };
 
+void AnimationScript::require_json(const std::string& text, const std::string& name) {
+    (void)parsed(text, name);
+}
+
 AnimationScript::AnimationScript(const std::string& text, const std::string& name,
                                  const Scene& scene, const Camera& camera) {
     try {
-        const Json json = Json::parse(text);
+        const Json json = parsed(text, name);
         ScriptReader(*this, scene, camera).read({json, "", name});
     } catch (const Json::exception& error) {
-        throw ScriptError(name + ": " + error.what());
+        throw ScriptError(name + ": " + without_exception_id(error.what()));
     }
     if (cameras_.empty()) {
         cameras_.emplace(0.0, camera);

@@ -34,6 +34,10 @@ class AnimationScript {
   public:
     static constexpr unsigned max_frames = 100000;
 
+    /// What can be said of a script before there is a scene: throws ScriptError where it is no
+    /// JSON.
+    static void require_json(const std::string& text, const std::string& name);
+
     /// name: of the file, for messages. Throws ScriptError.
     AnimationScript(const std::string& text, const std::string& name, const Scene& scene,
                     const Camera& camera);

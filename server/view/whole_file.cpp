@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/whole_file.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -22,6 +24,20 @@ void write_file(const std::string& path, const std::string& bytes) {
         std::error_code ignored;
         fs::remove(temporary, ignored);
         throw std::runtime_error(path + ": cannot be written");
+    }
+}
+
+void require_writable(const std::string& path) {
+    namespace fs = std::filesystem;
+    const fs::path parent = fs::path(path).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
+        throw std::runtime_error(path + ": cannot be written: there is no folder '" + folder + "'");
+    }
+    if (access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw std::runtime_error(path + ": cannot be written: the folder '" + folder +
+                                 "' may not be written to");
     }
 }
 

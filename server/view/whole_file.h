@@ -9,4 +9,8 @@ namespace raybundle {
 /// all. Throws std::runtime_error.
 void write_file(const std::string& path, const std::string& bytes);
 
+/// Before work that takes long: throws std::runtime_error where no file could be written there,
+/// since its folder is none or may not be written to.
+void require_writable(const std::string& path);
+
 }  // namespace raybundle

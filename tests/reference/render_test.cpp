@@ -90,6 +90,25 @@ TEST_P(RenderFailure, OtherMethodsNeedAContext) {
     EXPECT_FALSE(fs::exists(file("x.exr")));
 }
 
+/// What is wrong with an output or a script is told before the scene is read: here there is none.
+TEST_P(RenderFailure, IsToldBeforeWorkBegins) {
+    const auto render_nothing = [](const std::string& arguments) {
+        const std::string command =
+            RAYBUNDLE_EXECUTABLE " render --log-level off /nonexistent/scene.glb --iterations 1 " +
+            arguments + " 2>/dev/null";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    EXPECT_EQ(render_nothing("--method path -o " + file("x.exr")), 3) << "no scene";
+    EXPECT_EQ(render_nothing("-o /nonexistent/x.exr"), 1);
+    EXPECT_EQ(render_nothing("-o " + file("x.exr") + " --stats /nonexistent/x.json"), 1);
+    std::ofstream(file("broken.json")) << "{\"frames\": 2, \"keys\": [";
+    EXPECT_EQ(render_nothing("--script " + file("broken.json") + " -o " + file("f_%d.png")), 2);
+    std::ofstream(file("good.json")) << "{\"frames\": 2, \"keys\": []}";
+    EXPECT_EQ(render_nothing("--script " + file("good.json") + " -o " + file("f.png")), 2);
+    EXPECT_EQ(render_nothing("--script " + file("good.json") + " -o " + file("f_%d.png")), 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Gpu, RenderFailure, testing::Values("combined"));
 
 }  // namespace
