@@ -56,6 +56,7 @@ struct PixelRectangle {
     [[nodiscard]] int width() const { return x1 > x0 ? x1 - x0 : 0; }
     [[nodiscard]] int height() const { return y1 > y0 ? y1 - y0 : 0; }
     [[nodiscard]] bool empty() const { return width() == 0 || height() == 0; }
+    bool operator==(const PixelRectangle&) const = default;
 };
 
 /// Smallest rectangle inside `limit` that holds points [low, high], grown by one pixel on each

@@ -50,12 +50,18 @@ bool contains(const Bounds& box, const glm::vec3& p) {
 
 }  // namespace
 
-Hemicube::Hemicube(int n, const std::vector<std::string>& defines)
+Hemicube::Hemicube(int n, const std::vector<std::string>& defines, bool traced)
     : n_((n + 15) / 16 * 16),
       surface_ids_(create_texture_2d("hemicube surface ids", GL_R32UI, n_, 3 * n_)),
-      depths_(create_texture_2d("hemicube depths", GL_DEPTH_COMPONENT32F, n_, 3 * n_)),
-      framebuffer_(create_framebuffer("hemicube", surface_ids_.get(), depths_.get())),
-      raster_({"bundle_raster.vert", "bundle_nearest.frag"}, defines) {}
+      depths_(create_texture_2d("hemicube depths", traced ? GL_R32F : GL_DEPTH_COMPONENT32F, n_,
+                                3 * n_)) {
+    if (traced) {
+        traced_.emplace(n_, 3 * n_, true);
+        return;
+    }
+    framebuffer_ = create_framebuffer("hemicube", surface_ids_.get(), depths_.get());
+    raster_ = ShaderProgram({"bundle_raster.vert", "bundle_nearest.frag"}, defines);
+}
 
 Hemicube::FaceRectangles Hemicube::full() const {
     FaceRectangles result;
@@ -109,7 +115,60 @@ Hemicube::FaceRectangles Hemicube::covering(const BundleFrame& frame,
 }
 
 void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_distance,
-                    Place place, const FaceRectangles& rectangles) const {
+                    Place place, const FaceRectangles& rectangles) {
+    if (traced_) {
+        trace(scene, frame, near_distance, place, rectangles);
+    } else {
+        raster(scene, frame, near_distance, place, rectangles);
+    }
+}
+
+/// Rays of the pixels of a face, as hemicube_direction() of shaders/hemicube.glsl has them.
+RayGrid Hemicube::rays(const BundleFrame& frame, int face, float near_distance,
+                       const PixelRectangle& rectangle) const {
+    const FaceAxes axes = face_axes(face);
+    const glm::mat3 world_from_bundle(frame.x, frame.y, frame.z);
+    const float step = 2.0F / static_cast<float>(n_);
+    const glm::vec2 first = (frame.pixel_shift + 0.5F) * step - glm::vec2(1, face == 0 ? 1 : 0);
+    RayGrid grid;
+    grid.origin = frame.origin;
+    grid.direction = world_from_bundle * (axes.forward + first.x * axes.right + first.y * axes.up);
+    grid.direction_x = world_from_bundle * axes.right * step;
+    grid.direction_y = world_from_bundle * axes.up * step;
+    grid.near = near_distance;
+    grid.first = {rectangle.x0, rectangle.y0};
+    grid.last = {rectangle.x1, rectangle.y1};
+    grid.result_row = static_cast<std::size_t>(n_);
+    grid.result = static_cast<std::size_t>(first_row(face)) * grid.result_row;
+    grid.line_row = first_row(face);
+    return grid;
+}
+
+void Hemicube::trace(const GpuScene& scene, const BundleFrame& frame, float near_distance,
+                     Place place, const FaceRectangles& rectangles) {
+    const GlScope scope("hemicube rays");
+    std::vector<RayGrid> grids;
+    for (int face = 0; face < face_count; ++face) {
+        grids.push_back(
+            rays(frame, face, near_distance, rectangles[static_cast<std::size_t>(face)]));
+    }
+    TraceRules rules = scene.trace_rules(place);
+    rules.bundle = bundle_number(frame);
+    scene.tracer()->nearest(grids, rules, traced_->result(near_distance));
+    if (rectangles == full()) {
+        traced_->upload({0, 0, n_, 3 * n_}, surface_ids_, &depths_);
+        return;
+    }
+    for (int face = 0; face < face_count; ++face) {
+        PixelRectangle r = rectangles[static_cast<std::size_t>(face)];
+        r.y0 += first_row(face);
+        r.y1 += first_row(face);
+        traced_->upload(r, surface_ids_, &depths_);
+    }
+}
+
+void Hemicube::raster(const GpuScene& scene, const BundleFrame& frame, float near_distance,
+                      Place place, const FaceRectangles& rectangles) const {
     const GlScope scope("hemicube raster");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glEnable(GL_SCISSOR_TEST);

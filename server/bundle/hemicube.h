@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bundle/bundle_frame.h"
+#include "bundle/traced_picture.h"
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
@@ -22,8 +24,8 @@ class Hemicube {
     using FaceRectangles = std::array<PixelRectangle, face_count>;
 
     /// n: pixels along the top face, rounded up to a multiple of 16. defines: of the scene to be
-    /// drawn, see GpuScene::defines().
-    explicit Hemicube(int n, const std::vector<std::string>& defines = {});
+    /// drawn, see GpuScene::defines(). traced: by rays, where the scene has a tracer.
+    explicit Hemicube(int n, const std::vector<std::string>& defines = {}, bool traced = false);
 
     [[nodiscard]] int size() const { return n_; }
     [[nodiscard]] FaceRectangles full() const;
@@ -32,9 +34,9 @@ class Hemicube {
     [[nodiscard]] FaceRectangles covering(const BundleFrame& frame,
                                           std::span<const Bounds> boxes) const;
 
-    /// Rasterises the scene at a place into the given rectangles only.
+    /// Finds what is seen of the scene at a place in the given rectangles only.
     void draw(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
-              const FaceRectangles& rectangles) const;
+              const FaceRectangles& rectangles);
     void bind_textures() const;  ///< units 0: surface ids, 1: depths
     /// First row of a face in the stacked picture.
     [[nodiscard]] int first_row(int face) const { return face == 0 ? 0 : n_ + (face - 1) * n_ / 2; }
@@ -42,8 +44,15 @@ class Hemicube {
 
   private:
     [[nodiscard]] int face_rows(int face) const { return face == 0 ? n_ : n_ / 2; }
+    void raster(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
+                const FaceRectangles& rectangles) const;
+    [[nodiscard]] RayGrid rays(const BundleFrame& frame, int face, float near_distance,
+                               const PixelRectangle& rectangle) const;
+    void trace(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
+               const FaceRectangles& rectangles);
 
     int n_;
+    std::optional<TracedPicture> traced_;
     Texture2D surface_ids_, depths_;
     Framebuffer framebuffer_;
     ShaderProgram raster_;

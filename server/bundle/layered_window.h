@@ -18,11 +18,15 @@ namespace raybundle {
 class LayeredWindow {
   public:
     /// n: pixels along the window's side. defines: of the scene to be drawn.
-    explicit LayeredWindow(int n, const std::vector<std::string>& defines = {});
+    /// traced: by rays, where the scene has a tracer; lists are then in the order of the lines.
+    explicit LayeredWindow(int n, const std::vector<std::string>& defines = {},
+                           bool traced = false);
 
     [[nodiscard]] int size() const { return n_; }
+    /// Whether lists are in the order of the lines.
+    [[nodiscard]] bool in_order() const { return traced_; }
 
-    /// Rasterises all surfaces into the lists of a rectangle. The bundle's parameters are bound.
+    /// Puts all surfaces into the lists of a rectangle. The bundle's parameters are bound.
     /// `counters` (bound at BINDING_COUNTERS) tell whether the surfaces were too many.
     void draw(const GpuScene& scene, const ParallelWindow& window, Place place,
               const PixelRectangle& rectangle, const Buffer& counters) const;
@@ -33,9 +37,12 @@ class LayeredWindow {
     [[nodiscard]] std::size_t bytes() const { return counts_.bytes() + surfaces_.bytes(); }
 
   private:
+    void trace(const GpuScene& scene, const ParallelWindow& window, Place place,
+               const PixelRectangle& rectangle, const Buffer& counters) const;
     void empty_lists(const PixelRectangle& rectangle) const;
 
     int n_;
+    bool traced_;
     std::uint32_t capacity_ = 0;  // surfaces along a line
     Buffer counts_, surfaces_;
     Texture2D list_texture_;  // the first four surfaces of every pixel

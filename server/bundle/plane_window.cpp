@@ -15,16 +15,55 @@ bool has_thin_walls(const std::vector<std::string>& defines) {
 
 }  // namespace
 
-PlaneWindow::PlaneWindow(int n, const std::vector<std::string>& defines)
+PlaneWindow::PlaneWindow(int n, const std::vector<std::string>& defines, bool traced)
     : n_(n),
       exact_depths_(has_thin_walls(defines)),
-      surface_ids_(create_texture_2d("plane surface ids", GL_R32UI, n, 2 * n)),
-      depths_(create_texture_2d("plane depths", GL_DEPTH_COMPONENT32F, n, 2 * n)),
-      framebuffer_(create_framebuffer("plane window", surface_ids_.get(), depths_.get())),
-      raster_({"bundle_raster.vert", exact_depths_ ? "bundle_planes.frag" : "bundle_nearest.frag"},
-              with(defines, "PARALLEL 1")) {}
+      surface_ids_(create_texture_2d("plane surface ids", GL_R32UI, n, 2 * n)) {
+    if (traced) {
+        traced_.emplace(n, 2 * n, false);
+        return;
+    }
+    depths_ = create_texture_2d("plane depths", GL_DEPTH_COMPONENT32F, n, 2 * n);
+    framebuffer_ = create_framebuffer("plane window", surface_ids_.get(), depths_.get());
+    raster_ = ShaderProgram(
+        {"bundle_raster.vert", exact_depths_ ? "bundle_planes.frag" : "bundle_nearest.frag"},
+        with(defines, "PARALLEL 1"));
+}
 
-void PlaneWindow::draw(const GpuScene& scene, const ParallelWindow& window, Place place) const {
+void PlaneWindow::draw(const GpuScene& scene, const ParallelWindow& window, Place place) {
+    if (traced_) {
+        trace(scene, window, place);
+    } else {
+        raster(scene, window, place);
+    }
+}
+
+/// Two rays a pixel, from the plane both ways. What coincides back to back is a wall: the front
+/// that faces the plane wins on either side.
+void PlaneWindow::trace(const GpuScene& scene, const ParallelWindow& window, Place place) {
+    const GlScope scope("plane rays");
+    const BundleFrame& frame = window.frame;
+    TraceRules rules = scene.trace_rules(place);
+    rules.bundle = bundle_number(frame);
+    for (const bool ahead : {false, true}) {
+        RayGrid grid;
+        grid.origin = frame.origin + 0.5F * window.pixel_size * (frame.x + frame.y) +
+                      window.plane_depth * frame.z;
+        grid.origin_x = window.pixel_size * frame.x;
+        grid.origin_y = window.pixel_size * frame.y;
+        grid.direction = ahead ? frame.z : -frame.z;
+        grid.far = ahead ? window.depth - window.plane_depth : window.plane_depth;
+        grid.last = {n_, n_};
+        grid.result_row = static_cast<std::size_t>(n_);
+        grid.line_row = ahead ? n_ : 0;
+        grid.result = static_cast<std::size_t>(grid.line_row) * grid.result_row;
+        rules.sides_along_rays = ahead;
+        scene.tracer()->nearest(std::span(&grid, 1), rules, traced_->result(0.0F));
+    }
+    traced_->upload({0, 0, n_, 2 * n_}, surface_ids_, nullptr);
+}
+
+void PlaneWindow::raster(const GpuScene& scene, const ParallelWindow& window, Place place) const {
     const GlScope scope("plane raster");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};

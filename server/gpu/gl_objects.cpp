@@ -68,6 +68,23 @@ Buffer::Buffer(const std::string& label, std::size_t bytes, GLbitfield flags)
     check_memory(label, bytes_);
 }
 
+Buffer Buffer::mapped(const std::string& label, std::size_t bytes) {
+    constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    Buffer result(label, bytes, access);
+    result.data_ =
+        glMapNamedBufferRange(result.get(), 0, static_cast<GLsizeiptr>(result.bytes_), access);
+    if (result.data_ == nullptr) {
+        throw_gl_error(glGetError(), "mapping '" + label + "'");
+    }
+    return result;
+}
+
+void finish_commands() {
+    GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
+    glDeleteSync(fence);
+}
+
 void Buffer::upload(const void* data, std::size_t bytes, std::size_t offset) const {
     if (bytes > 0) {
         glNamedBufferSubData(get(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),

@@ -62,6 +62,15 @@ class Buffer {
         return result;
     }
 
+    /// Storage that this program writes directly, at any time when no command is under way that
+    /// reads it.
+    static Buffer mapped(const std::string& label, std::size_t bytes);
+    /// Of a mapped one.
+    template <typename T>
+    [[nodiscard]] T* data() const {
+        return static_cast<T*>(data_);
+    }
+
     template <typename T>
     void write(std::span<const T> values, std::size_t byte_offset) {
         upload(values.data(), values.size_bytes(), byte_offset);
@@ -86,7 +95,11 @@ class Buffer {
 
     GlName<delete_buffer> name_;
     std::size_t bytes_ = 0;
+    void* data_ = nullptr;
 };
+
+/// Waits until the GL has carried out all commands so far.
+void finish_commands();
 
 /// A buffer seen as a one-dimensional texture of texels. The buffer must outlive it.
 Texture2D create_buffer_texture(const std::string& label, GLenum format, const Buffer& buffer);

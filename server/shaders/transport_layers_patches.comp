@@ -13,6 +13,8 @@
 // over: both are taken out, which leaves one sheet within the mesh and none outside of it. One that is met alone
 // takes as much from its patch as others brought too much: in the mean a triangle, however small, gets the light
 // of its area.
+//
+// SORTED: the lists come from rays (trace/facet_tracer.h), in order, and know no rounding of a rasteriser.
 #include "layouts.glsl"
 #include "rarely.glsl"
 layout(local_size_x = 64) in;
@@ -70,6 +72,7 @@ uvec2 load_pair(ivec2 texel) {
     return face_each_other(pair) ? pair : uvec2(NO_HIT);
 }
 
+#ifndef SORTED
 bool before(Hit a, Hit b) {
     uint rank_a = faces_far(a.surface) ? ~a.surface : a.surface;
     uint rank_b = faces_far(b.surface) ? ~b.surface : b.surface;
@@ -285,12 +288,40 @@ bool advance(inout ShortList list) {
            (list.h3.surface == NO_HIT || list.h2.depth < list.h3.depth);
 }
 
+#endif
+
 /// Which pairs of a row of pixels have something to transfer.
 struct Pairs {
     uint near;  // bits: k + 1 for pair_index k, -1..2
     int last;   // greatest pair_index
 };
 
+#ifdef SORTED
+/// Loads the lists of pixels [first.x, end) of a row, which are in order (trace/line_order.h).
+Pairs sort_lists(ivec2 first, int end) {
+    Pairs pairs = Pairs(0u, -1);
+    for (ivec2 texel = first; texel.x < end; ++texel.x) {
+        uint pixel = pixel_index(texel);
+        uint count = layer_counts[pixel];
+        uvec4 sorted = texelFetch(layer_texels, int(pixel));
+        sorted.x = count > 0u ? sorted.x : NO_HIT;
+        sorted.y = count > 1u ? sorted.y : NO_HIT;
+        sorted.z = count > 2u ? sorted.z : NO_HIT;
+        sorted.w = count > 3u ? sorted.w : NO_HIT;
+        sorted_lists[texel.x - first.x] = sorted;
+        pairs.near |= face_each_other(uvec2(NO_HIT, sorted.x)) ? 1u : 0u;
+        pairs.near |= face_each_other(sorted.xy) ? 2u : 0u;
+        pairs.near |= face_each_other(sorted.yz) ? 4u : 0u;
+        pairs.near |= face_each_other(sorted.zw) ? 8u : 0u;
+#ifdef SKY
+        pairs.last = max(pairs.last, int(count) - 1);
+#else
+        pairs.last = max(pairs.last, int(count) - 2);
+#endif
+    }
+    return pairs;
+}
+#else
 /// Sorts the lists of pixels [first.x, end) of a row into sorted_lists, longer ones in memory too.
 Pairs sort_lists(ivec2 first, int end) {
     vec3 point = window_point(uvec2(first));
@@ -338,6 +369,8 @@ Pairs sort_lists(ivec2 first, int end) {
     }
     return pairs;
 }
+
+#endif
 
 /// True where the lists have no room for all surfaces: nothing is transferred then.
 bool note_overflow() {

@@ -9,6 +9,11 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/packing.hpp>
+#include <numeric>
+
+#include "gpu/octahedral.h"
+#include "trace/facet_tracer.h"
 
 namespace raybundle {
 
@@ -95,6 +100,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
         specular_rays_ = std::make_unique<SpecularRays>(
             scene, mesh, std::span(world_from_object_).first(object_count_));
     }
+    make_tracer(scene, mesh);
     choose_defines(scene, mesh);
     upload_matrices();
     place_geometry(Place::now);
@@ -253,6 +259,7 @@ void GpuScene::settle() {
     copy_half(world_positions_, std::size_t{vertex_count_} * sizeof(glm::vec4));
     copy_half(patches_, std::size_t{patch_count_} * sizeof(layout::PatchGeometry));
     facets_.settle();
+    settle_tracer();
     measure();
 }
 
@@ -360,7 +367,7 @@ Bounds GpuScene::bounds() const {
 std::size_t GpuScene::bytes() const {
     std::size_t sum = members_.bytes() + details_.bytes() + transmittance_.bytes() +
                       facets_.bytes() + facet_boxes_.bytes() + reflectance_.bytes() +
-                      reflectors_.bytes() + environment_bytes_;
+                      reflectors_.bytes() + environment_bytes_ + tracer_bytes();
     for (const Buffer* buffer :
          {&vertices_, &world_positions_, &triangles_, &patches_, &patch_triangle_, &back_side_,
           &surfaces_, &objects_, &materials_, &texels_, &vertex_data_, &vertex_triangles_}) {

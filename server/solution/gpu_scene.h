@@ -21,6 +21,12 @@
 
 namespace raybundle {
 
+class FacetTracer;
+struct TraceRules;
+
+/// What surfaces are found for.
+enum class SeenAs { hemicube, layers, planes, picture };
+
 /// Where the objects are: now, or before the change that is being corrected.
 enum class Place : unsigned { now = 0, before = 1 };
 
@@ -40,6 +46,8 @@ class GpuScene {
     /// caustics: single rays follow light by mirrors and glass, where the scene may have any.
     GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance = false,
              bool caustics = true);
+    ~GpuScene();
+    GpuScene(GpuScene&&) noexcept;
     [[nodiscard]] bool constant_radiance() const { return constant_radiance_; }
 
     /// Keeps the present place as `before` and puts MOST_MOVED objects elsewhere, at most. Uploads
@@ -70,6 +78,14 @@ class GpuScene {
     /// faces win over back faces of equal depth.
     void draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
               const ShaderProgram& program, std::span<const std::uint32_t> hidden = {}) const;
+
+    /// What finds by rays what draw() draws; null where the rasteriser alone does.
+    [[nodiscard]] FacetTracer* tracer() const { return tracer_.get(); }
+    /// Whether rays find the surfaces of so many pixels. That depends on numbers alone, never on a
+    /// clock, so that results are the same each time.
+    [[nodiscard]] bool traces(SeenAs kind, std::size_t pixels) const;
+    /// How it does so for bundles.
+    [[nodiscard]] TraceRules trace_rules(Place place) const;
 
     void bind() const;  ///< all storage buffers and buffer textures of this class
     /// What the scene calls for, as macros for its shaders: PATCH_SETS, DOUBLE_SIDED, TEXTURED,
@@ -155,6 +171,9 @@ class GpuScene {
     void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
     void upload_matrices();
+    void make_tracer(const Scene& scene, const PatchMesh& mesh);
+    void settle_tracer();
+    [[nodiscard]] std::size_t tracer_bytes() const;
     void place_geometry(Place place) const;
     void measure();
     void find_pieces(const Scene& scene, const PatchMesh& mesh);
@@ -193,6 +212,8 @@ class GpuScene {
 
     ReflectanceTables reflectance_;
     std::unique_ptr<SpecularRays> specular_rays_;
+    std::unique_ptr<FacetTracer> tracer_;
+    bool always_traces_ = false;
     Buffer world_positions_;
     FacetRaster facets_;
     FacetBoxes facet_boxes_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solution/gpu_scene.h"
+#include "trace/facet_tracer.h"
 
 namespace raybundle {
 
@@ -37,6 +38,9 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
         const layout::MaterialData data = material_data(scene, index);
         materials_.write<layout::MaterialData>(std::span(&data, 1),
                                                index * sizeof(layout::MaterialData));
+        if (tracer_) {
+            tracer_->update_material(scene, index);
+        }
     }
     upload_details(scene);
     upload_surfaces(mesh);
@@ -85,6 +89,9 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
         facet_boxes_.place(move.object, world_from_object_[move.object]);
         if (specular_rays_) {
             specular_rays_->place(move.object, world_from_object_[move.object]);
+        }
+        if (tracer_) {
+            tracer_->move(move.object, world_from_object_[move.object]);
         }
     }
     upload_matrices();

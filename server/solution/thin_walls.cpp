@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/thin_walls.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
+
+#include "trace/embree_objects.h"
 
 namespace raybundle {
 
@@ -14,15 +14,6 @@ namespace {
 
 constexpr float thin_share = 2e-4F;      // of the scene's diameter
 constexpr float sliver_share = 2.5e-3F;  // of the scene's diameter
-
-struct DeviceDeleter {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneDeleter {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 
 std::vector<glm::vec3> world_positions(const Scene& scene, const PatchMesh& mesh) {
     std::vector<glm::mat4> matrices;
@@ -59,7 +50,7 @@ EmbreeScene build(RTCDevice device, const std::vector<glm::vec3>& positions,
 }  // namespace
 
 bool has_thin_walls(const Scene& scene, const PatchMesh& mesh) {
-    const Device device(rtcNewDevice(nullptr));
+    const EmbreeDevice device(rtcNewDevice(nullptr));
     if (!device) {
         return true;  // cannot tell: keep the guard
     }

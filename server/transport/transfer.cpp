@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 #include "gpu/egl_context.h"
 
@@ -23,8 +24,11 @@ unsigned parallel_run() {
 
 /// Program of a parallel bundle whose invocations sum `run` pixels each.
 ShaderProgram parallel_program(const std::string& file, const GpuScene& scene, unsigned run,
-                               unsigned longest_list = 0) {
+                               unsigned longest_list = 0, bool sorted = false) {
     std::vector<std::string> defines = scene.defines();
+    if (sorted) {
+        defines.emplace_back("SORTED 1");
+    }
     defines.push_back("RUN_LENGTH " + std::to_string(run));
     defines.push_back("LONGEST_LIST " + std::to_string(longest_list));
     return ShaderProgram({file}, defines);
@@ -59,6 +63,10 @@ std::uint32_t longest_list(std::uint32_t capacity) {
 constexpr unsigned row_stride = 4;
 constexpr unsigned special_row_stride = 2;
 
+std::size_t square(int size) {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+}
+
 glm::ivec4 to_vector(const PixelRectangle& r) {
     return {r.x0, r.y0, r.x1, r.y1};
 }
@@ -80,24 +88,29 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
                    const BundleResolution& resolution)
     : scene_(scene),
       store_(store),
-      hemicube_(resolution.hemicube, scene.defines()),
-      layers_(resolution.window, scene.defines()),
+      hemicube_(resolution.hemicube, scene.defines(),
+                scene.traces(SeenAs::hemicube, 3 * square(resolution.hemicube))),
+      layers_(resolution.window, scene.defines(),
+              scene.traces(SeenAs::layers, square(resolution.window))),
       parameters_("bundle parameters", sizeof(layout::BundleParameters)),
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_patches_(layered_patches(scene, longest_list(layers_.capacity()))) {
+      layers_patches_(layered_patches(longest_list(layers_.capacity()))) {
     if (scene.reflectance().any_glossy()) {
         hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
                                                  with(scene.defines(), "SHOOTER_GLOSSY 1"));
     }
 }
 
-Transfer::LayeredPatches Transfer::layered_patches(const GpuScene& scene,
-                                                   std::uint32_t longest_list) {
+Transfer::LayeredPatches Transfer::layered_patches(std::uint32_t longest_list) const {
+    if (layers_.in_order()) {
+        return {std::numeric_limits<std::uint32_t>::max(), parallel_run(),
+                parallel_program("transport_layers_patches.comp", scene_, parallel_run(), 0, true)};
+    }
     const unsigned run = layered_run(longest_list);
     return {longest_list, run,
-            parallel_program("transport_layers_patches.comp", scene, run, longest_list)};
+            parallel_program("transport_layers_patches.comp", scene_, run, longest_list)};
 }
 
 ParallelWindow Transfer::parallel_window(const IterationSample& sample) const {
@@ -247,7 +260,8 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
 void Transfer::plane(const ParallelWindow& window, const TransferSettings& settings,
                      std::span<BundleReceiver* const> receivers) {
     if (!planes_) {
-        planes_ = Planes{PlaneWindow(layers_.size(), scene_.defines()),
+        planes_ = Planes{PlaneWindow(layers_.size(), scene_.defines(),
+                                     scene_.traces(SeenAs::planes, 2 * square(layers_.size()))),
                          parallel_program("transport_planes_patches.comp", scene_, parallel_run())};
     }
     const Place place = settings.context.place;
@@ -283,7 +297,7 @@ std::uint32_t Transfer::take_overflow() {
     if (counters.overflow_mask != 0) {
         layers_.grow(counters.wanted + counters.wanted / 4);
         if (layers_.capacity() > layers_patches_.longest_list) {
-            layers_patches_ = layered_patches(scene_, longest_list(layers_.capacity()));
+            layers_patches_ = layered_patches(longest_list(layers_.capacity()));
         }
     }
     return counters.overflow_mask;

@@ -89,7 +89,7 @@ class Transfer {
         unsigned run;  // pixels of a row that an invocation sorts and sums
         ShaderProgram program;
     };
-    static LayeredPatches layered_patches(const GpuScene& scene, std::uint32_t longest_list);
+    [[nodiscard]] LayeredPatches layered_patches(std::uint32_t longest_list) const;
     LayeredPatches layers_patches_;
     /// Exists from the first plane bundle on.
     struct Planes {

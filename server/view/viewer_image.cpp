@@ -61,8 +61,14 @@ void ViewerImage::allocate() {
     scatter_ = Buffer("pixel scatter", probes * SCATTER_SUMS * sizeof(float));
     frame_ = Buffer("frame", pixels * sizeof(std::uint32_t));
     surface_ids_ = create_texture_2d("view surface ids", GL_R32UI, width, height);
-    depths_ = create_texture_2d("view depths", GL_DEPTH_COMPONENT32F, width, height);
-    framebuffer_ = create_framebuffer("view", surface_ids_.get(), depths_.get());
+    const bool traced = scene_.traces(SeenAs::picture, pixels);
+    depths_ =
+        create_texture_2d("view depths", traced ? GL_R32F : GL_DEPTH_COMPONENT32F, width, height);
+    if (traced) {
+        traced_.emplace(width, height, true);
+    } else {
+        framebuffer_ = create_framebuffer("view", surface_ids_.get(), depths_.get());
+    }
     frame_readback_.emplace("frame readback", frame_.bytes());
     delta_.clear();
     scatter_.clear();
@@ -201,69 +207,11 @@ PixelRectangle ViewerImage::whole_picture() const {
     return {0, 0, static_cast<int>(size_.x), static_cast<int>(size_.y)};
 }
 
-void ViewerImage::begin_raster(const PixelRectangle& rectangle) const {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(rectangle.x0, rectangle.y0, rectangle.width(), rectangle.height());
-    const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
-    const float far_depth = 0.0F;
-    glClearBufferuiv(GL_COLOR, 0, no_hit);
-    glClearBufferfv(GL_DEPTH, 0, &far_depth);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);
-}
-
-void ViewerImage::end_raster() {
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_SCISSOR_TEST);
-}
-
-/// Draws the scene as seen at a place in each pixel, from its centre, pixels.
-void ViewerImage::raster_shifted(const ShaderProgram& program, const glm::vec2& place,
-                                 const PixelRectangle& rectangle) const {
-    // A place at +x sees what the centre sees of a picture shifted by -x.
-    const glm::vec2 shift = -2.0F * place / glm::vec2(size_);
-    const glm::mat4 clip_from_world =
-        glm::translate(glm::mat4(1.0F), glm::vec3(shift, 0.0F)) * parameters_.clip_from_world;
-    program.use();
-    program.set("clip_from_world", clip_from_world);
-    scene_.draw(Place::now, narrowed(clip_from_world, rectangle, glm::ivec2(size_)), true, program,
-                camera_.hidden);
-}
-
-/// Draws the scene as the pixels of a rectangle are looked at.
-void ViewerImage::raster_pixels(const PixelRectangle& rectangle) const {
-    const GlScope scope("view raster");
-    begin_raster(rectangle);
-    if (grid_ == 1) {
-        raster_shifted(programs_.raster, glm::vec2(0.0F), rectangle);
-    } else {
-        const ShaderProgram& program = programs_.raster_staggered;
-        for (unsigned y = 0; y < STAGGER_PERIOD; ++y) {
-            for (unsigned x = 0; x < STAGGER_PERIOD; ++x) {
-                program.set("remainder_x", x);
-                program.set("remainder_y", y);
-                raster_shifted(program, place_in_pixel(parameters_, glm::uvec2(x, y)), rectangle);
-            }
-        }
-    }
-    end_raster();
-}
-
-/// Draws the scene as seen at the edge filter's next place.
-void ViewerImage::raster_sub_sample() const {
-    const GlScope scope("view sub-sample raster");
-    begin_raster(whole_picture());
-    raster_shifted(programs_.raster, edges_->next_offset(), whole_picture());
-    end_raster();
-}
-
 bool ViewerImage::smooth_step() {
     if (!has_picture_ || size_ != full_size_ || edges_->complete()) {
         return false;
     }
-    raster_sub_sample();
+    see_sub_sample();
     store_.bind();
     bind_pixels();
     glBindTextureUnit(UNIT_SURFACE_IDS, surface_ids_.get());
@@ -288,7 +236,7 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     }
     upload_view();
     if (ends_ == nullptr) {
-        raster_pixels(whole_picture());
+        see_pixels(whole_picture());
     }
     std::swap(pixels_, old_pixels_);
     std::swap(irradiance_, old_irradiance_);

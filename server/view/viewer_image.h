@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bundle/bundle_frame.h"
+#include "bundle/traced_picture.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
 #include "solution/radiance_store.h"
@@ -229,6 +230,10 @@ class ViewerImage : public BundleReceiver {
     static void end_raster();
     void raster_shifted(const ShaderProgram& program, const glm::vec2& place,
                         const PixelRectangle& rectangle) const;
+    void see_pixels(const PixelRectangle& rectangle);
+    void see_sub_sample();
+    void trace(std::span<const RayGrid> grids, const PixelRectangle& rectangle);
+    void trace_pixels(const PixelRectangle& rectangle);
     void raster_pixels(const PixelRectangle& rectangle) const;
     void raster_sub_sample() const;
     void create_pixel_textures();
@@ -307,6 +312,7 @@ class ViewerImage : public BundleReceiver {
     Buffer first_shot_;                         // only where it has punctual lights
     Texture2D first_shot_texture_;
     Texture2D gloss_texture_, old_gloss_texture_;
+    std::optional<TracedPicture> traced_;  // only where rays find what pixels see
     Texture2D surface_ids_, depths_;
     Texture2D pixel_texture_, old_pixel_texture_, irradiance_texture_, old_irradiance_texture_;
     Texture2D vertex_irradiance_texture_;

@@ -111,7 +111,7 @@ void ViewerImage::refresh_moved() {
     old_ = {parameters_.clip_from_world, size_, glm::vec3(parameters_.eye), parameters_.weights.x,
             glm::vec3(parameters_.constant)};
     upload_view();
-    raster_pixels(rectangle);
+    see_pixels(rectangle);
     copy_rows(rectangle);
     store_.bind();
     bind_pixels();

@@ -21,7 +21,7 @@ const std::string places = RAYBUNDLE_CASES "/places/";
 constexpr double furnace_irradiance = 3.14159265358979 * 100.0 / (1.0 - 0.7);  // lx
 
 glm::vec3 centre_of(const PatchMesh& mesh, std::size_t patch) {
-    const glm::uvec3& t = mesh.triangles[mesh.patch_triangle[patch]];
+    const glm::uvec3& t = mesh.triangles[mesh.side_triangle[patch]];
     return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
 }
 
@@ -31,6 +31,7 @@ double furnace_level(std::uint64_t seed) {
     Scene scene = load_gltf(places + "furnace.gltf");
     TessellationSettings tessellation;
     tessellation.patch_size = 0.3F;
+    tessellation.join_triangles = false;  // each patch is a side of one triangle
     const PatchMesh mesh = tessellate(scene, tessellation);
     SolverSettings settings;
     settings.seed = seed;
@@ -45,7 +46,7 @@ double furnace_level(std::uint64_t seed) {
     double total = 0.0;
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
         const glm::vec3 c = centre_of(mesh, i);
-        const std::uint32_t object = mesh.vertex_object[mesh.triangles[mesh.patch_triangle[i]].x];
+        const std::uint32_t object = mesh.vertex_object[mesh.triangles[mesh.side_triangle[i]].x];
         if (object == 0 && c.y > 1e-3F) {
             const double area = world_area(scene, mesh, i);
             sum += area * static_cast<double>(irradiance[i].x);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+
+#include "scene/mesh/patch_mesh.h"
+#include "trace/line_order.h"
+#include "trace/ray_grid.h"
+
+namespace raybundle {
+
+/// Builds bundles and pictures by rays, where OpenGL runs on the processor: the same surfaces that
+/// the rasteriser finds, at a cost that hardly grows with their number. Surfaces are 2 * facet +
+/// side. Works on all cores; results do not depend on their number.
+class FacetTracer {
+  public:
+    /// world_from_object: of each object, the world being the one of the rays. Throws
+    /// std::runtime_error where there is no memory for the tree.
+    FacetTracer(const Scene& scene, const PatchMesh& mesh,
+                std::span<const glm::mat4> world_from_object);
+    ~FacetTracer();
+
+    void update_material(const Scene& scene, std::size_t material);
+    /// Keeps where a movable object is as its place before, until settle(), and puts it elsewhere.
+    /// Throws std::invalid_argument for one that is not movable.
+    void move(std::uint32_t object, const glm::mat4& world_from_object);
+    void settle();
+
+    /// Where first hits go: by place of the pixel, see RayGrid::result.
+    struct Nearest {
+        std::uint32_t* surfaces = nullptr;  ///< no_hit where there is none
+        float* depths =
+            nullptr;  ///< where they are wanted: depth_scale / way, 0 where there is none
+        float depth_scale = 0.0F;
+    };
+    static constexpr std::uint32_t no_hit = 0xffffffffU;
+    /// What rays meet first. hidden: objects that they do not meet.
+    void nearest(std::span<const RayGrid> grids, const TraceRules& rules, const Nearest& result,
+                 std::span<const std::uint32_t> hidden = {});
+
+    /// Where all hits of the lines go, as shaders/layers.glsl lays them out.
+    struct Lists {
+        std::uint32_t* counts = nullptr;
+        std::uint32_t* surfaces = nullptr;
+        std::size_t pixels = 0;      ///< of the window
+        std::uint32_t capacity = 0;  ///< surfaces of a line that there is room for
+    };
+    /// All that lines meet, in order. Returns the length of the longest list; those beyond the
+    /// capacity are cut off.
+    std::uint32_t all(const RayGrid& grid, const TraceRules& rules, const LineOrder& order,
+                      const Lists& result);
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace raybundle
