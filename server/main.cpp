@@ -14,6 +14,7 @@
 #include "options/log_settings.h"
 #include "options/usage_message.h"
 #include "scene/gltf/gltf_loader.h"
+#include "trace/bundle_builder.h"
 
 namespace {
 
@@ -86,6 +87,8 @@ int parse_and_run(int argc, char** argv) {
     }
     try {
         raybundle::set_log(options);
+        raybundle::set_bundle_builder(raybundle::bundle_builder_named(options.bundles)
+                                          .value_or(raybundle::BundleBuilder::automatic));
         return run(options, app);
     } catch (const raybundle::UsageError& error) {
         return report(raybundle::exit_usage, error);

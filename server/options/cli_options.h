@@ -50,6 +50,7 @@ struct Options {
 
     // All commands.
     int gpu = -1;
+    std::string bundles = "auto";
     bool list_gpus = false;
     std::string unit = "m";
     // Daylight; option_table.cpp says what each means.

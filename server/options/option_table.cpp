@@ -38,6 +38,10 @@ std::string log_format_problem(const std::string& text) {
     return none_of<2>(text, {"text", "json"});
 }
 
+std::string bundles_problem(const std::string& text) {
+    return none_of<3>(text, {"auto", "raster", "trace"});
+}
+
 std::string unit_problem(const std::string& text) {
     return none_of<5>(text, {"m", "cm", "mm", "in", "ft"});
 }
@@ -121,6 +125,10 @@ constexpr std::array serve_table{
     ServeOption{"seed", "Of all random numbers", &Options::seed, 0, no_limit},
     ServeOption{"gpu", "EGL device number, see --list-gpus (-1: the first usable one)",
                 &Options::gpu, -1, 1000, nullptr, true},
+    ServeOption{"bundles",
+                "What finds the surfaces that bundles and pictures see: raster, trace (rays on the "
+                "processor), or auto, which is quicker",
+                &Options::bundles, 0, 0, bundles_problem, true},
     ServeOption{"unit", "Length unit of the scene file: m, cm, mm, in, ft", &Options::unit, 0, 0,
                 unit_problem, true},
     ServeOption{"sky",
