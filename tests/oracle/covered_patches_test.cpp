@@ -43,7 +43,7 @@ double level(const SceneBuilder& b, std::uint64_t seed) {
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < std::size_t{6 * 8 * 8 * 2}; ++i) {
-        if (!covered(b.cell_centre(b.mesh.patch_triangle[i]))) {
+        if (!covered(b.cell_centre(b.mesh.side_triangle[i]))) {
             sum += static_cast<double>(irradiance[i].x);
             count += 1.0;
         }
