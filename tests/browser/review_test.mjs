@@ -65,7 +65,7 @@ describe('a review', () => {
         const [, lux, , error] = await page.$$eval('#points tbody td', (cells) =>
             cells.map(({textContent}) => textContent),
         );
-        assert.match(lux, /^(about )?\d[\d\u202f.]* lx$/);
+        assert.match(lux, /^(≈ )?\d[\d\u202f.]* lx$/);
         assert.match(error, /^(not yet known|still uncertain|± [\d.]+ %)$/);  // early it is hardly known
         // Floor: Lambert, so luminance is illuminance * albedo / pi.
         const {illuminance, luminance, relativeError} = await page.evaluate(
@@ -91,7 +91,7 @@ describe('a review', () => {
         const value = (name) => page.textContent(`[data-value="${name}"]`);
         const lux = async (name) => parseFloat((await value(name)).replace('≈ ', '').replace('\u202f', ''));
         const [min, mean, max] = [await lux('gridMin'), await lux('gridMean'), await lux('gridMax')];
-        assert.ok(min < mean && mean <= max, `${min}, ${mean}, ${max}`);
+        assert.ok(min <= mean && mean <= max, `${min}, ${mean}, ${max}`);  // of one digit while errors are unknown
         const uniformity = await page.evaluate(() => {
             const seen = window.raybundleParts.gridPanel.shown.result.illuminance.filter((lux) => lux >= 0);
             return (Math.min(...seen) * seen.length) / seen.reduce((sum, lux) => sum + lux, 0);
@@ -136,7 +136,8 @@ describe('a review', () => {
         const {page} = ann;
         const x = () => page.evaluate(() => window.raybundleParts.gridPanel.shown.grid.origin.x);
         const before = await x();
-        const values = await page.textContent('[data-value="gridMean"]');
+        const measured = () => page.evaluate(() => String(window.raybundleParts.gridPanel.shown.result.illuminance));
+        const values = await measured();
         const shift = (by) =>
             page.evaluate((metres) => {
                 const {client, selected} = window.raybundle;
@@ -151,7 +152,7 @@ describe('a review', () => {
             const {shown} = window.raybundleParts.gridPanel;
             return !shown.outdated && shown.result.epoch === window.raybundle.scene.epoch;
         });
-        assert.notEqual(await page.textContent('[data-value="gridMean"]'), values);
+        assert.notEqual(await measured(), values);
         await keepScreenshot(page, 'grid_on_moved_box');
         await shift(0.4);
         await page.click('#clear-grid');
