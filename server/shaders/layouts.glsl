@@ -410,6 +410,6 @@ struct ViewParameters {
     vec4 sun_radiance;  // cd/m^2
     vec4 weights;       // x: weight of all samples since the last resolve; since the scatter sums began, y: the same, z: sum of squared weights
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
-    vec4 confidence;    // x: tiles in a row, 0: none, see view_confidence.glsl
+    vec4 confidence;    // tiles in a row, 0: none, and in a column; z: a tile's edge, pixels; see view_confidence.glsl
     vec4 places[STAGGER_PERIOD * STAGGER_PERIOD / 2];  // of the pixels' samples, two each, see view_place.glsl
 };

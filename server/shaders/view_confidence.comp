@@ -9,7 +9,8 @@
 // b^2: noise of neighbouring pixels is alike, so that D^2 of a tile is hardly better known than by one number: 1 - N/D^2, N =
 // v/n, would let a third of pure noise pass. So tiles have what all have in the mean, over their squared light; and where D is
 // beyond three standard deviations, what it says itself, for it is a shadow or a corner that patches do not resolve. Where few
-// samples have brought next to nothing they do not scatter either, so that there the scatter of tiles near by decides.
+// samples have brought next to nothing they do not scatter either, so that so many are asked for that by the scatter of
+// tiles near by light is not missed by chance.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
@@ -21,6 +22,7 @@ uniform bool whole;  // the whole picture, by one work group; else its tiles
 uniform bool again;  // there has been a look before the last one
 uniform float most_decay;  // of the variance by twice as many samples
 const float sure = 9.0;  // three standard deviations, squared
+const float missed = 5.9;  // events of a rate are missed with the same probability: exp(-5.9) = 0.0027
 
 struct Tile {
     vec4 differences;
@@ -106,20 +108,19 @@ Tile around(uint tile) {
     return sum;
 }
 
-/// The most that samples scatter over the squared light of the patches, of the tiles near one: some have been reached by
-/// light that has missed others by chance.
+/// Variance of samples over the squared light near a tile, some of which has been reached by light that has missed the rest by
+/// chance. Light that comes with a share r of the samples has 1/r.
 float scatter_near(uint tile) {
     const int reach = 3;
     ivec2 at = ivec2(tile % columns, tile / columns);
-    float most = 0.0;
+    vec2 sum = vec2(0.0);
     for (int y = max(at.y - reach, 0); y <= min(at.y + reach, int(rows) - 1); ++y) {
         for (int x = max(at.x - reach, 0); x <= min(at.x + reach, int(columns) - 1); ++x) {
             Tile other = tile_at(uint(y) * columns + uint(x));
-            float squared_light = other.light.y / max(other.light.x, 1.0);
-            most = max(most, squared_light > 0.0 ? scatter_of(other) / squared_light : 0.0);
+            sum += vec2(scatter_of(other) * other.light.x, other.light.y);
         }
     }
-    return most;
+    return sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
 
 void main() {
@@ -138,7 +139,8 @@ void main() {
     float usual = light[1].y * squared_light;
     float scatter = mix(usual, scatter_of(tile), samples / (samples + float(GROUP_SIZE)));
     float variance = light[1].x * scatter;
-    Found found = found_in(tile, variance, light[1].x, max(light[1].y, scatter_near(number)));
+    Found found = found_in(tile, variance, light[1].x, 0.0);
     float own = max(1.0 - found.doubt / max(found.square, 1e-30), 0.0) * max(found.square - found.noise, 0.0);
+    own = samples > missed * scatter_near(number) ? own : 0.0;
     light[CONFIDENCE_WHOLE + number] = vec2(variance, max(light[0].y * squared_light, own));
 }

@@ -21,13 +21,12 @@ vec2 light_of_tile(ivec2 tile, ivec2 tiles) {
 
 /// x: v, y: b^2 round a pixel, to a common factor.
 vec2 local_light(uint index) {
-    int columns = int(view.confidence.x);
-    if (columns == 0) {
+    ivec2 tiles = ivec2(view.confidence.xy);
+    if (tiles.x == 0) {
         return texelFetch(confidence_texels, 0).xy;
     }
-    ivec2 tiles = ivec2(columns, (int(view.size.y) + CONFIDENCE_TILE - 1) / CONFIDENCE_TILE);
     uint row = index / view.size.x;
-    vec2 at = (vec2(index - row * view.size.x, row) + 0.5) / float(CONFIDENCE_TILE) - 0.5;
+    vec2 at = (vec2(index - row * view.size.x, row) + 0.5) / view.confidence.z - 0.5;
     ivec2 corner = ivec2(floor(at));
     vec2 f = at - vec2(corner);
     vec2 below = mix(light_of_tile(corner, tiles), light_of_tile(corner + ivec2(1, 0), tiles), f.x);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/confidence.h"
 
-#include "gpu/layouts.h"
+#include <algorithm>
 
 namespace raybundle {
 
@@ -35,32 +35,42 @@ void Confidence::inherit(const Confidence& other) const {
                              CONFIDENCE_WHOLE * sizeof(glm::vec2));
 }
 
+void Confidence::inherit_tiles(const Confidence& other, unsigned factor) {
+    tiles_ = other.tiles_;
+    tile_ = other.tile_ * factor;
+    glCopyNamedBufferSubData(
+        other.light_.get(), light_.get(), 0, 0,
+        static_cast<GLsizeiptr>(std::min(other.light_.bytes(), light_.bytes())));
+}
+
 void Confidence::restart() {
     next_ = first_look;
-    columns_ = 0;
+    looked_ = false;
+    tiles_ = glm::uvec2(0);
 }
 
 void Confidence::look(const ConfidencePrograms& programs, glm::uvec2 size,
                       std::uint32_t triangle_count, std::uint64_t samples, float most_decay) {
-    const bool first = samples == first_look;
     const glm::uvec2 tiles = tiles_of(size);
     looks_.bind_storage(BINDING_CONFIDENCE_LOOK);
     sums_.bind_storage(BINDING_CONFIDENCE_SUMS);
     light_.bind_storage(BINDING_CONFIDENCE);
     programs.look.set("triangle_count", triangle_count);
-    programs.look.set("first", first);
+    programs.look.set("first", !looked_);
     programs.look.dispatch_groups(tiles.x, tiles.y);
-    if (!first) {
+    if (looked_) {
         programs.evaluate.set("columns", tiles.x);
         programs.evaluate.set("rows", tiles.y);
-        programs.evaluate.set("again", samples > 2 * first_look);
+        programs.evaluate.set("again", tiles_ == tiles && tile_ == CONFIDENCE_TILE);
         programs.evaluate.set("most_decay", most_decay);
         programs.evaluate.set("whole", true);
         programs.evaluate.dispatch(1);
         programs.evaluate.set("whole", false);
         programs.evaluate.dispatch(count_of(tiles));
-        columns_ = tiles.x;
+        tiles_ = tiles;
+        tile_ = CONFIDENCE_TILE;
     }
+    looked_ = true;
     next_ = 2 * samples;
 }
 

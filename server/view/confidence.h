@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/gl_objects.h"
+#include "gpu/layouts.h"
 #include "gpu/shader_program.h"
 
 namespace raybundle {
@@ -24,19 +25,22 @@ class Confidence {
     void forget();
     /// Takes over what another one knows of its whole picture.
     void inherit(const Confidence& other) const;
+    /// Takes over its tiles, too, of a picture with so many times fewer pixels along each edge.
+    void inherit_tiles(const Confidence& other, unsigned factor);
     /// The pixels show something else, or have other samples: what is known of the whole picture
     /// counts, and no longer that of its tiles.
     void restart();
 
     /// Whether it wants to look at a picture with so many samples.
-    [[nodiscard]] bool due(std::uint64_t samples) const { return samples == next_; }
+    [[nodiscard]] bool due(std::uint64_t samples) const { return samples >= next_; }
     /// Looks at the pixels of a picture, which are bound, with the vertices' light. most_decay: of
     /// the variance of a mean, by twice as many samples.
     void look(const ConfidencePrograms& programs, glm::uvec2 size, std::uint32_t triangle_count,
               std::uint64_t samples, float most_decay);
     void bind() const;
-    /// Tiles in a row, 0 while nothing is known of them.
-    [[nodiscard]] std::uint32_t columns() const { return columns_; }
+    /// Tiles along both edges, 0 while nothing is known of them, and the pixels along a tile's
+    /// edge.
+    [[nodiscard]] glm::vec3 tiles() const { return {tiles_, tile_}; }
     [[nodiscard]] std::size_t bytes() const {
         return looks_.bytes() + sums_.bytes() + light_.bytes();
     }
@@ -47,7 +51,9 @@ class Confidence {
     Buffer looks_, sums_, light_;
     Texture2D texture_;
     std::uint64_t next_ = first_look;
-    std::uint32_t columns_ = 0;
+    bool looked_ = false;
+    glm::uvec2 tiles_{0};
+    std::uint32_t tile_ = CONFIDENCE_TILE;
 };
 
 }  // namespace raybundle

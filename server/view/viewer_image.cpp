@@ -166,6 +166,8 @@ void ViewerImage::refine(unsigned factor) {
     Texture2D pixel_texture = std::move(pixel_texture_);
     Texture2D irradiance_texture = std::move(irradiance_texture_);
     Texture2D gloss_texture = std::move(gloss_texture_);
+    const Confidence confidence = std::move(*confidence_);
+    confidence_.reset();
     grid_ *= factor;
     full_size_ *= factor;
     size_ = full_size_;
@@ -182,6 +184,8 @@ void ViewerImage::refine(unsigned factor) {
     parameters_.weights.y = weights.y;
     parameters_.weights.z = weights.z;
     scatter_samples_ = scatter_samples;
+    confidence_->inherit_tiles(confidence, factor);
+    tell_confidence();
     old_pixels_ = std::move(pixels);
     old_irradiance_ = std::move(irradiance);
     old_gloss_ = std::move(gloss);

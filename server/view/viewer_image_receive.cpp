@@ -56,7 +56,7 @@ void ViewerImage::begin_sample() {
     if (continued() != nullptr) {
         continued()->begin_sample();
     }
-    if (grid_ > 1 || !confidence_->due(scatter_samples_)) {
+    if (!confidence_->due(scatter_samples_)) {
         return;
     }
     store_.bind();
@@ -81,8 +81,8 @@ void ViewerImage::renew_confidence() {
 
 void ViewerImage::tell_confidence() {
     // The ends behind mirrors have no neighbours.
-    const float columns = ends_ == nullptr ? static_cast<float>(confidence_->columns()) : 0.0F;
-    parameters_.confidence = {columns, 0.0F, 0.0F, 0.0F};
+    const bool tiles = ends_ == nullptr;
+    parameters_.confidence = glm::vec4(tiles ? confidence_->tiles() : glm::vec3(0.0F), 0.0F);
 }
 
 void ViewerImage::receive_hemicube(const Context& context) {
