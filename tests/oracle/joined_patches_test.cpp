@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "moved_box.h"
 #include "oracle/oracle_solve.h"
 #include "oracle/scene_builder.h"
 #include "scene/mesh/patch_means.h"
@@ -235,7 +236,7 @@ double leaked(bool join) {
     const PatchMesh mesh = tessellate(scene, settings);
     EXPECT_EQ(mesh.patch_sets.empty(), !join);
     OracleSettings brief;
-    brief.iterations = 256;
+    brief.iterations = 128;
     const auto irradiance = solve(scene, mesh, brief).store().read_irradiance();
     double largest = 0.0;
     for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
@@ -249,6 +250,47 @@ double leaked(bool join) {
 /// Triangles that stand half below a wall leak by themselves, joined ones no more.
 TEST(JoinedPatches, LeakNoMoreThanTheirTriangles) {
     EXPECT_LE(leaked(true), leaked(false));
+}
+
+/// A point light of 1000 lm in a black closed room, whose walls' triangles share patches.
+TEST(JoinedPatches, TakeAllTheLightOfALampWithoutExtent) {
+    SceneBuilder b;
+    b.add_box({0, 0, 0}, {4, 3, 5}, true, 12, b.add_material(glm::vec3(0.0F)));
+    b.join(6);
+    PunctualLight light;
+    light.position = {1.1F, 1.8F, 1.9F};
+    light.intensity = glm::vec3(250.0F / std::numbers::pi_v<float>);
+    b.scene.punctual_lights.push_back(light);
+    const Solver solver(b.scene, b.mesh);
+    const auto irradiance = solver.store().read_irradiance();
+    double flux = 0.0;
+    for (std::uint32_t side = 0; side < b.mesh.side_count(); ++side) {
+        flux += double{side_area(b.mesh, side)} *
+                static_cast<double>(irradiance[b.mesh.patch_of(side)].g);
+    }
+    EXPECT_NEAR(flux, 1000.0, 10.0);
+}
+
+/// As Move.CorrectionBringsTheSolutionTowardsTheFreshOne, of patches of four triangles.
+TEST(JoinedPatches, AreCorrectedAfterAMove) {
+    const glm::vec3 second_place(2.6F, 0.0F, 2.4F);
+    SceneBuilder before = room_with_box({1.2F, 0.0F, 1.5F});
+    SceneBuilder after = room_with_box(second_place);
+    before.join(4);
+    after.join(4);
+    Solver fresh(after.scene, after.mesh, quick_settings(11, {128, 200}));
+    iterate(fresh, 768);
+    const auto truth = fresh.store().read_irradiance();
+    Solver solver(before.scene, before.mesh, quick_settings(1, {128, 200}));
+    iterate(solver, 384);
+    const double stale = relative_difference(solver.store().read_irradiance(), truth);
+    move_box(solver, second_place);
+    const double corrected = relative_difference(solver.store().read_irradiance(), truth);
+    iterate(solver, 256);
+    const double settled = relative_difference(solver.store().read_irradiance(), truth);
+    EXPECT_GT(stale, 0.1);
+    EXPECT_LT(corrected, 0.7 * stale);
+    EXPECT_LT(settled, 0.5 * corrected);
 }
 
 }  // namespace

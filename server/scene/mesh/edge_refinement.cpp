@@ -123,9 +123,13 @@ void EdgeRefinement::begin_refinement() {
 bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
     while (patch_count_ <= max_patches) {
         Edges edges = find_edges();
-        std::vector<bool> marked(edges.points.size());
-        std::transform(edges.squared_length.begin(), edges.squared_length.end(), marked.begin(),
-                       [&](double squared) { return squared > target_edge * target_edge; });
+        std::vector<bool> marked(edges.points.size(), false);
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            const double longest = triangles_[t].small ? 2.0 * target_edge : target_edge;
+            for (const std::uint32_t edge : edges.of_triangle[t]) {
+                marked[edge] = marked[edge] || edges.squared_length[edge] > longest * longest;
+            }
+        }
         if (std::find(marked.begin(), marked.end(), true) == marked.end()) {
             return true;
         }
@@ -137,6 +141,12 @@ bool EdgeRefinement::refine(double target_edge, std::size_t max_patches) {
         }
     }
     return false;
+}
+
+void EdgeRefinement::mark_small(const std::vector<bool>& small) {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        triangles_[t].small = small[t];
+    }
 }
 
 bool EdgeRefinement::split(const std::vector<bool>& chosen, std::size_t max_patches) {

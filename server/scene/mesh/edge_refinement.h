@@ -32,6 +32,7 @@ class EdgeRefinement {
         std::uint32_t material = 0;
         std::uint32_t object = 0;
         bool two_sided = false;  ///< both of its sides are patches
+        bool small = false;      ///< it is, or is part of, a triangle that will be joined to others
         std::uint32_t node = 0;  ///< its leaf in nodes()
     };
     /// A triangle on the way from the unrefined to the refined ones. Corners p, q, r with an edge
@@ -49,8 +50,12 @@ class EdgeRefinement {
     /// comes out is what is unrefined. Before refine(), once.
     void cut(std::span<const ContactLine> lines, double resolution);
 
-    /// Splits until no edge is longer than `target_edge` (m, world space). False, with the work
-    /// half done, as soon as there would be more than `max_patches`.
+    /// Tells which of the unrefined triangles will be joined to others. Before refine().
+    void mark_small(const std::vector<bool>& small);
+
+    /// Splits until no edge is longer than `target_edge` (m, world space), or than twice that where
+    /// all triangles at it are small. False, with the work half done, as soon as there would be
+    /// more than `max_patches`.
     bool refine(double target_edge, std::size_t max_patches);
 
     /// Splits the longest edges of some triangles (by index), and of neighbours as it takes. False,

@@ -2,24 +2,9 @@
 #include "scene/mesh/join_plan.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace raybundle {
 namespace {
-
-/// Of every node the unrefined triangle that it is part of.
-std::vector<std::uint32_t> roots(const EdgeRefinement& refinement) {
-    std::vector<std::uint32_t> root(refinement.nodes().size());
-    std::iota(root.begin(), root.end(), 0U);
-    for (std::size_t i = 0; i < root.size(); ++i) {
-        const std::uint32_t child = refinement.nodes()[i].first_child;
-        if (child != EdgeRefinement::Node::no_children) {
-            root[child] = root[i];
-            root[child + 1] = root[i];
-        }
-    }
-    return root;
-}
 
 double area_of(const EdgeRefinement& refinement, const EdgeRefinement::RefinedTriangle& triangle) {
     const auto corners = refinement.world_corners(triangle);
@@ -49,26 +34,22 @@ bool JoinPlan::any_small(double edge) const {
                        [&](double area) { return area < mean_area * edge * edge; });
 }
 
-std::vector<bool> JoinPlan::small(const EdgeRefinement& refinement, double edge) const {
-    const std::vector<std::uint32_t> root = roots(refinement);
-    std::vector<bool> result;
-    result.reserve(refinement.triangles().size());
-    for (const EdgeRefinement::RefinedTriangle& triangle : refinement.triangles()) {
-        result.push_back(area_[refinement.origins()[root[triangle.node]]] <
-                         mean_area * edge * edge);
+void JoinPlan::mark_small(EdgeRefinement& refinement, double edge) const {
+    std::vector<bool> small;
+    small.reserve(refinement.origins().size());
+    for (const std::uint32_t origin : refinement.origins()) {
+        small.push_back(area_[origin] < mean_area * edge * edge);
     }
-    return result;
+    refinement.mark_small(small);
 }
 
-std::size_t JoinPlan::patches(const EdgeRefinement& refinement, double edge) const {
+std::size_t JoinPlan::patches(const EdgeRefinement& refinement, double edge) {
     constexpr double filled = 0.6;  // of a patch's area, by a set in the mean
-    const std::vector<bool> is_small = small(refinement, edge);
     double joined = 0.0;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < is_small.size(); ++i) {
-        const EdgeRefinement::RefinedTriangle& triangle = refinement.triangles()[i];
+    for (const EdgeRefinement::RefinedTriangle& triangle : refinement.triangles()) {
         const std::size_t sides = triangle.two_sided ? 2 : 1;
-        if (is_small[i]) {
+        if (triangle.small) {
             joined += static_cast<double>(sides) * area_of(refinement, triangle);
         } else {
             count += sides;

@@ -22,10 +22,10 @@ class JoinPlan {
     [[nodiscard]] double total_area() const { return total_; }
     /// Whether some triangle of the scene is smaller than a patch of the target edge (m).
     [[nodiscard]] bool any_small(double edge) const;
-    /// By number in refinement.triangles(): whether it is, or is part of, such a triangle.
-    [[nodiscard]] std::vector<bool> small(const EdgeRefinement& refinement, double edge) const;
-    /// Patches of refined triangles, where small ones are joined to about the size of a patch.
-    [[nodiscard]] std::size_t patches(const EdgeRefinement& refinement, double edge) const;
+    /// Marks those of the unrefined triangles that are, or are part of, such a triangle.
+    void mark_small(EdgeRefinement& refinement, double edge) const;
+    /// Patches of refined triangles, where those marked are joined to about the size of a patch.
+    [[nodiscard]] static std::size_t patches(const EdgeRefinement& refinement, double edge);
 
   private:
     std::vector<double> area_;  // of the scene's triangles, one side, m²

@@ -43,23 +43,22 @@ struct CornerEqual {
 /// Fills a PatchMesh from refined triangles: welds corners to vertices, adds patches.
 class MeshBuilder {
   public:
-    MeshBuilder(Scene& scene, const EdgeRefinement& refinement, const JoinedFaces& joined)
+    MeshBuilder(Scene& scene, const EdgeRefinement& refinement, const JoinSettings& join)
         : scene_(scene),
           refinement_(refinement),
-          joined_(joined),
+          join_(join),
           painter_(scene),
           triangle_of_node_(refinement.nodes().size(), PatchMesh::no_patch) {
         vertices_.reserve(refinement.points().size() * 2);
     }
 
     PatchMesh build() {
-        for (std::size_t i = 0; i < refinement_.triangles().size(); ++i) {
-            const EdgeRefinement::RefinedTriangle& triangle = refinement_.triangles()[i];
+        for (const EdgeRefinement::RefinedTriangle& triangle : refinement_.triangles()) {
             const PatchColour colour = painter_.colour_of(triangle);
             if (colour.coverage > 0.0F) {
                 triangle_of_node_[triangle.node] =
                     static_cast<std::uint32_t>(mesh_.triangles.size());
-                if (joined_.small[i]) {
+                if (triangle.small) {
                     small_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
                     faces_.push_back(face_of(triangle, colour));
                 }
@@ -131,7 +130,7 @@ class MeshBuilder {
         if (faces_.empty()) {
             return;
         }
-        JoinSettings settings = joined_.settings;
+        JoinSettings settings = join_;
         const std::size_t others = mesh_.side_count() - sides_of_faces();
         settings.most_sets = settings.most_sets > others ? settings.most_sets - others : 0;
         const std::vector<std::uint32_t> sets = join_faces(scene_, faces_, settings);
@@ -233,7 +232,7 @@ class MeshBuilder {
 
     Scene& scene_;
     const EdgeRefinement& refinement_;
-    const JoinedFaces& joined_;
+    const JoinSettings& join_;
     PatchPainter painter_;
     std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
@@ -250,8 +249,8 @@ class MeshBuilder {
 
 }  // namespace
 
-PatchMesh build_mesh(Scene& scene, const EdgeRefinement& refinement, const JoinedFaces& joined) {
-    return MeshBuilder(scene, refinement, joined).build();
+PatchMesh build_mesh(Scene& scene, const EdgeRefinement& refinement, const JoinSettings& join) {
+    return MeshBuilder(scene, refinement, join).build();
 }
 
 }  // namespace raybundle

@@ -9,14 +9,9 @@
 
 namespace raybundle {
 
-/// Which of the refined triangles share their light with others.
-struct JoinedFaces {
-    std::vector<bool> small;  ///< by number in EdgeRefinement::triangles()
-    JoinSettings settings;    ///< most_sets: of all patches, those of one triangle included
-};
-
-/// Welds corners to vertices, averages textures over triangles, joins small ones. Appends to
-/// scene.notices. Throws SceneError where nothing is left.
-PatchMesh build_mesh(Scene& scene, const EdgeRefinement& refinement, const JoinedFaces& joined);
+/// Welds corners to vertices, averages textures over triangles, joins small ones (join.most_sets:
+/// of all patches, those of one triangle included). Appends to scene.notices. Throws SceneError
+/// where nothing is left.
+PatchMesh build_mesh(Scene& scene, const EdgeRefinement& refinement, const JoinSettings& join);
 
 }  // namespace raybundle

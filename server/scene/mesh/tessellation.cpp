@@ -57,9 +57,12 @@ Refined refine_to_count(const EdgeRefinement& unrefined, const JoinPlan& plan, b
         join ? 1e30 : std::abs(std::log(static_cast<double>(unrefined.patch_count()) / goal));
     for (int step = 0; step < max_search_steps && best_error > close_enough; ++step) {
         EdgeRefinement attempt = unrefined;
+        if (join) {
+            plan.mark_small(attempt, edge);
+        }
         const bool finished = attempt.refine(edge, most);
         const auto count =
-            static_cast<double>(join ? plan.patches(attempt, edge) : attempt.patch_count());
+            static_cast<double>(join ? JoinPlan::patches(attempt, edge) : attempt.patch_count());
         (count > goal ? too_fine : too_coarse) = edge;
         if (finished && std::abs(std::log(count / goal)) < best_error) {
             best_error = std::abs(std::log(count / goal));
@@ -91,13 +94,13 @@ double direct_flux(const EdgeRefinement& refinement, const NearField& field) {
 
 /// Splits patches on which light changes, as surfaces close by see, the worst first where not all
 /// can be. Triangles that will be joined stay.
-void refine_near_field(const Scene& scene, const TessellationSettings& settings,
-                       const JoinPlan& plan, bool join, Refined& refined) {
+void refine_near_field(const Scene& scene, const TessellationSettings& settings, bool join,
+                       Refined& refined) {
     const NearField field(scene);
     EdgeRefinement& refinement = refined.refinement;
     const auto& triangles = refinement.triangles();
     const std::size_t patches =
-        join ? plan.patches(refinement, refined.edge) : refinement.patch_count();
+        join ? JoinPlan::patches(refinement, refined.edge) : refinement.patch_count();
     const std::size_t most_patches =
         std::min(settings.max_patches, refinement.patch_count() + patches / 2);
     const double least = misplaced_share * direct_flux(refinement, field);
@@ -105,11 +108,9 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
     std::vector<float> misplaced;  // lm, by node; below zero: not known yet
     for (int round = 0; least > 0.0 && round < max_rounds; ++round) {
         misplaced.resize(refinement.nodes().size(), -1.0F);
-        const std::vector<bool> small =
-            join ? plan.small(refinement, refined.edge) : std::vector<bool>(triangles.size());
         tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
             float& value = misplaced[triangles[t].node];
-            value = small[t] ? 0.0F : value;
+            value = triangles[t].small ? 0.0F : value;
             if (value < 0.0F) {
                 value = static_cast<float>(
                     field.misplaced_flux(face_of(refinement, triangles[t]), least));
@@ -153,6 +154,9 @@ Refined refine(const Scene& scene, const TessellationSettings& settings, const J
     const double edge = settings.patch_size > 0.0F ? double{settings.patch_size}
                                                    : edge_for(plan, static_cast<double>(goal()));
     refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
+    if (join) {
+        plan.mark_small(refinement, edge);
+    }
     Refined refined{std::move(refinement), edge};
     if (!(settings.patch_size > 0.0F)) {
         const std::size_t patches =
@@ -163,19 +167,17 @@ Refined refine(const Scene& scene, const TessellationSettings& settings, const J
                          fmt::format("patch size {} m gives more than {} patches",
                                      settings.patch_size, settings.max_patches));
     }
-    refine_near_field(scene, settings, plan, join, refined);
+    refine_near_field(scene, settings, join, refined);
     return refined;
 }
 
-JoinedFaces joined_faces(const TessellationSettings& settings, const JoinPlan& plan,
-                         const Refined& refined) {
-    JoinedFaces joined;
-    joined.small = plan.small(refined.refinement, refined.edge);
-    joined.settings.edge = refined.edge;
-    joined.settings.patch_area = mean_area * refined.edge * refined.edge;
-    joined.settings.most_sets = settings.patch_size > 0.0F
-                                    ? settings.max_patches
-                                    : std::min(2 * settings.target_patches, settings.max_patches);
+JoinSettings join_settings(const TessellationSettings& settings, const Refined& refined) {
+    JoinSettings joined;
+    joined.edge = refined.edge;
+    joined.patch_area = mean_area * refined.edge * refined.edge;
+    joined.most_sets = settings.patch_size > 0.0F
+                           ? settings.max_patches
+                           : std::min(2 * settings.target_patches, settings.max_patches);
     return joined;
 }
 
@@ -185,13 +187,7 @@ PatchMesh tessellate(Scene& scene, const TessellationSettings& settings) {
     const JoinPlan plan(scene);
     const bool join = joins(plan, settings);
     const Refined refined = refine(scene, settings, plan, join);
-    JoinedFaces joined;
-    if (join) {
-        joined = joined_faces(settings, plan, refined);
-    } else {
-        joined.small.assign(refined.refinement.triangles().size(), false);
-    }
-    return build_mesh(scene, refined.refinement, joined);
+    return build_mesh(scene, refined.refinement, join_settings(settings, refined));
 }
 
 }  // namespace raybundle
