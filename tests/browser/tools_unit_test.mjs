@@ -799,6 +799,12 @@ describe('lightState', () => {
         assert.equal(state(1, null, null).mark, 'rough');
     });
 
+    it('says where next to no light arrives, settled or not', () => {
+        const dark = (settled) => lightState({settled, relativeError: null, errorHigh: null, darkerThan: 0.01}, true);
+        assert.deepEqual(dark(1), {mark: 'yes', text: 'Next to no light arrives here'});
+        assert.deepEqual(dark(0.5), {mark: 'no', text: 'Next to no light arrives here'});
+    });
+
     it('says first what a change still brings', () => {
         assert.deepEqual(state(0.5, 0.05, 0.08), {mark: 'no', text: 'Light is settling, 50 %'});
         assert.deepEqual(state(0, null, null, false), {mark: 'no', text: 'Waiting for light'});
