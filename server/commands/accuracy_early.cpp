@@ -48,9 +48,7 @@ Look look_at(ViewerImage& image, std::uint64_t iterations) {
     image.request_statistics();
     image.finish_statistics();
     const ImageStatistics& s = image.statistics();
-    // Both this picture and the reference show the centres of pixels: what these do not resolve is
-    // no error here.
-    look.stated = error_interval(s.noise, 0.0, s.samples, image.sample_order());
+    look.stated = {s.relative_error, s.error_low, s.error_high};
     look.known = s.known;
     return look;
 }

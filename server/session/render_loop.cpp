@@ -108,7 +108,6 @@ void RenderLoop::rehearse_at(const glm::uvec2& size, const std::atomic<bool>& st
     if (stop) {
         return;
     }
-    image.begin_sample();
     image.set_camera(scene_.cameras.front());
     image.request_statistics();
     image.smooth();

@@ -86,11 +86,10 @@ vec4 shown_sum(uint index, PixelSurface p) {
     return kept.w > 0.0 ? own + believed_sum(patch_of_side(p.side), kept, own) : own;
 }
 
-#include "view_confidence.glsl"
-
 vec3 blended_irradiance(uint index, PixelSurface p) {
     vec4 sum = shown_sum(index, p);
-    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence(index, sum.w));
+    float confidence = sum.w / (sum.w + view.display.z);
+    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence);
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
 #endif
@@ -130,14 +129,6 @@ vec3 radiance_of_ends(uint index) {
         sum += continued[end].surface != CONTINUED_NONE ? continued[end].throughput * continued_radiance[end].rgb : vec3(0.0);
     }
     return sum;
-}
-#endif
-
-#ifdef GLOSSY
-/// Mean of what the pixel's samples bring beyond the reflection of a Lambert surface, radiance units.
-vec3 own_gloss(uint index) {
-    vec4 own = texelFetch(pixel_gloss_texels, int(index));
-    return own.rgb / max(pixel_weight(own, view.weights.x), 1e-6);
 }
 #endif
 
@@ -204,8 +195,9 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #endif
 #ifdef GLOSSY
     RARELY((p.facet & PIXEL_GLOSSY) != 0u) {
-        // Gloss is the difference from what a Lambert surface would show of the same samples: both count alike.
-        vec3 gloss = own_gloss(index) * confidence(index, shown_sum(index, p).w);
+        vec4 own = texelFetch(pixel_gloss_texels, int(index));
+        float weight = pixel_weight(own, view.weights.x);
+        vec3 gloss = own.rgb / max(weight, 1e-6);
 #ifdef FIRST_SHOT
         gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
 #endif

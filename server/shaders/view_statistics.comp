@@ -21,8 +21,6 @@ layout(std430, binding = BINDING_IRRADIANCE) readonly buffer MeanBuffer { vec4 m
 layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 iterate[]; };
 uniform float logarithm_floor;   // radiance units
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
-uniform float gain_from;         // samples from which on the variance of their mean falls faster,
-uniform float gain_exponent;     // by this exponent
 uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
 uniform float fresh_share;       // samples with less than this share of the weight say nothing
 
@@ -52,25 +50,6 @@ float variance_with_kept(KeptShare k, float since, float l, float scale) {
     float changed = scale * (k.before - mix(k.recent, k.mean, k.share));
     drift.w += changed * changed;
     return own * own * since + k.share * k.share * k.variance * l * l;
-}
-
-/// Variance of the mean of so many samples over that of one.
-float variance_share(float samples) {
-    return pow(max(samples / gain_from, 1.0), -gain_exponent) / max(samples, 1e-6);
-}
-
-/// Squared error of the irradiance that is shown, P + c (S - P). independent: variance of the own mean S since the sums
-/// began, were its samples independent. What noise P has is taken for common to both, and so for no part of D.
-float shown_variance(uint index, PixelSurface p, float independent, float weight) {
-    float own_weight = view.weights.y;
-    // The sums may be younger than the mean that is shown.
-    float own = independent * variance_of_mean * min(own_weight / weight, 1.0);
-    float one = independent * own_weight * own_weight / max(view.weights.z, 1e-12);
-    float patches = min(one * variance_share(mean_irradiance[patch_of_side(p.side)].w), own);
-    float c = confidence(index, weight);
-    float light = luminance(object_space_irradiance(p, false));
-    float unresolved = texelFetch(confidence_texels, 0).y * light * light;
-    return c * c * own + (1.0 - c * c) * patches + (1.0 - c) * (1.0 - c) * unresolved;
 }
 
 vec4 probe_statistics(uint probe) {
@@ -109,15 +88,13 @@ vec4 probe_statistics(uint probe) {
         float guess = error_before * l;  // just disoccluded, or the camera has just moved
         return vec4(guess * guess, l * l, logarithm, 1.0);
     }
-    float independent = mean_and_variance(probe, own_weight, view.weights.z).y;
-    float alone = independent * reflectance * reflectance;
+    float alone = mean_and_variance(probe, own_weight, view.weights.z).y * reflectance * reflectance;
     drift.z += min(alone, l * l);
-    float variance;
+    float variance = alone * variance_of_mean;
     if (changed) {
-        KeptShare share_of_kept = kept_share(patch_id, kept, own);
-        variance = variance_with_kept(share_of_kept, min(alone * variance_of_mean, l * l), l, reflectance);
+        variance = variance_with_kept(kept_share(patch_id, kept, own), min(variance, l * l), l, reflectance);
     } else {
-        variance = shown_variance(index, p, independent, own.w) * reflectance * reflectance;
+        variance *= min(own_weight / own.w, 1.0);  // the sums may be younger than the mean that is shown
     }
     variance += through * through * variance_of_patches;
     return vec4(min(variance, l * l), l * l, logarithm, 1.0);

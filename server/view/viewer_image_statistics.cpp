@@ -57,8 +57,6 @@ void ViewerImage::restart_scatter() {
     parameters_.weights.y = 0.0F;
     parameters_.weights.z = 0.0F;
     scatter_samples_ = 0;
-    confidence_->restart();
-    tell_confidence();
     detail_samples_ = 0;
     requested_samples_ = 0;
     statistics_.samples = 0;
@@ -85,16 +83,13 @@ void ViewerImage::request_statistics() {
         continued()->request_statistics();
     }
     interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, 0.0F, 0.0F};
+    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
     upload_view();
     programs_.statistics.set("triangle_count", scene_.triangle_count());
     programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
     programs_.statistics.set("error_before", static_cast<float>(error_before_));
     programs_.statistics.set(
         "variance_of_mean", static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
-    const SequenceGain gain = gain_of(sample_order());
-    programs_.statistics.set("gain_from", static_cast<float>(gain.from_samples));
-    programs_.statistics.set("gain_exponent", static_cast<float>(2.0 * gain.exponent));
     programs_.statistics.set("variance_of_patches", static_cast<float>(variance_of_patches(
                                                         scatter_samples_, scene_.has_sky())));
     programs_.statistics.set("fresh_share", scatter_samples_ < GROUP_SIZE ? 2.0F : 0.16F);

@@ -120,26 +120,5 @@ TEST_F(TargetTest, APictureAtRestHasItsErrorMeasured) {
     EXPECT_FALSE(viewer_.next(measured(true)).empty());
 }
 
-/// Whoever compares a photo with its false colours compares the same light, with the same error.
-TEST_F(TargetTest, PhotoAndFalseColourStateTheSameError) {
-    viewer_.request({{"setTarget", {{"relativeError", target}}}});
-    const auto measured = [](const Json& m) {
-        return m.contains("solution") && m["solution"].value("errorMeasured", false);
-    };
-    ASSERT_FALSE(viewer_.next(measured).empty()) << "it was never measured";
-    const Json at_rest = rest(viewer_);
-    for (const std::string mode :
-         {"PHOTO", "FALSE_LUMINANCE", "FALSE_ILLUMINANCE", "FALSE_LUMINANCE", "PHOTO"}) {
-        viewer_.request({{"setDisplay", {{"mode", mode}}}});
-        const Json frame = viewer_.next_frame(
-            [&](const Json& f) { return f.contains("scaleMaximum") == (mode != "PHOTO"); });
-        ASSERT_FALSE(frame.empty()) << mode;
-        EXPECT_EQ(frame.at("iterations"), at_rest.at("iterations")) << mode;
-        for (const char* figure : {"relativeError", "errorLow", "errorHigh"}) {
-            EXPECT_EQ(frame.at(figure), at_rest.at(figure)) << mode << ", " << figure;
-        }
-    }
-}
-
 }  // namespace
 }  // namespace raybundle
