@@ -18,6 +18,7 @@ namespace {
 TessellationSettings with_size(float size) {
     TessellationSettings settings;
     settings.patch_size = size;
+    settings.join_triangles = true;
     return settings;
 }
 
@@ -110,6 +111,7 @@ TEST(JoinedPatches, AreNoMoreThanTwiceTheTarget) {
     Scene scene = b.loaded_scene();
     TessellationSettings settings;
     settings.target_patches = 300;
+    settings.join_triangles = true;
     const PatchMesh mesh = tessellate(scene, settings);
     EXPECT_GT(mesh.triangle_count(), 20'000U);
     EXPECT_LE(mesh.patch_count(), 600U);
