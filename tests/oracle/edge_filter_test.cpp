@@ -175,6 +175,8 @@ TEST(EdgeFilter, WhatIsThinnerThanAPixelIsSeen) {
     for (unsigned y = 0; y < size.y; ++y) {
         // Pictures begin with their topmost row.
         EXPECT_NEAR(rows[y], met_in_row(size.y - 1 - y), 1.01 / EDGE_SAMPLES) << "row " << y;
+        // Each edge of the bar may win or lose one of the 16 places.
+        EXPECT_NEAR(rows[y], 0.33, 2.0 / EDGE_SAMPLES) << "row " << y;
     }
 }
 
