@@ -93,6 +93,19 @@ TEST_F(MaskCheckTest, BytesThatComeOneByOneAreJudgedAlike) {
     }
 }
 
+/// The first byte may be there when the server begins to look, the second not yet.
+TEST_F(MaskCheckTest, OneByteAloneIsNotJudged) {
+    const std::string bytes = frame(kPing, "slow", false);
+    for (int i = 0; i < 300; ++i) {
+        RawClient client(server_.port());
+        ASSERT_TRUE(has(client.upgrade(), " 101 "));
+        const int at_once = 1;
+        setsockopt(client.socket(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
+        client.send(bytes.substr(0, 1));
+        expect_refused(client, bytes.substr(1));
+    }
+}
+
 TEST_F(MaskCheckTest, NobodySendsBeforeTheHandshakeIsAnswered) {
     for (const bool masked : {true, false}) {
         RawClient client(server_.port());

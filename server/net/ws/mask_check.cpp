@@ -5,6 +5,7 @@
 #include <libwebsockets.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -31,9 +32,19 @@ struct Peeked {
     int bytes = 0;       ///< fewer than 2: at the end, or of a TLS record
 };
 
+/// Whether the client sends no more.
+bool has_ended(int socket) {
+    pollfd state{socket, POLLRDHUP, 0};
+    return poll(&state, 1, 0) > 0;
+}
+
 Peeked peek_socket(int socket, FrameStart& start) {
     const auto count = recv(socket, start.data(), start.size(), MSG_PEEK | MSG_DONTWAIT);
-    return {count < 0 && (errno == EAGAIN || errno == EINTR), static_cast<int>(count)};
+    if (count < 0) {
+        return {errno == EAGAIN || errno == EINTR, 0};
+    }
+    const bool part = count > 0 && static_cast<std::size_t>(count) < start.size();
+    return {part && !has_ended(socket), static_cast<int>(count)};
 }
 
 Peeked peek_tls(SSL* tls, FrameStart& start) {
