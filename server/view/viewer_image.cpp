@@ -64,6 +64,7 @@ void ViewerImage::allocate() {
     const bool traced = scene_.traces(SeenAs::picture, pixels);
     depths_ =
         create_texture_2d("view depths", traced ? GL_R32F : GL_DEPTH_COMPONENT32F, width, height);
+    traced_.reset();  // another size may be cheaper the other way
     if (traced) {
         traced_.emplace(width, height, true);
     } else {
