@@ -109,7 +109,8 @@ void filter_lines(const RTCFilterFunctionNArguments* arguments) {
         const glm::vec3 normal = ray.normal();
         const bool along = glm::dot(normal, ray.direction()) > 0.0F;
         const std::uint32_t facet = query.tree->part(ray.geometry()).facets[ray.primitive()];
-        lines.lines[static_cast<std::size_t>(row * lines.columns + column)].push_back(
+        const int line = row * lines.columns + column;
+        lines.lines[static_cast<std::size_t>(line)].push_back(
             {ray.way(), 2 * facet + (along ? 0U : 1U), normal});
         arguments->valid[i] = 0;
     }

@@ -177,6 +177,13 @@ class CasesPins : public testing::Test {
         return viewer_.request({{"probe", {{"pixel", {{"x", 32.5}, {"y", 32.5}}}}}})
             .at("probeResult");
     }
+    /// Until the error of the picture is below the target.
+    void wait_for_target() {
+        viewer_.next([](const Json& message) {
+            return message.contains("solution") &&
+                   message["solution"].value("relativeError", 1.0) < 0.05;
+        });
+    }
     Json pin_at(const Json& probe) {
         return viewer_
             .request({{"addPin",
@@ -194,6 +201,7 @@ class CasesPins : public testing::Test {
 
 TEST_F(CasesPins, OutOfSightSaysWhatAProbeThereSays) {
     look_at(wall_);
+    wait_for_target();
     const Json probed = probe();
     ASSERT_EQ(probed.at("hit"), true);
     const auto exact = probed.at("illuminance").get<double>();

@@ -23,11 +23,16 @@ std::vector<double> luma_of(std::span<const std::uint8_t> rgba) {
     return luma;
 }
 
+/// Place of a pixel's weight, by its way from the window's middle.
+std::size_t index_of(int way) {
+    const int index = way + radius;
+    return static_cast<std::size_t>(index);
+}
+
 std::array<double, 2 * radius + 1> window() {
     std::array<double, 2 * radius + 1> weights{};
     for (int k = -radius; k <= radius; ++k) {
-        weights[static_cast<std::size_t>(k + radius)] =
-            std::exp(-0.5 * k * k / (deviation * deviation));
+        weights[index_of(k)] = std::exp(-0.5 * k * k / (deviation * deviation));
     }
     return weights;
 }
@@ -82,9 +87,8 @@ double structural_similarity(std::span<const std::uint8_t> image,
                      i <= std::min(column + radius, width - 1); ++i) {
                     const std::size_t at =
                         static_cast<std::size_t>(j) * size.x + static_cast<unsigned>(i);
-                    moments.add(weights[static_cast<std::size_t>(i - column + radius)] *
-                                    weights[static_cast<std::size_t>(j - row + radius)],
-                                x[at], y[at]);
+                    moments.add(weights[index_of(i - column)] * weights[index_of(j - row)], x[at],
+                                y[at]);
                 }
             }
             sum += moments.similarity();

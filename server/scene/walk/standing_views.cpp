@@ -150,8 +150,10 @@ class Finder {
         const float half = std::tan(0.5F * camera.vertical_fov);
         int shown = 0;
         for (int i = 0; i < looks; ++i) {
-            const float u = (static_cast<float>(i % looks_a_side) + 0.5F) / looks_a_side;
-            const float v = (static_cast<float>(i / looks_a_side) + 0.5F) / looks_a_side;
+            const int column = i % looks_a_side;
+            const int row = i / looks_a_side;
+            const float u = (static_cast<float>(column) + 0.5F) / looks_a_side;
+            const float v = (static_cast<float>(row) + 0.5F) / looks_a_side;
             const glm::vec3 way = ahead + (2.0F * u - 1.0F) * half * right +
                                   (2.0F * v - 1.0F) * half * glm::vec3(0, 1, 0);
             const WorldRays::Hit hit = rays_.trace(camera.eye, glm::normalize(way));
