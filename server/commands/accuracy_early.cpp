@@ -74,10 +74,10 @@ struct Row {
 
 class EarlyPictures {
   public:
-    explicit EarlyPictures(const Options& options)
+    EarlyPictures(const Options& options, const LoadedScene& loaded)
         : options_(options),
           size_(parse_size(options.accuracy_size)),
-          loaded_(load_scene(options)),
+          loaded_(loaded),
           camera_(choose_camera(loaded_.scene, options)),
           rays_(loaded_.scene, loaded_.mesh),
           view_(rays_, camera_, size_),
@@ -249,7 +249,7 @@ class EarlyPictures {
 
     const Options& options_;
     glm::uvec2 size_;
-    LoadedScene loaded_;
+    const LoadedScene& loaded_;
     Camera camera_;
     RayScene rays_;
     CameraRays view_;
@@ -269,7 +269,8 @@ int run_accuracy_early(const Options& options) {
     if (error || !fs::is_directory(options.output)) {
         throw std::runtime_error(options.output + ": this folder cannot be made");
     }
-    EarlyPictures(options).run();
+    const LoadedScene loaded = load_scene(options);
+    EarlyPictures(options, loaded).run();
     return exit_done;
 }
 

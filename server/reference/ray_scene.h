@@ -134,7 +134,7 @@ class RayScene {
 
     const Scene& scene_;
     const PatchMesh& mesh_;
-    glm::dvec3 centre_{0.0};                      // world, m
+    glm::dvec3 centre_;                           // world, m
     double scale_;                                // own units per metre, a power of two
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, own space; normals not unit
     std::vector<bool> smooth_;                    // triangles whose vertex normals bend

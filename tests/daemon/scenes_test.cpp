@@ -128,6 +128,8 @@ TEST_F(ScenesTest, OpeningTellsEverybodyAndShowsTheOtherScene) {
     EXPECT_EQ(open(again, "second.gltf").count("ok"), 1U);
     const Json foreseen = later.next_with("sceneOpening").at("sceneOpening");
     EXPECT_GT(foreseen.value("secondsLeft", 0.0), 0.0) << foreseen.dump();
+    // Whoever joins before those of the former scene are gone is sent away with them.
+    EXPECT_EQ(again.close_code(), 1012);
 }
 
 TEST_F(ScenesTest, ARejectedSceneChangesNothing) {

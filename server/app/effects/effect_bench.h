@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <thread>
 
 #include "net/server.h"
@@ -21,8 +22,9 @@ class EffectBench {
     void measure(const ClientEvent& request, const Scene& scene, const PatchMesh& mesh);
 
   private:
-    void run(const ClientEvent& request, const Scene& scene, const PatchMesh& mesh,
-             const std::stop_token& stop);
+    /// The answer; none when it is to stop.
+    std::optional<v1::ServerMessage> measured(const Scene& scene, const PatchMesh& mesh,
+                                              const std::stop_token& stop);
 
     const Options& options_;
     Server& server_;
