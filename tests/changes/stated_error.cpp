@@ -11,8 +11,8 @@ namespace raybundle {
 
 namespace {
 
-constexpr double noise_wanted = 0.015;
-constexpr unsigned most_passes = 512;
+constexpr double noise_wanted = 0.007;
+constexpr unsigned max_passes = 4096;
 
 double median(std::vector<double> values) {
     if (values.empty()) {
@@ -33,7 +33,7 @@ KnownPicture::KnownPicture(const ChangeCase& c) {
     const CameraRays rays(ray_scene, camera_of(c), glm::uvec2(c.picture));
     measured_ = measured_pixels(ray_scene, rays);
     ReferenceMaker maker(ray_scene, lights, rays, measured_, PixelFilter::box, 77, std::nullopt);
-    for (unsigned pass = 0; pass < most_passes && maker.noise() > noise_wanted; pass += 16) {
+    for (unsigned pass = 0; pass < max_passes && maker.noise() > noise_wanted; pass += 16) {
         for (int i = 0; i < 16; ++i) {
             maker.add_pass();
         }
@@ -53,8 +53,10 @@ KnownPicture::KnownPicture(const ChangeCase& c) {
 StatedError KnownPicture::judge(const Served& served) const {
     double sum = 0.0;
     double light = 0.0;
+    double along = 0.0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
         if (measured_[i]) {
+            along += glm::dot(glm::dvec3(glm::vec3(served.radiance[i])), reference_.radiance[i]);
             const glm::dvec3 difference =
                 glm::dvec3(glm::vec3(served.radiance[i])) - reference_.radiance[i];
             sum += glm::dot(difference, difference);
@@ -64,6 +66,7 @@ StatedError KnownPicture::judge(const Served& served) const {
     StatedError result;
     const double square = light > 0.0 ? sum / light : 0.0;
     result.error = std::sqrt(std::max(square - noise() * noise(), 0.0));
+    result.level = light > 0.0 ? along / light : 0.0;
     result.stated = served.stated.relative_error;
     result.low = served.stated.error_low;
     result.high = served.stated.error_high;
@@ -73,16 +76,26 @@ StatedError KnownPicture::judge(const Served& served) const {
 StatedSummary summary_of(const std::vector<StatedError>& stated) {
     StatedSummary summary;
     std::vector<double> middle, low, high, ratio;
+    double log_sum = 0.0, log_squares = 0.0;
     for (const StatedError& s : stated) {
         ++summary.pictures;
         summary.covered += s.error >= s.low && s.error <= s.high ? 1 : 0;
         summary.above += s.error > s.high ? 1 : 0;
+        summary.level += s.level / static_cast<double>(stated.size());
         summary.error += s.error * s.error / static_cast<double>(stated.size());
         middle.push_back(s.stated);
         low.push_back(s.low);
         high.push_back(s.high);
         ratio.push_back(s.error > 0.0 ? s.high / s.error : 0.0);
+        const double logarithm =
+            s.error > 0.0 && s.stated > 0.0 ? std::log(s.error / s.stated) : 0.0;
+        log_sum += logarithm;
+        log_squares += logarithm * logarithm;
     }
+    const auto count = static_cast<double>(std::max<std::size_t>(stated.size(), 1));
+    summary.log_mean = log_sum / count;
+    summary.log_deviation =
+        std::sqrt(std::max(log_squares / count - summary.log_mean * summary.log_mean, 0.0));
     summary.error = std::sqrt(summary.error);
     summary.stated = median(middle);
     summary.low = median(low);

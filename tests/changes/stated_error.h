@@ -13,6 +13,7 @@ namespace raybundle {
 struct StatedError {
     double error = 0.0;
     double stated = 0.0, low = 0.0, high = 0.0;
+    double level = 0.0;  ///< factor of the true picture that comes nearest
 };
 
 /// The last state of a case as path tracing sees it.
@@ -34,8 +35,11 @@ class KnownPicture {
 struct StatedSummary {
     unsigned pictures = 0, covered = 0, above = 0;
     double error = 0.0;                          ///< root mean square
+    double level = 0.0;                          ///< mean
     double stated = 0.0, low = 0.0, high = 0.0;  ///< medians
     double high_over_error = 0.0;                ///< median
+    double log_mean = 0.0;                       ///< of ln(true error / stated error)
+    double log_deviation = 0.0;                  ///< standard deviation of the same
 };
 
 StatedSummary summary_of(const std::vector<StatedError>& stated);
