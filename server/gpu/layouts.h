@@ -25,7 +25,7 @@ static_assert(sizeof(Shooter) == 128 && offsetof(Shooter, normal) == 16);
 static_assert(sizeof(Counters) == 48);
 static_assert(sizeof(FacetGeometry) == 64 && offsetof(FacetGeometry, root_code) == 48);
 static_assert(sizeof(FluxSums) == 48 && sizeof(Balance) == 48);
-static_assert(sizeof(ZoneLevelData) == 48 && sizeof(ZoneRay) == 8);
+static_assert(sizeof(ZoneLevelData) == 64 && sizeof(ZoneRay) == 8);
 static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_triangle) == 16);
 static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);

@@ -100,7 +100,7 @@
 #define SCATTER_PERSPECTIVE 1u
 #define SCATTER_NOT_MEASURED 2u
 #define GROUP_SIZE 8  // iterations that are planned together
-#define SCATTER_SUMS 3  // of a probe pixel, see view_scatter.glsl
+#define SCATTER_SUMS 7  // of a probe pixel, see view_scatter.glsl
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
 // components, where a software rasteriser loads storage buffers component by component, lane by lane.
 #define UNIT_SURFACE_IDS 0
@@ -240,6 +240,7 @@ struct ZoneLevelData {
     vec4 scale;   // w: usual squared relative deviation of samples from their mean, see believed_weight()
     vec4 offset;  // w: samples that the zone's iterate is younger than that of others
     vec4 kept;  // rgb: factor of the mean that was kept over the last change; w: samples that it is worth at most
+    vec4 shooting;  // x: factor of the power of its patches where shooters are chosen
 };
 #define MAX_ZONES 64
 #define DIFFERENCE_UNIT 0.16  // squared relative deviation of a sample, as in corrected_weight.glsl

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selection probability of shooting patches (ch. 5.3): proportional to luminance power, with a
-// defensive share for area and for emitting area, so that no light is starved, however dim beside others,
+// Selection probability of shooting patches (ch. 5.3): proportional to luminance power, half of it shared among zones by
+// area (solution/shooting_shares.h), with a defensive share for area and for emitting area, so that no light is starved, however dim beside others,
 // and a black scene still samples.
 #include "luminance.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };
 #include "patch_source.glsl"
 layout(std430, binding = BINDING_RADIANCE) buffer RadianceBuffer { vec4 radiance[]; };
 #ifndef CHANGE
+#include "zone_level.glsl"
 layout(std430, binding = BINDING_BALANCE) readonly buffer BalanceBuffer { Balance balance; };
 #endif
 layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeometry patches[]; };
@@ -43,7 +44,8 @@ vec3 patch_power(uint i) {
 #ifdef CHANGE
     return vec3(pi * luminance(abs(radiance[i].rgb)) * area, area, emitting * area);
 #else
-    return vec3(pi * luminance(abs(radiance[i].rgb - balance.constant.rgb)) * area, area, emitting * area);
+    float factor = zone_levels[zones[i]].shooting.x;
+    return vec3(factor * pi * luminance(abs(radiance[i].rgb - balance.constant.rgb)) * area, area, emitting * area);
 #endif
 }
 

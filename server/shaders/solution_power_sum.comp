@@ -6,7 +6,6 @@ layout(local_size_x = POWER_BLOCK) in;
 #include "linear_index.glsl"
 #include "power.glsl"
 layout(std430, binding = BINDING_SOURCE) buffer SourceBuffer { vec4 source[]; };
-#include "zone_level.glsl"
 #ifdef GLOSSY
 #include "gloss.glsl"
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };

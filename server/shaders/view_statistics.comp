@@ -9,6 +9,9 @@
 // and as the fourth, of the share k of what is shown that was kept over the last change:
 //  x: squared (k times the difference from what has come in since), y: k squared times the latter's variance
 //  z: k times the difference, with its sign, w: k squared times the luminance squared
+// and as the fifth, of the deviations d of this batch of samples and e of the one before from all earlier ones, as shown
+// luminance, see view/noise_modes.h:
+//  x: d e, y: d squared, z: e squared
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "group_sum.glsl"
@@ -22,10 +25,13 @@ layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 it
 uniform float logarithm_floor;   // radiance units
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
 uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
+uniform float batch_begin;       // weight of all samples when the last batch ended; 0: this is the first
+uniform float batch_squares;     // sum of the squared weights of all batches, this one included
 uniform float fresh_share;       // samples with less than this share of the weight say nothing
 
 vec4 drift = vec4(0.0);      // of this invocation's probes
 vec4 difference = vec4(0.0);
+vec4 batches = vec4(0.0);
 
 /// By how much the iterate of a patch's irradiance is ahead of its mean, as luminance of what is sent of it.
 float ahead(uint id, vec3 sent_share) {
@@ -50,6 +56,30 @@ float variance_with_kept(KeptShare k, float since, float l, float scale) {
     float changed = scale * (k.before - mix(k.recent, k.mean, k.share));
     drift.w += changed * changed;
     return own * own * since + k.share * k.share * k.variance * l * l;
+}
+
+/// A batch of samples ends. Its deviation from all before it, beside that of the batch before, and the variance of the mean
+/// were batches independent. scale: luminance for an irradiance.
+void end_batch(uint probe, float scale, float l) {
+    uint at = SCATTER_SUMS * probe;
+    float weight = view.weights.y;
+    float batch_weight = weight - batch_begin;
+    if (batch_weight <= 0.0) {
+        return;
+    }
+    float sum = pixel_scatter[at];
+    float earlier = pixel_scatter[at + 3u];
+    float of_batch = sum - earlier;
+    float deviation = batch_begin > 0.0 ? scale * (of_batch / batch_weight - earlier / batch_begin) : 0.0;
+    float last = pixel_scatter[at + 4u];
+    batches.xyz += vec3(deviation * last, deviation * deviation, last * last);
+    float squares = pixel_scatter[at + 5u] + of_batch * of_batch;
+    float products = pixel_scatter[at + 6u] + batch_weight * of_batch;
+    pixel_scatter[at + 3u] = sum;
+    pixel_scatter[at + 4u] = deviation;
+    pixel_scatter[at + 5u] = squares;
+    pixel_scatter[at + 6u] = products;
+    batches.w += min(scale * scale * variance_of(vec3(sum, squares, products), weight, batch_squares).y, l * l);
 }
 
 vec4 probe_statistics(uint probe) {
@@ -80,6 +110,7 @@ vec4 probe_statistics(uint probe) {
     uint patch_id = patch_of_side(p.side);
     float through = share * ahead_behind(patch_id);
     drift.xy += vec2(share * ahead(patch_id, pixel_albedo(p)) + through, l);
+    end_batch(probe, reflectance, l);
     vec4 own = own_sum(index, p);
     vec4 kept = texelFetch(pixel_kept_texels, int(index));
     float own_weight = view.weights.y;
@@ -119,5 +150,10 @@ void main() {
     total = group_sum(difference);
     if (gl_LocalInvocationID.x == 0u) {
         partial[3u * gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
+    }
+    barrier();
+    total = group_sum(batches);
+    if (gl_LocalInvocationID.x == 0u) {
+        partial[4u * gl_NumWorkGroups.x + gl_WorkGroupID.x] = total;
     }
 }

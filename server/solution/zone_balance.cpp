@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scene/mesh/patch_means.h"
+#include "solution/shooting_shares.h"
 
 namespace raybundle {
 
@@ -67,6 +68,7 @@ void ZoneBalance::refresh() {
     levels_ = ZoneLevels(partition_.count);
     older_share_.assign(partition_.count, 1.0);
     younger_.assign(partition_.count, 0.0);
+    shooting_.clear();
     mean_albedo_.assign(partition_.count, glm::dvec3(0.0));
     std::vector<double> area(partition_.count, 1e-30);
     sky_.assign(partition_.count, ZoneSky{});
@@ -270,6 +272,7 @@ void ZoneBalance::balance(const Means& means) {
             }
         }
     }
+    shooting_ = shooting_factors(zones, levels);
     upload(levels, kept);
 }
 
@@ -283,7 +286,8 @@ void ZoneBalance::upload(std::span<const ZoneLevel> levels, std::span<const Kept
         data.push_back(
             {glm::vec4(levels[zone].scale, kept[zone].sample_variance),
              glm::vec4(levels[zone].offset, zone < younger_.size() ? younger_[zone] : 0.0),
-             glm::vec4(kept[zone].scale, kept[zone].limit)});
+             glm::vec4(kept[zone].scale, kept[zone].limit),
+             glm::vec4(zone < shooting_.size() ? shooting_[zone] : 1.0F)});
     }
     zones_buffer_.write<layout::ZoneLevelData>(data, 0);
     bind();

@@ -95,6 +95,7 @@ class ZoneBalance {
     std::vector<double> younger_;  // samples that zones' iterates are younger than that of others
     double group_weight_ = 0.0;    // of the running group's samples in the mean
     double iterate_age_ = 0.0;     // of those others
+    std::vector<float> shooting_;  // of zones, see shooting_factors()
     bool stale_ = true;
     bool started_ = false;  // some bundle has come in
     Buffer zones_buffer_, order_, blocks_, block_sums_, ray_buffer_, segment_buffer_, sums_;

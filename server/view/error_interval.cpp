@@ -22,19 +22,15 @@ Gain gain_of(SampleOrder order) {
     return order == SampleOrder::shuffled ? Gain{0.05, 3.0} : Gain{0.25, 6.5};
 }
 
-/// 95 % of runs have their noise within exp(+-h) of the estimate. Most of it is the error itself:
-/// the noise of a picture is a sum over few modes (10 to 20 degrees of freedom: (sum v)^2 / sum v^2
-/// over the eigenvalues v of its covariance between seeds), so that runs of the same length scatter
-/// by 1/sqrt(2 * 10 to 20) = 16 to 22 % (standard deviation), and what their samples say has next
-/// to no correlation with that. Shuffled, the gain is uncertain, too. The rest is the estimate's
-/// own, which fades like n^-1/2. Fitted to 200 pictures, 1.1 times as wide here: of 800 others the
-/// fit covered 91.75 %.
-double noise_half_width(std::uint64_t samples, SampleOrder order) {
-    const double of_error = order == SampleOrder::shuffled ? 0.495 : 0.375;
-    constexpr double of_estimate = 1.43;
-    return std::hypot(
-        of_error,
-        of_estimate / std::sqrt(static_cast<double>(std::max<std::uint64_t>(samples, 1))));
+/// 95 % of runs have their noise within exp(+-h) of the estimate. Most of it is the error itself,
+/// which runs of the same length have by luck; what their samples say has next to no correlation
+/// with that. The rest is the estimate's own, which fades like independent samples: see
+/// few_samples() for what it was fitted to.
+double noise_half_width(double noise, std::uint64_t samples, SampleOrder order, double luck) {
+    constexpr double of_estimate = 1.37;
+    constexpr double most = 0.6;
+    const double independent = noise / std::sqrt(variance_of_mean(samples, order));
+    return std::hypot(luck, of_estimate * std::min(independent, most));
 }
 /// The same of the discretisation part: between scenes. Below 0.5, else the upper end would fall
 /// while noise grows.
@@ -56,8 +52,17 @@ double upper_end(double noise, double discretisation, double of_noise) {
 
 double variance_of_mean(std::uint64_t samples, SampleOrder order) {
     const Gain gain = gain_of(order);
-    const double beyond = std::max(static_cast<double>(samples) / gain.from_samples, 1.0);
+    const auto n = static_cast<double>(std::max<std::uint64_t>(samples, 1));
+    const double beyond = std::max(n / gain.from_samples, 1.0);
     return std::pow(beyond, -2.0 * gain.exponent);
+}
+
+double few_samples(double independent_noise) {
+    return std::exp(0.6 * std::min(independent_noise, 1.0));
+}
+
+double usual_luck(SampleOrder order) {
+    return order == SampleOrder::shuffled ? 0.495 : 0.375;
 }
 
 double variance_of_patches(std::uint64_t samples, bool sky) {
@@ -86,7 +91,7 @@ SuspectedError suspected(const TwoMeans& means, std::uint64_t samples, SampleOrd
     if (samples == 0) {
         return result;
     }
-    const double most = std::exp(noise_half_width(samples, order));
+    const double most = std::exp(noise_half_width(means.noise, samples, order, usual_luck(order)));
     const double noise = most * means.noise * std::sqrt(variance_of_mean(samples, order));
     result.missing = lag_of_mean(means.ahead, noise, samples, order, sky);
     const double level = means.kept_share * chance_ahead(noise, samples, order, sky);
@@ -126,24 +131,30 @@ double unresolved_share(unsigned grid) {
 }
 
 ErrorInterval error_interval(double noise, double discretisation, std::uint64_t samples,
-                             SampleOrder order) {
+                             SampleOrder order, double luck) {
     const double error = std::hypot(noise, discretisation);
     const double factor =
-        std::exp(half_width(noise, discretisation, noise_half_width(samples, order)));
+        std::exp(half_width(noise, discretisation, noise_half_width(noise, samples, order, luck)));
     return {error, error / factor, error * factor};
+}
+
+ErrorInterval error_interval(double noise, double discretisation, std::uint64_t samples,
+                             SampleOrder order) {
+    return error_interval(noise, discretisation, samples, order, usual_luck(order));
 }
 
 ErrorInterval after_change(const ErrorInterval& interval, std::uint64_t samples) {
     constexpr double of_change = 0.4;
+    constexpr double of_change_below = 0.9;
     constexpr double samples_of_change = 64.0;
     if (!(interval.error > 0.0) || samples == 0) {
         return interval;
     }
     const double own = std::log(interval.high / interval.error);
-    const double wider = std::hypot(
-        own,
-        of_change * std::min(1.0, std::sqrt(samples_of_change / static_cast<double>(samples))));
-    return {interval.error, interval.error * std::exp(-wider), interval.error * std::exp(wider)};
+    const double newness =
+        std::min(1.0, std::sqrt(samples_of_change / static_cast<double>(samples)));
+    return {interval.error, interval.error * std::exp(-std::hypot(own, of_change_below * newness)),
+            interval.error * std::exp(std::hypot(own, of_change * newness))};
 }
 
 ErrorInterval with_left_over(const ErrorInterval& interval, double share) {
@@ -238,12 +249,14 @@ double samples_factor(double noise, double discretisation, double target, std::u
     if (!reachable(discretisation, target)) {
         return std::numeric_limits<double>::infinity();
     }
-    const double exponent = 0.5 + gain_of(order).exponent;
+    const double now = variance_of_mean(samples, order);
     return first_factor(
         [&](double factor) {
-            const double n = std::min(static_cast<double>(samples) * factor, 1e18);
-            return upper_end(noise * std::pow(factor, -exponent), discretisation,
-                             noise_half_width(static_cast<std::uint64_t>(n), order));
+            const auto n =
+                static_cast<std::uint64_t>(std::min(static_cast<double>(samples) * factor, 1e18));
+            const double then = noise * std::sqrt(variance_of_mean(n, order) / (now * factor));
+            return upper_end(then, discretisation,
+                             noise_half_width(then, n, order, usual_luck(order)));
         },
         target);
 }

@@ -27,7 +27,7 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
       view_("view parameters", sizeof(layout::ViewParameters)),
       vertex_irradiance_("vertex irradiance",
                          2 * std::size_t{scene.vertex_count()} * sizeof(glm::uvec2)),
-      statistics_buffer_("view statistics", 4 * statistics_groups * sizeof(glm::vec4)) {
+      statistics_buffer_("view statistics", 5 * statistics_groups * sizeof(glm::vec4)) {
     statistics_buffer_.clear();
     statistics_readback_.emplace("view statistics readback", statistics_buffer_.bytes());
     vertex_irradiance_texture_ =

@@ -22,6 +22,7 @@
 #include "view/depth_grid.h"
 #include "view/edge_filter.h"
 #include "view/error_interval.h"
+#include "view/sample_batches.h"
 #include "view/specular_groups.h"
 #include "view/view_programs.h"
 
@@ -188,7 +189,7 @@ class ViewerImage : public BundleReceiver {
     void shade_continued(const Buffer& radiance);
     /// The sums of view_statistics.comp and view_detail.comp as last requested; waits for them.
     struct StatisticsSums {
-        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0}, difference{0.0};
+        glm::dvec4 light{0.0}, detail{0.0}, drift{0.0}, difference{0.0}, batches{0.0};
     };
     StatisticsSums statistics_sums();
 
@@ -254,6 +255,7 @@ class ViewerImage : public BundleReceiver {
     void interpolate_vertices();
     void evaluate(const StatisticsSums& sums);
     void note_light(double mean);
+    [[nodiscard]] double noise_factor(const StatisticsSums& sums) const;
     [[nodiscard]] SuspectedError suspected_error(const StatisticsSums& sums) const;
     void measure_detail();
     [[nodiscard]] ViewerImage* continued() const;
@@ -285,6 +287,8 @@ class ViewerImage : public BundleReceiver {
     std::uint64_t detail_samples_ = 0;     // of them when the detail was measured last
     std::uint64_t requested_samples_ = 0;  // of them when statistics were requested last
     ImageStatistics statistics_;
+    SampleBatches batches_;
+    double noise_factor_ = 1.0;    // see noise_factor(), by the last statistics
     double sampling_noise_ = 1.0;  // of the last statistics: noise without what is suspected
     double error_before_ = 1.0;    // relative, of what was shown before the sums of scatter began
     struct LightThen {

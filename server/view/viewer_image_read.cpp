@@ -43,7 +43,8 @@ std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::u
     programs_.probe.set("triangle_count", scene_.triangle_count());
     programs_.probe.set("error_before", static_cast<float>(error_before_));
     programs_.probe.set("variance_of_mean",
-                        static_cast<float>(variance_of_mean(scatter_samples_, sample_order())));
+                        static_cast<float>(noise_factor_ * noise_factor_ *
+                                           variance_of_mean(scatter_samples_, sample_order())));
     programs_.probe.dispatch(pixels.size());
     buffer.read<layout::PickResult>(picks);
     check_picture();

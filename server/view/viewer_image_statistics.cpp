@@ -57,6 +57,7 @@ void ViewerImage::restart_scatter() {
     parameters_.weights.y = 0.0F;
     parameters_.weights.z = 0.0F;
     scatter_samples_ = 0;
+    batches_.restart();
     detail_samples_ = 0;
     requested_samples_ = 0;
     statistics_.samples = 0;
@@ -93,6 +94,9 @@ void ViewerImage::request_statistics() {
     programs_.statistics.set("variance_of_patches", static_cast<float>(variance_of_patches(
                                                         scatter_samples_, scene_.has_sky())));
     programs_.statistics.set("fresh_share", scatter_samples_ < GROUP_SIZE ? 2.0F : 0.16F);
+    batches_.end({scatter_samples_, parameters_.weights.y, parameters_.weights.z}, sample_order());
+    programs_.statistics.set("batch_begin", batches_.begin());
+    programs_.statistics.set("batch_squares", batches_.squares());
     programs_.statistics.dispatch(statistics_groups * 64);
     if (ends_ == nullptr &&
         scatter_samples_ >= std::max<std::uint64_t>(2 * detail_samples_, 2 * GROUP_SIZE)) {
@@ -130,6 +134,7 @@ ViewerImage::StatisticsSums ViewerImage::statistics_sums() {
         sums.detail += glm::dvec4(parts[statistics_groups + i]);
         sums.drift += glm::dvec4(parts[2 * statistics_groups + i]);
         sums.difference += glm::dvec4(parts[3 * statistics_groups + i]);
+        sums.batches += glm::dvec4(parts[4 * statistics_groups + i]);
     }
     return sums;
 }
@@ -148,6 +153,7 @@ void ViewerImage::finish_statistics() {
         sums.light += behind.light;
         sums.drift += behind.drift;
         sums.difference += behind.difference;
+        sums.batches += behind.batches;
     }
     evaluate(sums);
 }
@@ -175,6 +181,17 @@ SuspectedError ViewerImage::suspected_error(const StatisticsSums& sums) const {
     return suspected(means, requested_samples_, sample_order(), scene_.has_sky());
 }
 
+/// Noise of the mean over what the scatter of its samples says. Light that was kept over a change
+/// has no part in that.
+double ViewerImage::noise_factor(const StatisticsSums& sums) const {
+    if (!(sums.light.y > 0.0)) {
+        return 1.0;
+    }
+    const double own_share = 1.0 - std::min(std::sqrt(sums.difference.w / sums.light.y), 1.0);
+    const double independent = std::sqrt(sums.drift.z / sums.light.y);
+    return std::sqrt(batches_.correlation()) * few_samples(own_share * independent);
+}
+
 /// Remembers how bright the picture was when it had half as many samples or fewer.
 void ViewerImage::note_light(double mean) {
     const LightThen now{requested_samples_, mean};
@@ -196,6 +213,7 @@ void ViewerImage::evaluate(const StatisticsSums& sums) {
     }
     constexpr std::uint64_t samples_of_start = 64;  // that light needs to come
     statistics_.samples = requested_samples_;
+    batches_.take({sums.batches.x, sums.batches.y, sums.batches.z, sums.batches.w, sums.drift.z});
     const double sky = sky_luminance(scene_);
     statistics_.unresolved_light = unresolved_sky * sky;
     statistics_.faint_light =
@@ -204,7 +222,7 @@ void ViewerImage::evaluate(const StatisticsSums& sums) {
             : 0.0;
     statistics_.known = statistics_.known || requested_samples_ >= 2 * GROUP_SIZE;
     const double unit = scene_.radiance_unit();
-    sampling_noise_ = sum.y > 0.0 ? std::min(std::sqrt(sum.x / sum.y), 1.0) : 0.0;
+    sampling_noise_ = sum.y > 0.0 ? std::min(std::sqrt(sum.x / sum.y) * noise_factor_, 1.0) : 0.0;
     statistics_.discretisation =
         detail.z > 0.0 ? discretisation_error(detail.x / detail.z, detail.y / detail.z) *
                              unresolved_share(grid_)
@@ -215,8 +233,9 @@ void ViewerImage::evaluate(const StatisticsSums& sums) {
     const bool unknown =
         suspected.missing > std::hypot(sampling_noise_, statistics_.discretisation);
     statistics_.noise = std::hypot(sampling_noise_, suspected.missing);
-    ErrorInterval interval = error_interval(statistics_.noise, statistics_.discretisation,
-                                            requested_samples_, sample_order());
+    ErrorInterval interval =
+        error_interval(statistics_.noise, statistics_.discretisation, requested_samples_,
+                       sample_order(), batches_.luck(sample_order()));
     if (keeping_) {
         interval = after_change(interval, requested_samples_);
     }

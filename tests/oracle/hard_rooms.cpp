@@ -184,14 +184,14 @@ KnownScene sphere_furnace(float albedo) {
     return scene;
 }
 
-KnownScene bright_and_dim_room() {
+KnownScene bright_and_dim_room(float ratio) {
     constexpr float dim = 1.0F;  // cd/m²
     constexpr float albedo = 0.5F;
     KnownScene scene;
     SceneBuilder& b = scene.builder;
     b.set_transform(odd_rotation());
     const auto wall = b.add_material(glm::vec3(albedo));
-    const auto bright_lamp = b.add_material(glm::vec3(albedo), glm::vec3(1e6F * dim));
+    const auto bright_lamp = b.add_material(glm::vec3(albedo), glm::vec3(ratio * dim));
     const auto dim_lamp = b.add_material(glm::vec3(albedo), glm::vec3(dim));
     b.add_box({0, 0, 0}, {4, 4, 4}, true, 4, wall);
     const std::size_t second = b.mesh.patch_count();

@@ -35,8 +35,8 @@ KnownScene tetrahedron_furnace(float albedo);
 KnownScene sphere_furnace(float albedo);
 
 /// Two closed 4 m cubes of albedo 0.5, 0.1 m apart, with one square metre of ceiling that emits in
-/// each: in the first a million times as much. Known: the mean of the second, Phi/(S(1 - rho)).
-KnownScene bright_and_dim_room();
+/// each: in the first so many times as much. Known: the mean of the second, Phi/(S(1 - rho)).
+KnownScene bright_and_dim_room(float ratio);
 
 /// An emitting unit square that meets a black one at a right angle, 8 x 8 cells each. Known: every
 /// patch along the common edge, by the factor of Lambert's polygon formula.

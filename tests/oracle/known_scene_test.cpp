@@ -40,6 +40,9 @@ TEST_P(KnownSceneQuick, HasTheIrradianceOfItsClosedForm) {
     }
 }
 
+KnownScene million_to_one() {
+    return bright_and_dim_room(1e6F);
+}
 KnownScene close_squares() {
     return unit_squares(0.01);
 }
@@ -56,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Quick{"squares", close_squares, layered(), 2048, 0.005},
                     Quick{"squares", close_squares, perspective(), 1024, 0.005},
                     Quick{"squares", close_squares, single_ray(), 2048, 0.005},
-                    Quick{"dim_room", bright_and_dim_room, perspective(), 4096, 0.02},
-                    Quick{"dim_room", bright_and_dim_room, combined(), 2048, 0.02},
+                    Quick{"dim_room", million_to_one, perspective(), 4096, 0.02},
+                    Quick{"dim_room", million_to_one, combined(), 2048, 0.02},
                     Quick{"tetrahedron", tetrahedron, combined(), 2048, 0.005},
                     Quick{"tetrahedron", tetrahedron, single_ray(), 2048, 0.005},
                     Quick{"sphere", sphere, three_strategies(), 1024, 0.005},
@@ -87,13 +90,21 @@ TEST(OpenField, PlateAboveItReflectsWhatItReceives) {
     OracleSettings settings;
     settings.iterations = 4096;
     settings.resolution = {128, 240};
-    // Few of the perspective bundles set out from the plate.
-    for (const auto& [method, bound] : {std::pair{combined(), 0.04}, {perspective(), 0.15}}) {
+    // Few of the perspective bundles set out from the plate, and what it receives of them scatters
+    // by 4 % from seed to seed.
+    struct Bounds {
+        Method method;
+        double received, reflected;
+    };
+    for (const auto& [method, of_received, of_reflected] :
+         {Bounds{combined(), 0.01, 0.04}, Bounds{perspective(), 0.12, 0.15}}) {
         const auto found = irradiance_by(method, b, settings);
         const double received = area_mean(b.mesh, found, 0, below);
         const double reflected = area_mean(b.mesh, found, below, rest);
-        EXPECT_NEAR(received, 0.985 * 100.0 * glm::pi<double>(), 0.01 * received) << method.name;
-        EXPECT_NEAR(reflected / (static_cast<double>(albedo) * received * factor), 1.0, bound)
+        EXPECT_NEAR(received, 0.985 * 100.0 * glm::pi<double>(), of_received * received)
+            << method.name;
+        EXPECT_NEAR(reflected / (static_cast<double>(albedo) * received * factor), 1.0,
+                    of_reflected)
             << method.name;
     }
 }
