@@ -19,7 +19,7 @@ TEXT
 
 fuzz_targets=(wire_text wire_binary session config ies gltf)
 most_seconds=3600 # of one test program: what takes longer hangs
-test_programs=(raybundle_protocol_tests raybundle_flow_tests raybundle_daemon_tests)
+test_programs=(raybundle_scheduling_tests raybundle_protocol_tests raybundle_flow_tests raybundle_daemon_tests)
 
 build() {
     local preset=$1

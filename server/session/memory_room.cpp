@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "stream/cost_model.h"
+#include "scheduling/cost_model.h"
 
 namespace raybundle {
 

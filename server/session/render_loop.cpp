@@ -7,9 +7,9 @@
 
 #include "gpu/context_loss.h"
 #include "gpu/egl_context.h"
+#include "scheduling/elapsed.h"
 #include "session/scene_messages.h"
 #include "session/viewers/picture_refusal.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

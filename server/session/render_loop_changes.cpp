@@ -8,10 +8,10 @@
 
 #include "bundle/low_discrepancy.h"
 #include "scene/material/specular_surface.h"
+#include "scheduling/elapsed.h"
 #include "session/render_loop.h"
 #include "session/scene_messages.h"
 #include "session/unix_time.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

@@ -4,8 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include "gpu/egl_context.h"
+#include "scheduling/elapsed.h"
 #include "session/render_loop.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

@@ -7,9 +7,9 @@
 
 #include "gpu/egl_context.h"
 #include "net/ws/wire_codec.h"
+#include "scheduling/elapsed.h"
 #include "session/render_loop.h"
 #include "session/viewers/picture_refusal.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

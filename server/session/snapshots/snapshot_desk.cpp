@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "gpu/egl_context.h"
+#include "scheduling/elapsed.h"
 #include "session/snapshots/snapshot_quota.h"
 #include "session/viewers/picture_refusal.h"
-#include "stream/elapsed.h"
 #include "stream/image_encoder.h"
 #include "view/image_file.h"
 

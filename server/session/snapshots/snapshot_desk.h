@@ -14,8 +14,8 @@
 
 #include "gpu/egl_context.h"
 #include "net/server.h"
+#include "scheduling/time_share.h"
 #include "session/changes/earlier_scene.h"
-#include "stream/time_share.h"
 #include "view/picture_tiles.h"
 #include "view/viewer_image.h"
 

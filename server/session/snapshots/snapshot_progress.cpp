@@ -2,8 +2,8 @@
 // What those who wait for snapshots hear.
 #include <cmath>
 
+#include "scheduling/elapsed.h"
 #include "session/snapshots/snapshot_desk.h"
-#include "stream/elapsed.h"
 #include "view/error_interval.h"
 
 namespace raybundle {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "net/server.h"
+#include "scheduling/elapsed.h"
 #include "session/scene_messages.h"
 #include "session/viewers/exposure_follow.h"
 #include "session/viewers/stated_error.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scheduling/elapsed.h"
 #include "session/viewers/stated_error.h"
 #include "session/viewers/viewer_session.h"
-#include "stream/elapsed.h"
 
 namespace raybundle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/receiver_rota.h"
+#include "scheduling/receiver_rota.h"
 
 #include <algorithm>
 #include <iterator>

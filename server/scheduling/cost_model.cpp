@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/cost_model.h"
+#include "scheduling/cost_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/request_share.h"
+#include "scheduling/request_share.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/changes/change_gate.h"
+#include "scheduling/change_gate.h"
 
 #include <gtest/gtest.h>
 

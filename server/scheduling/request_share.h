@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "stream/time_budget.h"
+#include "scheduling/time_budget.h"
 #include "stream/viewer_id.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/frame_scheduler.h"
+#include "scheduling/frame_scheduler.h"
 
 #include <gtest/gtest.h>
 

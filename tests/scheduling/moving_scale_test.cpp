@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/moving_scale.h"
+#include "scheduling/moving_scale.h"
 
 #include <gtest/gtest.h>
 

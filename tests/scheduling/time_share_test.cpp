@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/time_share.h"
+#include "scheduling/time_share.h"
 
-#include "stream/time_budget.h"
+#include "scheduling/time_budget.h"
 
 #include <gtest/gtest.h>
 
