@@ -11,7 +11,7 @@ void MovingScale::note(double full_ms, double budget_ms) {
     // Half a step too much is tolerated and a whole one too little: noise does not change the size.
     const bool keeps = wanted >= scale_ - 0.5 * kStep && wanted < std::min(scale_ + kStep, 1.0);
     if (!keeps) {
-        scale_ = std::clamp(std::floor(wanted / kStep) * kStep, kLeast, 1.0);
+        scale_ = std::clamp(std::floor(wanted / kStep) * kStep, kMin, 1.0);
     }
 }
 

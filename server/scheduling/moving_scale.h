@@ -8,14 +8,14 @@ namespace raybundle {
 /// clock of its own.
 class MovingScale {
   public:
-    static constexpr double kLeast = 0.625;  ///< of width and height
+    static constexpr double kMin = 0.625;  ///< of width and height
     static constexpr double kStep = 1.0 / 16.0;
 
     /// A frame for each who moves would take full_ms if their pictures were full, and shall take
     /// no more than budget_ms.
     void note(double full_ms, double budget_ms);
 
-    /// Of width and height, kLeast to 1.
+    /// Of width and height, kMin to 1.
     [[nodiscard]] double scale() const { return scale_; }
 
   private:

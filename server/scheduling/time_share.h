@@ -9,9 +9,9 @@ namespace raybundle {
 /// of what they cost without it, in the long run.
 class TimeShare {
   public:
-    /// share: of the usual cost; most_credit_ms: what may be saved up for later.
-    explicit TimeShare(double share, double most_credit_ms = 500.0)
-        : share_(share), most_credit_ms_(most_credit_ms) {}
+    /// share: of the usual cost; max_credit_ms: what may be saved up for later.
+    explicit TimeShare(double share, double max_credit_ms = 500.0)
+        : share_(share), max_credit_ms_(max_credit_ms) {}
 
     /// Whether it may take part in what comes next.
     [[nodiscard]] bool may() const { return credit_ms_ > 0.0; }
@@ -27,14 +27,14 @@ class TimeShare {
         if (took_part) {
             charge(cost_ms - usual);
         }
-        credit_ms_ = std::min(credit_ms_, most_credit_ms_);
+        credit_ms_ = std::min(credit_ms_, max_credit_ms_);
     }
 
     /// It has cost so much besides.
     void charge(double cost_ms) { credit_ms_ -= cost_ms; }
 
   private:
-    double share_, most_credit_ms_;
+    double share_, max_credit_ms_;
     double credit_ms_ = 0.0;
     double usual_ms_ = 0.0;  ///< of an iteration without it, running mean; 0: not known
 };

@@ -29,13 +29,13 @@ SpecialSettings PhaseBudget::settings(double target, bool hurried) const {
     SpecialSettings settings = interactive_special();
     const unsigned carrying = SpecialSettings{}.bounces;
     const double fit = bundle_ms_ > 0.0 ? deadline_ms / bundle_ms_ : settings.bundles;
-    auto affordable = static_cast<unsigned>(std::clamp(fit, 0.0, double{most_bundles + carrying}));
+    auto affordable = static_cast<unsigned>(std::clamp(fit, 0.0, double{max_bundles + carrying}));
     if (!hurried && affordable >= first_stage_of_two + carrying) {
         settings.bounces = carrying;
         affordable -= carrying;
     }
     settings.most_bundles =
-        hurried ? settings.bundles : std::clamp(affordable, settings.bundles, most_bundles);
+        hurried ? settings.bundles : std::clamp(affordable, settings.bundles, max_bundles);
     if (target > 0.0) {
         settings.relevant_noise =
             std::clamp(0.5F * static_cast<float>(target), 0.0025F, settings.relevant_noise);

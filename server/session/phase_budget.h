@@ -14,7 +14,7 @@ class PhaseBudget {
     /// Of the 150 ms from a change to its frame what is left beside composing and encoding it.
     static constexpr double deadline_ms = 110.0;
     /// More have no numbers of their own in the phase's sequences.
-    static constexpr unsigned most_bundles = 64;
+    static constexpr unsigned max_bundles = 64;
 
     /// A phase begins; its predecessor, where that is not at its end, does not count.
     void begin(double now_ms);

@@ -65,7 +65,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
     bool idle = true;
     while (!stop) {
         metrics_.count_turn();
-        hear_viewers(idle);
+        process_inbox(idle);
         start_pending_change();
         const bool collected = collect_frames();
         const bool sent = send_frames() || collected;

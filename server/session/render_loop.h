@@ -17,7 +17,7 @@
 #include "scheduling/cost_model.h"
 #include "scheduling/frame_scheduler.h"
 #include "scheduling/moving_scale.h"
-#include "scheduling/receiver_rota.h"
+#include "scheduling/receiver_scheduler.h"
 #include "scheduling/request_share.h"
 #include "scheduling/time_budget.h"
 #include "session/changes/change_log.h"
@@ -25,11 +25,11 @@
 #include "session/loop_metrics.h"
 #include "session/phase_budget.h"
 #include "session/review/review_board.h"
-#include "session/snapshots/snapshot_desk.h"
-#include "session/viewers/check_desk.h"
-#include "session/viewers/target_book.h"
+#include "session/snapshots/snapshot_queue.h"
+#include "session/viewers/error_checker.h"
+#include "session/viewers/target_store.h"
 #include "session/viewers/viewer_session.h"
-#include "session/walk_map_desk.h"
+#include "session/viewers/walk_mapper.h"
 #include "stream/frame_encoder.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
@@ -81,7 +81,7 @@ class RenderLoop {
     using Clock = std::chrono::steady_clock;
 
     void rehearse_at(const glm::uvec2& size, const std::atomic<bool>& stop);
-    void hear_viewers(bool idle);
+    void process_inbox(bool idle);
     void handle(const ClientEvent& event);
     void handle_message(ViewerSession& session, const ClientEvent& event);
     void join(const ClientEvent& event);
@@ -182,7 +182,7 @@ class RenderLoop {
     double last_step_ms_ = 0.0;
     FrameScheduler scheduler_;
     RequestShare requests_;
-    ReceiverRota rota_;
+    ReceiverScheduler receiver_scheduler_;
     TimeBudget greeting_, silent_greeting_, statistics_, solving_;
     Clock::time_point last_walk_frame_;  // of somebody who moves
     MovingScale moving_scale_;           // of a walk's pictures
@@ -195,18 +195,18 @@ class RenderLoop {
     LoopMetrics metrics_;
     FrameEncoder encoder_;
     ReviewBoard review_;
-    TargetBook targets_;
-    SnapshotDesk snapshots_;
-    CheckDesk checks_;
+    TargetStore targets_;
+    SnapshotQueue snapshots_;
+    ErrorChecker checks_;
     bool presence_changed_ = false;
     Clock::time_point last_presence_;
     Clock::time_point last_solution_, rate_since_;
     std::uint64_t rate_iterations_ = 0;
     double iterations_per_second_ = 0.0;
     // Last, since its thread uses the others.
-    WalkMapDesk walk_maps_{scene_,
-                           [this](const ClientEvent& event, const std::optional<WalkMap>& map,
-                                  std::uint32_t epoch) { answer_walk_map(event, map, epoch); }};
+    WalkMapper walk_maps_{scene_,
+                          [this](const ClientEvent& event, const std::optional<WalkMap>& map,
+                                 std::uint32_t epoch) { answer_walk_map(event, map, epoch); }};
 };
 
 }  // namespace raybundle

@@ -14,7 +14,7 @@ namespace raybundle {
 
 namespace {
 
-constexpr double least_presence_interval_s = 0.1;
+constexpr double min_presence_interval_s = 0.1;
 constexpr double presence_interval_per_viewer_s = 0.01;
 constexpr double pin_check_settled = 0.9;  // before, a pin's light is still on its way
 
@@ -221,7 +221,7 @@ void RenderLoop::point_at(const ClientEvent& event) {
 /// Tells everybody who is here, where that has changed and not too often.
 void RenderLoop::send_presence(Clock::time_point now) {
     const double interval =
-        std::max(least_presence_interval_s,
+        std::max(min_presence_interval_s,
                  presence_interval_per_viewer_s * static_cast<double>(sessions_.size()));
     const double since = std::chrono::duration<double>(now - last_presence_).count();
     if (!presence_changed_ || since < interval) {

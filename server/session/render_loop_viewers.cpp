@@ -19,20 +19,20 @@ constexpr double frame_slice_ms = 60.0;      // of frames between two steps of t
 constexpr double walkthrough_ms = 40.0;      // drawing and solving; with encoding some 50
 constexpr double walk_pause_ms = 250.0;      // without a frame nobody walks
 constexpr double drag_pause_ms = 400.0;      // without a step nobody drags
-constexpr double least_solver_share = 0.2;   // of the time, where frames take more than that
+constexpr double min_solver_share = 0.2;     // of the time, where frames take more than that
 constexpr double moving_share = 2.0;         // of a step, for frames while somebody moves
 constexpr double silence_limit_ms = 3000.0;  // without acknowledgement a viewer counts as away
 constexpr double forget_limit_ms = 60e3;     // and after this its picture is forgotten
 /// What gathering light adds to an iteration at most: while somebody moves, at least, or half of
 /// the time that frames take; and while nobody does, so that who begins to does not wait long.
-constexpr double least_receive_ms = 40.0;
+constexpr double min_receive_ms = 40.0;
 constexpr double resting_receive_ms = 100.0;
 
 }  // namespace
 
 /// What has come in by now, but of nobody more than its share where the time is wanted for frames
 /// and iterations (`idle`: it is not).
-void RenderLoop::hear_viewers(bool idle) {
+void RenderLoop::process_inbox(bool idle) {
     Inbox& inbox = server_.inbox();
     for (std::size_t left = inbox.size(); left > 0; --left) {
         const auto event =
@@ -54,7 +54,7 @@ void RenderLoop::choose_receivers() {
     const auto now = Clock::now();
     const bool watched = std::any_of(sessions_.begin(), sessions_.end(),
                                      [](const auto& entry) { return !entry.second->paused(); });
-    std::vector<RotaMember> members;
+    std::vector<ReceiverRequest> members;
     for (const auto& [id, session] : sessions_) {
         if (session->has_image() && (!watched || !session->paused())) {
             members.push_back(
@@ -63,10 +63,10 @@ void RenderLoop::choose_receivers() {
     }
     const double moving_ms = moving_frames_ms(now);
     const double budget_ms =
-        moving_ms > 0.0 ? std::max(least_receive_ms, 0.5 * moving_ms) : resting_receive_ms;
+        moving_ms > 0.0 ? std::max(min_receive_ms, 0.5 * moving_ms) : resting_receive_ms;
     receivers_.clear();
     receiver_pixels_ = 0.0;
-    for (const ViewerId viewer : rota_.next(members, budget_ms)) {
+    for (const ViewerId viewer : receiver_scheduler_.next(members, budget_ms)) {
         ViewerSession& session = *sessions_.at(viewer);
         receivers_.push_back(&session.image());
         receiver_pixels_ += session.drawn_pixels();
@@ -97,7 +97,7 @@ void RenderLoop::choose_moving_scale(Clock::time_point now) {
         full_ms += session->has_image() && session->moving(now) ? session->full_frame_ms() : 0.0;
     }
     if (full_ms > 0.0) {
-        moving_scale_.note(full_ms, (1.0 - least_solver_share) * walkthrough_ms);
+        moving_scale_.note(full_ms, (1.0 - min_solver_share) * walkthrough_ms);
     }
 }
 
@@ -119,7 +119,7 @@ bool RenderLoop::solver_may_run() {
     if (!walking(now) || solver_->correcting()) {
         return true;
     }
-    solving_.set_share(std::max(1.0 - moving_frames_ms(now) / walkthrough_ms, least_solver_share));
+    solving_.set_share(std::max(1.0 - moving_frames_ms(now) / walkthrough_ms, min_solver_share));
     return solving_.may(Server::now_ms());
 }
 

@@ -66,7 +66,7 @@ double cost(const Step& step, double viewport_pixels) {
 /// that a slow link needs for its bytes, which would pass for distance.
 double CongestionWindow::base_rtt_ms() const {
     if (probes_ms_.empty()) {
-        return least_frame_rtt_ms_.value_or(0.0);
+        return min_frame_rtt_ms_.value_or(0.0);
     }
     return *std::min_element(probes_ms_.begin(), probes_ms_.end());
 }
@@ -123,7 +123,7 @@ void CongestionWindow::on_ack(std::uint32_t frame, double decode_ms, double now_
     const int in_flight_before = in_flight();
     flights_.erase(flights_.begin(), acked + 1);
 
-    least_frame_rtt_ms_ = std::min(least_frame_rtt_ms_.value_or(rtt_ms), rtt_ms);
+    min_frame_rtt_ms_ = std::min(min_frame_rtt_ms_.value_or(rtt_ms), rtt_ms);
     delay_ms_ = std::max(rtt_ms - base_rtt_ms(), 0.0);
     note_bandwidth(bytes, first_sent_ms, now_ms - decoding_ms);
     adapt_window(in_flight_before);

@@ -64,7 +64,7 @@ class CongestionWindow {
     }
 
     /// Whether any frame has ever been acknowledged.
-    [[nodiscard]] bool acknowledged() const { return least_frame_rtt_ms_.has_value(); }
+    [[nodiscard]] bool acknowledged() const { return min_frame_rtt_ms_.has_value(); }
     [[nodiscard]] int in_flight() const { return static_cast<int>(flights_.size()); }
     [[nodiscard]] double window() const { return window_; }               ///< frames
     [[nodiscard]] double base_rtt_ms() const;                             ///< 0: not known yet
@@ -91,12 +91,12 @@ class CongestionWindow {
     double rate_ = 0.0;            ///< bytes per millisecond of the bottleneck
     double bytes_per_cost_ = 0.0;  ///< how much detail this viewer's pictures have
     double last_arrival_ms_ = -1e300;
-    std::optional<double> last_moving_ms_;      ///< initially the first call
-    std::size_t step_ = 0;                      ///< of the quality ladder, last advised
-    std::deque<double> probes_ms_;              ///< latest measurements of the base round trip
-    std::optional<double> probe_sent_ms_;       ///< of the one without answer
-    std::optional<double> last_probe_ms_;       ///< when the last one was sent
-    std::optional<double> least_frame_rtt_ms_;  ///< stands in while no probe has been answered
+    std::optional<double> last_moving_ms_;    ///< initially the first call
+    std::size_t step_ = 0;                    ///< of the quality ladder, last advised
+    std::deque<double> probes_ms_;            ///< latest measurements of the base round trip
+    std::optional<double> probe_sent_ms_;     ///< of the one without answer
+    std::optional<double> last_probe_ms_;     ///< when the last one was sent
+    std::optional<double> min_frame_rtt_ms_;  ///< stands in while no probe has been answered
 };
 
 }  // namespace raybundle

@@ -31,7 +31,7 @@ TEST(PhaseBudget, IsTheUsualOneAsLongAsNothingIsKnown) {
 TEST(PhaseBudget, UsesAFastDevice) {
     const SpecialSettings settings = with_bundles_of(1.0).settings(0.0, false);
     EXPECT_EQ(settings.bundles, 8U) << "the noise decides how many more";
-    EXPECT_EQ(settings.most_bundles, PhaseBudget::most_bundles);
+    EXPECT_EQ(settings.most_bundles, PhaseBudget::max_bundles);
     EXPECT_GT(settings.bounces, 0U);
 }
 

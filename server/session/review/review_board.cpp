@@ -8,8 +8,8 @@ namespace raybundle {
 
 namespace {
 
-constexpr float worth_telling = 0.02F;      // difference of relative changes
-constexpr float least_illuminance = 1e-3F;  // lx; below, a change is measured against this
+constexpr float worth_telling = 0.02F;    // difference of relative changes
+constexpr float min_illuminance = 1e-3F;  // lx; below, a change is measured against this
 
 /// A pin as the journal holds it: the message, then the patch's number and illuminance, in fields
 /// that are the journal's own.
@@ -125,7 +125,7 @@ bool update_change(Pin& pin, float illuminance, std::uint32_t epoch) {
         pin.patch_illuminance = illuminance;
         return false;
     }
-    const float before = std::max(pin.patch_illuminance, least_illuminance);
+    const float before = std::max(pin.patch_illuminance, min_illuminance);
     const float change = (illuminance - pin.patch_illuminance) / before;
     if (pin.message.has_change() && std::abs(change - pin.message.change()) < worth_telling) {
         return false;

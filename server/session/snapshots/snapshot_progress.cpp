@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scheduling/elapsed.h"
-#include "session/snapshots/snapshot_desk.h"
+#include "session/snapshots/snapshot_queue.h"
 #include "view/error_interval.h"
 
 namespace raybundle {
@@ -15,9 +15,9 @@ constexpr std::chrono::seconds report_interval(1);
 }  // namespace
 
 /// What is known of the picture that is being made.
-v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
+v1::SnapshotProgress SnapshotQueue::progress_of_first() const {
     v1::SnapshotProgress progress;
-    if (!image_ || image_->samples() < least_samples || !image_->statistics().known) {
+    if (!image_ || image_->samples() < min_samples || !image_->statistics().known) {
         return progress;
     }
     const ImageStatistics& statistics = image_->statistics();
@@ -33,7 +33,7 @@ v1::SnapshotProgress SnapshotDesk::progress_of_first() const {
     return progress;
 }
 
-void SnapshotDesk::report() {
+void SnapshotQueue::report() {
     const auto now = Clock::now();
     if (requests_.empty() || now - last_report_ < report_interval) {
         return;

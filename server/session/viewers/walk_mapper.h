@@ -19,14 +19,14 @@ namespace raybundle {
 /// Works out what stands around viewers on a thread of its own, so that pictures go on meanwhile:
 /// one map after the other, in turn, half of the time at most. Of each viewer one request waits; a
 /// newer one replaces it.
-class WalkMapDesk {
+class WalkMapper {
   public:
-    /// `answer` hears of each request on the desk's thread, of one that was replaced with no map on
-    /// the caller's. The scene must outlive the desk and keep its triangles, vertices and objects
-    /// but for their places.
+    /// `answer` hears of each request on the mapper's thread, of one that was replaced with no map
+    /// on the caller's. The scene must outlive the mapper and keep its triangles, vertices and
+    /// objects but for their places.
     using Answer = std::function<void(const ClientEvent& request, const std::optional<WalkMap>& map,
                                       std::uint32_t epoch)>;
-    WalkMapDesk(const Scene& scene, Answer answer);
+    WalkMapper(const Scene& scene, Answer answer);
 
     /// Takes a getWalkMap, with objects at their present places. On the thread that moves them.
     void ask(const ClientEvent& request, std::uint32_t epoch);

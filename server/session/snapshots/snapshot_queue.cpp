@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/snapshots/snapshot_desk.h"
+#include "session/snapshots/snapshot_queue.h"
 
 #include <spdlog/spdlog.h>
 
@@ -18,7 +18,7 @@ namespace raybundle {
 
 namespace {
 
-constexpr std::chrono::hours most_time(1);
+constexpr std::chrono::hours max_time(1);
 constexpr std::chrono::milliseconds statistics_interval(100);
 constexpr double earlier_slice_ms = 40.0;          // of iterations of an earlier scene at once
 constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
@@ -26,7 +26,7 @@ constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
 }  // namespace
 
 /// A picture on its way from the GPU to a file.
-struct SnapshotDesk::Finished {
+struct SnapshotQueue::Finished {
     ClientEvent event;
     glm::uvec2 size{0};
     std::vector<glm::vec4> radiance;   ///< of EXR, row 0 at the top
@@ -36,12 +36,12 @@ struct SnapshotDesk::Finished {
     float exposure = 0.0F;
 };
 
-SnapshotDesk::SnapshotDesk(Server& server, MakeEarlier make_earlier)
+SnapshotQueue::SnapshotQueue(Server& server, MakeEarlier make_earlier)
     : server_(server), make_earlier_(std::move(make_earlier)) {}
 
-SnapshotDesk::~SnapshotDesk() = default;
+SnapshotQueue::~SnapshotQueue() = default;
 
-void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const PictureLook& look) {
+void SnapshotQueue::add(const ClientEvent& request, const Camera& camera, const PictureLook& look) {
     std::vector<WaitingSnapshot> waiting;
     for (const Request& other : requests_) {
         waiting.push_back({other.event.viewer, other.event.role});
@@ -59,16 +59,16 @@ void SnapshotDesk::add(const ClientEvent& request, const Camera& camera, const P
     requests_.insert(requests_.begin() + place, std::move(added));
 }
 
-const ViewerImage* SnapshotDesk::picture_of(ViewerId viewer) const {
+const ViewerImage* SnapshotQueue::picture_of(ViewerId viewer) const {
     return !requests_.empty() && requests_.front().event.viewer == viewer ? image_.get() : nullptr;
 }
 
-bool SnapshotDesk::is_making(ViewerId viewer, std::uint32_t request) const {
+bool SnapshotQueue::is_making(ViewerId viewer, std::uint32_t request) const {
     return picture_of(viewer) != nullptr && requests_.front().event.message.has_id() &&
            requests_.front().event.message.id() == request;
 }
 
-void SnapshotDesk::cancel(const ClientEvent& request) {
+void SnapshotQueue::cancel(const ClientEvent& request) {
     const std::uint32_t id = request.message.cancel_snapshot().request();
     const auto found = std::find_if(requests_.begin(), requests_.end(), [&](const Request& r) {
         return r.event.viewer == request.viewer && r.event.message.has_id() &&
@@ -88,27 +88,27 @@ void SnapshotDesk::cancel(const ClientEvent& request) {
     server_.reply_ok(request);
 }
 
-void SnapshotDesk::forget(ViewerId viewer) {
+void SnapshotQueue::forget(ViewerId viewer) {
     if (picture_of(viewer) != nullptr) {
         drop_picture();
     }
     std::erase_if(requests_, [viewer](const Request& r) { return r.event.viewer == viewer; });
 }
 
-void SnapshotDesk::restart() {
+void SnapshotQueue::restart() {
     if (!apart_) {
         drop_picture();
     }
 }
 
-void SnapshotDesk::drop_picture() {
+void SnapshotQueue::drop_picture() {
     image_.reset();
     tiles_.reset();
     taking_part_ = false;
     apart_ = false;
 }
 
-void SnapshotDesk::refuse_all() {
+void SnapshotQueue::refuse_all() {
     drop_picture();
     for (const Request& request : requests_) {
         server_.reply_error(request.event, v1::Error::INTERNAL, "the server is stopping");
@@ -117,8 +117,8 @@ void SnapshotDesk::refuse_all() {
 }
 
 /// False where there is no memory for it: the request is answered.
-bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
-                         const ViewPrograms& programs) {
+bool SnapshotQueue::begin(const GpuScene& scene, const RadianceStore& store,
+                          const ViewPrograms& programs) {
     const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
     try {
         if (!tiles_) {
@@ -137,7 +137,7 @@ bool SnapshotDesk::begin(const GpuScene& scene, const RadianceStore& store,
 }
 
 /// The picture cannot be made.
-void SnapshotDesk::drop(const GpuError& error) {
+void SnapshotQueue::drop(const GpuError& error) {
     const ClientEvent& event = requests_.front().event;
     spdlog::error("no snapshot for viewer {}: {}", event.viewer, error.what());
     const Refusal refusal = refusal_of(error);
@@ -146,7 +146,7 @@ void SnapshotDesk::drop(const GpuError& error) {
     requests_.pop_front();
 }
 
-bool SnapshotDesk::done() {
+bool SnapshotQueue::done() {
     const Request& request = requests_.front();
     if (!image_->smoothed()) {
         return false;
@@ -154,14 +154,14 @@ bool SnapshotDesk::done() {
     const ImageStatistics& statistics = image_->statistics();
     const auto share =
         static_cast<double>(tiles_->done() + 1) / static_cast<double>(tiles_->count());
-    return Clock::now() - request.since > share * most_time ||
-           (image_->samples() >= least_samples && statistics.samples >= least_samples &&
+    return Clock::now() - request.since > share * max_time ||
+           (image_->samples() >= min_samples && statistics.samples >= min_samples &&
             statistics.meets(request.error()));
 }
 
-ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceStore& store,
-                                         const ViewPrograms& programs, std::uint32_t epoch,
-                                         bool undisturbed) {
+ViewerImage* SnapshotQueue::next_receiver(const GpuScene& scene, const RadianceStore& store,
+                                          const ViewPrograms& programs, std::uint32_t epoch,
+                                          bool undisturbed) {
     taking_part_ = false;
     undisturbed_ = undisturbed;
     if (earlier_ && requests_.empty() && Clock::now() - earlier_used_ > earlier_kept) {
@@ -196,13 +196,13 @@ ViewerImage* SnapshotDesk::next_receiver(const GpuScene& scene, const RadianceSt
     return image_.get();
 }
 
-void SnapshotDesk::charge_since(Clock::time_point start) {
+void SnapshotQueue::charge_since(Clock::time_point start) {
     if (!undisturbed_) {
         share_.charge(milliseconds_since(start));
     }
 }
 
-void SnapshotDesk::note_iteration(double cost_ms) {
+void SnapshotQueue::note_iteration(double cost_ms) {
     if (!undisturbed_) {
         share_.note_iteration(cost_ms, taking_part_);
     }
@@ -211,7 +211,7 @@ void SnapshotDesk::note_iteration(double cost_ms) {
     }
 }
 
-void SnapshotDesk::refresh_statistics() {
+void SnapshotQueue::refresh_statistics() {
     const auto now = Clock::now();
     if (now - last_statistics_ >= statistics_interval) {
         last_statistics_ = now;
@@ -220,13 +220,13 @@ void SnapshotDesk::refresh_statistics() {
 }
 
 /// The next picture is not of the present scene, whose epoch this is.
-bool SnapshotDesk::wants_earlier(std::uint32_t epoch) const {
+bool SnapshotQueue::wants_earlier(std::uint32_t epoch) const {
     const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
     return apart_ || (wanted.has_epoch() && wanted.epoch() != epoch);
 }
 
 /// False where it cannot be had: the request is answered. Others wait while shaders are compiled.
-bool SnapshotDesk::prepare_earlier() {
+bool SnapshotQueue::prepare_earlier() {
     const std::uint32_t epoch = requests_.front().event.message.snapshot().epoch();
     if (earlier_ && earlier_->epoch() == epoch) {
         return true;
@@ -248,7 +248,7 @@ bool SnapshotDesk::prepare_earlier() {
 }
 
 /// Some iterations of the earlier scene, as far as there is time for them.
-void SnapshotDesk::work_on_earlier() {
+void SnapshotQueue::work_on_earlier() {
     if (!image_) {
         if (!prepare_earlier() ||
             !begin(earlier_->solver().scene(), earlier_->solver().store(), earlier_->programs())) {
@@ -277,7 +277,7 @@ void SnapshotDesk::work_on_earlier() {
 }
 
 /// Delivers the picture where it is done. True if it has been.
-bool SnapshotDesk::finish_earlier() {
+bool SnapshotQueue::finish_earlier() {
     if (!done() || delivery_.busy()) {
         return false;
     }
@@ -286,7 +286,7 @@ bool SnapshotDesk::finish_earlier() {
 }
 
 /// Takes the tile that is done, and delivers the picture where it was the last one.
-void SnapshotDesk::deliver(std::uint32_t epoch) {
+void SnapshotQueue::deliver(std::uint32_t epoch) {
     tiles_->take(*image_, requests_.front().look);
     image_.reset();
     taking_part_ = false;
@@ -308,7 +308,7 @@ void SnapshotDesk::deliver(std::uint32_t epoch) {
     delivery_.submit(std::move(picture));
 }
 
-void SnapshotDesk::encode(Finished& picture, Server& server) {
+void SnapshotQueue::encode(Finished& picture, Server& server) {
     const auto width = static_cast<int>(picture.size.x);
     const auto height = static_cast<int>(picture.size.y);
     std::optional<std::string> url;
@@ -341,23 +341,23 @@ void SnapshotDesk::encode(Finished& picture, Server& server) {
     server.reply(picture.event, answer);
 }
 
-SnapshotDesk::Delivery::Delivery(Server& server)
+SnapshotQueue::Delivery::Delivery(Server& server)
     : server_(server), thread_([this](const std::stop_token& token) { work(token); }) {}
 
-SnapshotDesk::Delivery::~Delivery() = default;
+SnapshotQueue::Delivery::~Delivery() = default;
 
-void SnapshotDesk::Delivery::submit(std::unique_ptr<Finished> picture) {
+void SnapshotQueue::Delivery::submit(std::unique_ptr<Finished> picture) {
     const std::lock_guard lock(mutex_);
     next_ = std::move(picture);
     changed_.notify_one();
 }
 
-bool SnapshotDesk::Delivery::busy() {
+bool SnapshotQueue::Delivery::busy() {
     const std::lock_guard lock(mutex_);
     return running_ || next_ != nullptr;
 }
 
-void SnapshotDesk::Delivery::work(const std::stop_token& token) {
+void SnapshotQueue::Delivery::work(const std::stop_token& token) {
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, token, [this] { return next_ != nullptr; }),
            next_ != nullptr && !token.stop_requested()) {

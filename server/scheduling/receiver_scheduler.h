@@ -12,7 +12,7 @@
 namespace raybundle {
 
 /// A viewer whose picture could gather light.
-struct RotaMember {
+struct ReceiverRequest {
     ViewerId viewer = 0;
     bool moving = false;   ///< its picture changes: it lives on the object-space solution meanwhile
     double cost_ms = 0.0;  ///< that its pixels add to an iteration
@@ -22,15 +22,15 @@ struct RotaMember {
 /// take too long: those at rest in turn, each in as many groups as any other, and moving ones with
 /// what time is left. Each round goes through them in another random order: bundles come from
 /// low-discrepancy sequences, of which every n-th group alone would be a biased part.
-class ReceiverRota {
+class ReceiverScheduler {
   public:
-    explicit ReceiverRota(std::uint64_t seed = 1) : random_(seed) {}
+    explicit ReceiverScheduler(std::uint64_t seed = 1) : random_(seed) {}
 
     /// Who gathers: as many as fit into `budget_ms`, but one at least where there are any.
-    std::vector<ViewerId> next(std::span<const RotaMember> members, double budget_ms);
+    std::vector<ViewerId> next(std::span<const ReceiverRequest> members, double budget_ms);
 
   private:
-    void deal(std::vector<RotaMember> members, double budget_ms, double& spent_ms,
+    void deal(std::vector<ReceiverRequest> members, double budget_ms, double& spent_ms,
               std::vector<ViewerId>& chosen);
 
     std::mt19937_64 random_;

@@ -13,12 +13,12 @@ namespace raybundle {
 /// What viewers want to wait for, by their names, so that who comes back after the server was
 /// killed need not say it again. Each is in the journal before it is here. Viewers without a name
 /// are not remembered. Knows neither GL nor the network.
-class TargetBook {
+class TargetStore {
   public:
     static constexpr std::size_t max_targets = 64;  ///< what was set longest ago is forgotten first
 
     /// Takes up what the journal holds.
-    explicit TargetBook(ChangeLog& log);
+    explicit TargetStore(ChangeLog& log);
 
     /// Remembers a target; one without a goal is forgotten. False: it could not be stored, and
     /// nothing has changed.

@@ -23,7 +23,7 @@ namespace raybundle {
 /// thread of its own, one picture at a time, and with pauses, so that it takes a small share of one
 /// core. What it has traced is kept for as long as scene, camera and size stay as they are, for a
 /// few viewers. Its methods are for one thread; only set_scene() takes that longer, for a copy.
-class CheckDesk {
+class ErrorChecker {
   public:
     using Clock = std::chrono::steady_clock;
 
@@ -42,10 +42,10 @@ class CheckDesk {
         SquaredError square;
     };
 
-    CheckDesk();
-    ~CheckDesk();
-    CheckDesk(const CheckDesk&) = delete;
-    CheckDesk& operator=(const CheckDesk&) = delete;
+    ErrorChecker();
+    ~ErrorChecker();
+    ErrorChecker(const ErrorChecker&) = delete;
+    ErrorChecker& operator=(const ErrorChecker&) = delete;
 
     /// Takes another picture now. One at a time, with pauses.
     [[nodiscard]] bool idle(Clock::time_point now);

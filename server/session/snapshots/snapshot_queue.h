@@ -27,19 +27,19 @@ namespace raybundle {
 /// has iterations of its own: while somebody moves in the same share of the time, while all rest in
 /// turns with the present scene, and all of the time where nobody needs it. Thread of the GL
 /// context.
-class SnapshotDesk {
+class SnapshotQueue {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr double time_share = 0.18;  ///< of the solver's time while somebody moves
-    static constexpr std::uint64_t least_samples = 32;  ///< before an error is believed
+    static constexpr double time_share = 0.18;        ///< of the solver's time while somebody moves
+    static constexpr std::uint64_t min_samples = 32;  ///< before an error is believed
 
     /// Makes the scene as it was after a change; null where that is not known any more.
     using MakeEarlier = std::function<std::unique_ptr<EarlierScene>(std::uint32_t epoch)>;
 
-    SnapshotDesk(Server& server, MakeEarlier make_earlier);
-    ~SnapshotDesk();
-    SnapshotDesk(const SnapshotDesk&) = delete;
-    SnapshotDesk& operator=(const SnapshotDesk&) = delete;
+    SnapshotQueue(Server& server, MakeEarlier make_earlier);
+    ~SnapshotQueue();
+    SnapshotQueue(const SnapshotQueue&) = delete;
+    SnapshotQueue& operator=(const SnapshotQueue&) = delete;
 
     /// Takes a request for what `camera` sees, or refuses it. look: of PNG.
     void add(const ClientEvent& request, const Camera& camera, const PictureLook& look);

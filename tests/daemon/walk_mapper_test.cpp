@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/walk_map_desk.h"
+#include "session/viewers/walk_mapper.h"
 
 #include <gtest/gtest.h>
 
@@ -42,14 +42,14 @@ ClientEvent request(ViewerId viewer, std::uint32_t id) {
     return event;
 }
 
-TEST(WalkMapDeskTest, AnswersAsThingsWereWhenAskedAndHoldsUpNobody) {
+TEST(WalkMapperTest, AnswersAsThingsWereWhenAskedAndHoldsUpNobody) {
     Scene scene = slab();
     std::mutex mutex;
     std::map<std::uint32_t, std::optional<WalkMap>> answers;
     std::map<std::uint32_t, std::uint32_t> epochs;
     std::promise<void> first_begun, go_on, all;
-    WalkMapDesk desk(scene, [&](const ClientEvent& event, const std::optional<WalkMap>& map,
-                                std::uint32_t epoch) {
+    WalkMapper mapper(scene, [&](const ClientEvent& event, const std::optional<WalkMap>& map,
+                                 std::uint32_t epoch) {
         const std::uint32_t id = event.message.id();
         if (id == 1) {
             first_begun.set_value();
@@ -62,14 +62,14 @@ TEST(WalkMapDeskTest, AnswersAsThingsWereWhenAskedAndHoldsUpNobody) {
             all.set_value();
         }
     });
-    desk.ask(request(7, 1), 3);
+    mapper.ask(request(7, 1), 3);
     first_begun.get_future().wait();
     // The caller goes on while a map takes long, and the scene with it.
     scene.objects[0].transform.translation.y = 0.5F;
-    desk.ask(request(7, 2), 4);
-    desk.ask(request(8, 3), 4);
+    mapper.ask(request(7, 2), 4);
+    mapper.ask(request(8, 3), 4);
     scene.objects[0].transform.translation.y = 1.0F;
-    desk.ask(request(7, 4), 5);
+    mapper.ask(request(7, 4), 5);
     go_on.set_value();
     all.get_future().wait();
     const std::lock_guard lock(mutex);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/viewers/target_book.h"
+#include "session/viewers/target_store.h"
 
 #include <algorithm>
 
 namespace raybundle {
 
-TargetBook::TargetBook(ChangeLog& log) : log_(log) {
+TargetStore::TargetStore(ChangeLog& log) : log_(log) {
     for (const std::string& body : log.notes(NoteKind::target)) {
         v1::JournalTarget note;
         if (note.ParseFromString(body)) {
@@ -16,7 +16,7 @@ TargetBook::TargetBook(ChangeLog& log) : log_(log) {
 }
 
 /// Forgets the target of a name; true where there is none afterwards.
-bool TargetBook::drop(const std::string& name) {
+bool TargetStore::drop(const std::string& name) {
     const auto found = targets_.find(name);
     if (found == targets_.end()) {
         return true;
@@ -28,7 +28,7 @@ bool TargetBook::drop(const std::string& name) {
     return true;
 }
 
-bool TargetBook::keep(const std::string& name, const v1::SetTarget& target) {
+bool TargetStore::keep(const std::string& name, const v1::SetTarget& target) {
     if (name.empty()) {
         return true;
     }
@@ -60,7 +60,7 @@ bool TargetBook::keep(const std::string& name, const v1::SetTarget& target) {
     return true;
 }
 
-const v1::SetTarget* TargetBook::of(const std::string& name) const {
+const v1::SetTarget* TargetStore::of(const std::string& name) const {
     const auto found = targets_.find(name);
     return found == targets_.end() ? nullptr : &found->second.target();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/viewers/check_desk.h"
+#include "session/viewers/error_checker.h"
 
 #include <spdlog/spdlog.h>
 #include <tbb/task_arena.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds longest_work(150);  // CPU time on one picture, at a time
 constexpr double rest_factor = 5.0;                     // of the work: a sixth of one core
-constexpr std::size_t most_begun = 8;
+constexpr std::size_t max_begun = 8;
 constexpr std::uint64_t seed = 0x73706f7463686563ULL;
 
 /// CPU time of this thread so far. By the machine's clock a busy machine would leave each look no
@@ -30,7 +30,7 @@ std::chrono::nanoseconds thread_time() {
 }  // namespace
 
 /// A copy, since the present scene goes on to change; traced when the first picture needs it.
-struct CheckDesk::OwnScene {
+struct ErrorChecker::OwnScene {
     OwnScene(const Scene& s, const PatchMesh& m) : scene(s), mesh(m) {}
 
     std::shared_ptr<const TracedScene> traced(const std::shared_ptr<const OwnScene>& self) const {
@@ -46,9 +46,9 @@ struct CheckDesk::OwnScene {
     mutable std::unique_ptr<const TracedScene> traced_;
 };
 
-CheckDesk::CheckDesk() : thread_([this] { run(); }) {}
+ErrorChecker::ErrorChecker() : thread_([this] { run(); }) {}
 
-CheckDesk::~CheckDesk() {
+ErrorChecker::~ErrorChecker() {
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
@@ -57,17 +57,17 @@ CheckDesk::~CheckDesk() {
     thread_.join();
 }
 
-bool CheckDesk::idle(Clock::time_point now) {
+bool ErrorChecker::idle(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     return !busy_ && now >= rests_until_;
 }
 
-void CheckDesk::set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh) {
+void ErrorChecker::set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh) {
     scene_ = std::make_shared<const OwnScene>(scene, mesh);
     epoch_ = epoch;
 }
 
-void CheckDesk::check(Picture picture) {
+void ErrorChecker::check(Picture picture) {
     {
         const std::lock_guard lock(mutex_);
         busy_ = true;
@@ -76,12 +76,12 @@ void CheckDesk::check(Picture picture) {
     wake_.notify_one();
 }
 
-std::optional<CheckDesk::Result> CheckDesk::take() {
+std::optional<ErrorChecker::Result> ErrorChecker::take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(result_, std::nullopt);
 }
 
-void CheckDesk::run() {
+void ErrorChecker::run() {
     std::unique_lock lock(mutex_);
     while (true) {
         wake_.wait(lock, [this] { return stop_ || job_; });
@@ -107,7 +107,7 @@ void CheckDesk::run() {
     }
 }
 
-CheckDesk::Result CheckDesk::work(const Job& job) {
+ErrorChecker::Result ErrorChecker::work(const Job& job) {
     const std::chrono::nanoseconds until = thread_time() + longest_work;
     SquaredError square;
     tbb::task_arena arena(1);
@@ -123,7 +123,7 @@ CheckDesk::Result CheckDesk::work(const Job& job) {
 }
 
 /// Those that were begun, where the picture still shows the same.
-SpotCheck& CheckDesk::paths_for(const Job& job) {
+SpotCheck& ErrorChecker::paths_for(const Job& job) {
     const Picture& picture = job.picture;
     const auto found = begun_.find(picture.viewer);
     if (found != begun_.end() && found->second.shown_since == picture.shown_since &&
@@ -131,7 +131,7 @@ SpotCheck& CheckDesk::paths_for(const Job& job) {
         return *found->second.check;
     }
     std::erase_if(begun_, [&](const auto& entry) { return entry.second.scene != job.scene; });
-    if (begun_.size() >= most_begun) {
+    if (begun_.size() >= max_begun) {
         begun_.clear();
     }
     Begun begun{picture.shown_since, job.scene,

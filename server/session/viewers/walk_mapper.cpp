@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/walk_map_desk.h"
+#include "session/viewers/walk_mapper.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,12 +9,12 @@
 
 namespace raybundle {
 
-WalkMapDesk::WalkMapDesk(const Scene& scene, Answer answer)
+WalkMapper::WalkMapper(const Scene& scene, Answer answer)
     : scene_(scene), answer_(std::move(answer)) {
     thread_ = std::jthread([this](const std::stop_token& token) { run(token); });
 }
 
-void WalkMapDesk::ask(const ClientEvent& request, std::uint32_t epoch) {
+void WalkMapper::ask(const ClientEvent& request, std::uint32_t epoch) {
     Job job{request, object_places(scene_), epoch};
     std::optional<ClientEvent> replaced;
     {
@@ -35,7 +35,7 @@ void WalkMapDesk::ask(const ClientEvent& request, std::uint32_t epoch) {
     }
 }
 
-void WalkMapDesk::run(const std::stop_token& token) {
+void WalkMapper::run(const std::stop_token& token) {
     using Clock = std::chrono::steady_clock;
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, token, [this] { return !jobs_.empty(); })) {
