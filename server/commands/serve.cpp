@@ -132,7 +132,7 @@ class SceneServer {
         settings_.solver.seed = options.seed;
         settings_.solver.special = interactive_special();
         settings_.rehearse = true;
-        settings_.min_frames_per_second = options.min_frames_per_second;
+        settings_.scheduling.min_frames_per_second = options.min_frames_per_second;
         settings_.renderer = context_->renderer();
         settings_.software_rendering = context_->is_software();
         settings_.lost_after_change = injected_fault();

@@ -6,7 +6,7 @@
 namespace raybundle {
 
 void ChangeGate::owe(double cost_ms) {
-    owed_ms_ += std::max(cost_ms, 0.0) * iteration_share / (1.0 - iteration_share);
+    owed_ms_ += std::max(cost_ms, 0.0) * iteration_share_ / (1.0 - iteration_share_);
 }
 
 void ChangeGate::begin_change(double cost_ms) {

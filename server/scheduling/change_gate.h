@@ -15,7 +15,8 @@ namespace raybundle {
 /// work has cost.
 class ChangeGate {
   public:
-    static constexpr double iteration_share = 0.2;  ///< of the time, as beside frames of a walk
+    /// iteration_share: of the time.
+    explicit ChangeGate(double iteration_share) : iteration_share_(iteration_share) {}
 
     /// A change has begun, and its beginning has taken so long.
     void begin_change(double cost_ms);
@@ -40,6 +41,7 @@ class ChangeGate {
   private:
     void owe(double cost_ms);
 
+    double iteration_share_;
     std::set<ViewerId> waiting_;
     double owed_ms_ = 0.0;         // to iterations, since the last change began
     bool iterations_due_ = false;  // likewise

@@ -7,10 +7,10 @@
 namespace raybundle {
 namespace {
 
-constexpr double kMega = 1e6;
-constexpr double kForget = 0.995;      ///< weight that an iteration keeps at the next
-constexpr double kForgetFrame = 0.97;  ///< weight that a frame keeps at the next
-constexpr double kPriorWeight = 1e-2;  ///< of an assumed slope, in megapixels²
+constexpr double mega = 1e6;
+constexpr double iteration_memory = 0.995;  ///< weight that an iteration keeps at the next
+constexpr double frame_memory = 0.97;       ///< weight that a frame keeps at the next
+constexpr double prior_weight = 1e-2;       ///< of an assumed slope, in megapixels²
 
 bool usable(double milliseconds, double pixels) {
     return std::isfinite(milliseconds) && milliseconds >= 0.0 && pixels >= 0.0;
@@ -22,27 +22,27 @@ void CostModel::note_iteration(double milliseconds, double pixels) {
     if (!usable(milliseconds, pixels)) {
         return;
     }
-    const double x = pixels / kMega;
-    w_ = kForget * w_ + 1.0;
-    x_ = kForget * x_ + x;
-    y_ = kForget * y_ + milliseconds;
-    xx_ = kForget * xx_ + x * x;
-    xy_ = kForget * xy_ + x * milliseconds;
+    const double x = pixels / mega;
+    w_ = iteration_memory * w_ + 1.0;
+    x_ = iteration_memory * x_ + x;
+    y_ = iteration_memory * y_ + milliseconds;
+    xx_ = iteration_memory * xx_ + x * x;
+    xy_ = iteration_memory * xy_ + x * milliseconds;
 }
 
 void CostModel::note_frame(double milliseconds, double pixels) {
     if (usable(milliseconds, pixels) && pixels > 0.0) {
-        const double x = pixels / kMega;
-        frame_xx_ = kForgetFrame * frame_xx_ + x * x;
-        frame_xy_ = kForgetFrame * frame_xy_ + x * milliseconds;
+        const double x = pixels / mega;
+        frame_xx_ = frame_memory * frame_xx_ + x * x;
+        frame_xy_ = frame_memory * frame_xy_ + x * milliseconds;
     }
 }
 
 /// Least squares through the origin, so that what every frame costs, however small, does not count
 /// as the price of its few pixels.
 double CostModel::frame_ms_per_pixel() const {
-    const double prior = kPriorFrameMs * kMega;
-    return (frame_xy_ + kPriorWeight * prior) / (frame_xx_ + kPriorWeight) / kMega;
+    const double prior = prior_frame_ms * mega;
+    return (frame_xy_ + prior_weight * prior) / (frame_xx_ + prior_weight) / mega;
 }
 
 /// Least squares, with the assumed slope as a weak prior: it decides while all observations had
@@ -55,11 +55,11 @@ CostModel::Line CostModel::iteration_line() const {
     const double mean_y = y_ / w_;
     const double spread = std::max(xx_ / w_ - mean_x * mean_x, 0.0);
     const double covariance = xy_ / w_ - mean_x * mean_y;
-    const double prior = kPriorReceiveMs * kMega;
+    const double prior = prior_receive_ms * mega;
     const double most = mean_x > 0.0 ? std::max(mean_y / mean_x, 0.0) : prior;
     const double slope =
-        std::clamp((covariance + kPriorWeight * prior) / (spread + kPriorWeight), 0.0, most);
-    return {mean_y - slope * mean_x, slope / kMega};
+        std::clamp((covariance + prior_weight * prior) / (spread + prior_weight), 0.0, most);
+    return {mean_y - slope * mean_x, slope / mega};
 }
 
 double CostModel::round_ms(double pixels) const {
@@ -75,7 +75,7 @@ CostModel::Verdict CostModel::admit(std::uint32_t width, std::uint32_t height, d
     }
     const double per_pixel = round_ms(1.0) - round_ms(0.0);
     const double room = (limit_ms - round_ms(present)) / std::max(per_pixel, 1e-12);
-    if (room < kSmallest) {
+    if (room < min_pixels) {
         return {false, std::nullopt};
     }
     const double scale = std::sqrt(room / wanted);

@@ -24,7 +24,7 @@ class CostModel {
 
     /// Whether a picture of this size fits beside `present` pixels, all served in `limit_ms`.
     /// Otherwise the largest of the same shape that would, or nothing where none of at least
-    /// kSmallest pixels does.
+    /// min_pixels pixels does.
     struct Verdict {
         bool fits = true;
         std::optional<std::pair<std::uint32_t, std::uint32_t>> would_fit;  ///< width, height
@@ -32,17 +32,17 @@ class CostModel {
     [[nodiscard]] Verdict admit(std::uint32_t width, std::uint32_t height, double present,
                                 double limit_ms) const;
 
-    static constexpr double kSmallest = 64.0 * 64.0;
+    static constexpr double min_pixels = 64.0 * 64.0;
 
   private:
     /// Before anything is measured, as one observation of little weight: an 800x800 viewer costs
     /// 12 ms an iteration and 28 ms a frame on two cores.
-    static constexpr double kPriorReceiveMs = 1.9e-5;  ///< per pixel
-    static constexpr double kPriorFrameMs = 4.4e-5;    ///< per pixel
+    static constexpr double prior_receive_ms = 1.9e-5;  ///< per pixel
+    static constexpr double prior_frame_ms = 4.4e-5;    ///< per pixel
 
     struct Line {
         double base = 0.0;
-        double slope = kPriorReceiveMs;
+        double slope = prior_receive_ms;
     };
     [[nodiscard]] Line iteration_line() const;
     [[nodiscard]] double frame_ms_per_pixel() const;

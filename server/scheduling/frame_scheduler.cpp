@@ -5,15 +5,15 @@
 #include <cmath>
 
 namespace raybundle {
-namespace {
 
-constexpr double kSmoothing = 0.3;  ///< weight of a new measurement
-
-double quantum(const FrameRequest& request) {
-    return request.moving ? FrameScheduler::kMovingQuantumMs : FrameScheduler::kRestingQuantumMs;
+double FrameScheduler::quantum(const FrameRequest& request) const {
+    return request.moving ? settings_.moving_quantum_ms : settings_.resting_quantum_ms;
 }
 
-}  // namespace
+/// A viewer's account, a new one where it has none.
+FrameScheduler::Account& FrameScheduler::account(ViewerId viewer) {
+    return accounts_.try_emplace(viewer, Account{0.0, settings_.unknown_cost_ms}).first->second;
+}
 
 /// Of the moving or of the resting: the first after the one served last that has saved enough.
 std::optional<ViewerId> FrameScheduler::affordable(std::span<const FrameRequest> requests,
@@ -21,8 +21,8 @@ std::optional<ViewerId> FrameScheduler::affordable(std::span<const FrameRequest>
     std::optional<ViewerId> first;
     std::optional<ViewerId> following;
     for (const FrameRequest& request : requests) {
-        const Account& account = accounts_.at(request.viewer);
-        if (request.moving != moving || account.deficit_ms < account.cost_ms) {
+        const Account& known = accounts_.at(request.viewer);
+        if (request.moving != moving || known.deficit_ms < known.cost_ms) {
             continue;
         }
         auto& place = request.viewer > last_ ? following : first;
@@ -35,15 +35,14 @@ std::optional<ViewerId> FrameScheduler::affordable(std::span<const FrameRequest>
 
 /// Starts as many rounds at once as the first viewer needs to have saved enough.
 void FrameScheduler::begin_rounds(std::span<const FrameRequest> requests) {
-    double rounds = kMaxCostMs;
+    double rounds = settings_.max_cost_ms;
     for (const FrameRequest& request : requests) {
-        const Account& account = accounts_.at(request.viewer);
-        rounds =
-            std::min(rounds, std::ceil((account.cost_ms - account.deficit_ms) / quantum(request)));
+        const Account& known = accounts_.at(request.viewer);
+        rounds = std::min(rounds, std::ceil((known.cost_ms - known.deficit_ms) / quantum(request)));
     }
     for (const FrameRequest& request : requests) {
-        Account& account = accounts_.at(request.viewer);
-        account.deficit_ms += std::max(rounds, 1.0) * quantum(request);
+        Account& known = accounts_.at(request.viewer);
+        known.deficit_ms += std::max(rounds, 1.0) * quantum(request);
     }
 }
 
@@ -51,13 +50,13 @@ std::optional<ViewerId> FrameScheduler::next(std::span<const FrameRequest> reque
     if (requests.empty()) {
         return std::nullopt;
     }
-    for (auto& [viewer, account] : accounts_) {
+    for (auto& [viewer, saved] : accounts_) {
         const bool wants = std::any_of(requests.begin(), requests.end(),
                                        [&, id = viewer](const auto& r) { return r.viewer == id; });
-        account.deficit_ms = wants ? account.deficit_ms : std::min(account.deficit_ms, 0.0);
+        saved.deficit_ms = wants ? saved.deficit_ms : std::min(saved.deficit_ms, 0.0);
     }
     for (const FrameRequest& request : requests) {
-        accounts_.try_emplace(request.viewer);
+        account(request.viewer);
     }
     for (int attempt = 0; attempt < 2; ++attempt) {
         for (const bool moving : {true, false}) {
@@ -72,19 +71,19 @@ std::optional<ViewerId> FrameScheduler::next(std::span<const FrameRequest> reque
 }
 
 void FrameScheduler::charge(ViewerId viewer, double milliseconds) {
-    const double cost = std::clamp(milliseconds, 0.01, kMaxCostMs);
-    Account& account = accounts_[viewer];
-    account.deficit_ms -= cost;
-    account.cost_ms += kSmoothing * (cost - account.cost_ms);
+    const double cost = std::clamp(milliseconds, 0.01, settings_.max_cost_ms);
+    Account& charged = account(viewer);
+    charged.deficit_ms -= cost;
+    charged.cost_ms += settings_.smoothing * (cost - charged.cost_ms);
 }
 
 void FrameScheduler::charge_besides(ViewerId viewer, double milliseconds) {
-    accounts_[viewer].deficit_ms -= std::clamp(milliseconds, 0.0, kMaxCostMs);
+    account(viewer).deficit_ms -= std::clamp(milliseconds, 0.0, settings_.max_cost_ms);
 }
 
 double FrameScheduler::cost_ms(ViewerId viewer) const {
     const auto found = accounts_.find(viewer);
-    return found == accounts_.end() ? kUnknownCostMs : found->second.cost_ms;
+    return found == accounts_.end() ? settings_.unknown_cost_ms : found->second.cost_ms;
 }
 
 }  // namespace raybundle

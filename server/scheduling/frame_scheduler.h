@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "scheduling/scheduling_settings.h"
 #include "stream/viewer_id.h"
 
 namespace raybundle {
@@ -20,10 +21,7 @@ struct FrameRequest {
 /// viewer with a large picture gets fewer frames, not more time. Has no clock of its own.
 class FrameScheduler {
   public:
-    static constexpr double kMovingQuantumMs = 20.0;  ///< a moving viewer's share of a round
-    static constexpr double kRestingQuantumMs = 5.0;  ///< a resting viewer's
-    static constexpr double kUnknownCostMs = 10.0;    ///< of a frame before the first
-    static constexpr double kMaxCostMs = 10000.0;     ///< longer measurements are cut
+    explicit FrameScheduler(const FrameShareSettings& settings = {}) : settings_(settings) {}
 
     /// The viewer to render for next, or nothing where nobody wants a frame. A viewer that is not
     /// among the requests loses what it has saved.
@@ -43,12 +41,16 @@ class FrameScheduler {
   private:
     struct Account {
         double deficit_ms = 0.0;
-        double cost_ms = kUnknownCostMs;
+        double cost_ms = 0.0;
     };
 
     std::optional<ViewerId> affordable(std::span<const FrameRequest> requests, bool moving) const;
     void begin_rounds(std::span<const FrameRequest> requests);
 
+    [[nodiscard]] double quantum(const FrameRequest& request) const;
+    Account& account(ViewerId viewer);
+
+    FrameShareSettings settings_;
     std::map<ViewerId, Account> accounts_;
     ViewerId last_ = 0;  ///< served last: the next one in order follows it
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scheduling/scheduling_settings.h"
+
 namespace raybundle {
 
 /// Size of the pictures whose cameras move, so that their frames keep a rhythm that people see as
@@ -8,17 +10,17 @@ namespace raybundle {
 /// clock of its own.
 class MovingScale {
   public:
-    static constexpr double kMin = 0.625;  ///< of width and height
-    static constexpr double kStep = 1.0 / 16.0;
+    explicit MovingScale(const MovingScaleSettings& settings = {}) : settings_(settings) {}
 
     /// A frame for each who moves would take full_ms if their pictures were full, and shall take
     /// no more than budget_ms.
     void note(double full_ms, double budget_ms);
 
-    /// Of width and height, kMin to 1.
+    /// Of width and height, at most 1.
     [[nodiscard]] double scale() const { return scale_; }
 
   private:
+    MovingScaleSettings settings_;
     double scale_ = 1.0;
 };
 

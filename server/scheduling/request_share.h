@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "scheduling/scheduling_settings.h"
 #include "scheduling/time_budget.h"
 #include "stream/viewer_id.h"
 
@@ -15,14 +16,15 @@ namespace raybundle {
 /// wants with it, in the inbox, which is bounded. Has no clock of its own.
 class RequestShare {
   public:
-    static constexpr double kShare = 0.25;      ///< of the time, for one or two viewers
-    static constexpr double kBurstMs = 250.0;   ///< may be saved up, likewise
-    static constexpr double kFullShares = 2.0;  ///< more viewers than so have smaller shares
+    /// budget: of a viewer, where there are full_shares viewers at most; more have smaller shares.
+    explicit RequestShare(const BudgetSettings& budget = SchedulingSettings().requests,
+                          double full_shares = SchedulingSettings().request_shares)
+        : budget_(budget), full_shares_(full_shares) {}
 
     /// A request of this viewer, one of so many, has taken so long.
     void charge(ViewerId viewer, double cost_ms, std::size_t viewers) {
-        const double crowd = static_cast<double>(viewers) / kFullShares;
-        budgets_.try_emplace(viewer, kShare, kBurstMs)
+        const double crowd = static_cast<double>(viewers) / full_shares_;
+        budgets_.try_emplace(viewer, budget_)
             .first->second.charge(cost_ms * (crowd > 1.0 ? crowd : 1.0));
     }
 
@@ -40,6 +42,8 @@ class RequestShare {
     void forget(ViewerId viewer) { budgets_.erase(viewer); }
 
   private:
+    BudgetSettings budget_;
+    double full_shares_;
     std::map<ViewerId, TimeBudget> budgets_;
 };
 

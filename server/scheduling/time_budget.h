@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scheduling/scheduling_settings.h"
+
 namespace raybundle {
 
 /// Bounds what something may take of the time that passes: a share of it in the long run, and so
@@ -10,9 +12,8 @@ namespace raybundle {
 /// clock of its own.
 class TimeBudget {
   public:
-    /// share: of the time that passes; burst_ms: what may be saved up.
-    TimeBudget(double share, double burst_ms)
-        : share_(share), burst_ms_(burst_ms), credit_ms_(burst_ms) {}
+    explicit TimeBudget(const BudgetSettings& settings)
+        : share_(settings.share), burst_ms_(settings.burst_ms), credit_ms_(settings.burst_ms) {}
 
     /// Whether there is time for another piece of work. A clock that jumps back stands still.
     [[nodiscard]] bool may(double now_ms) {

@@ -9,9 +9,10 @@ namespace raybundle {
 /// of what they cost without it, in the long run.
 class TimeShare {
   public:
-    /// share: of the usual cost; max_credit_ms: what may be saved up for later.
-    explicit TimeShare(double share, double max_credit_ms = 500.0)
-        : share_(share), max_credit_ms_(max_credit_ms) {}
+    /// share: of the usual cost; max_credit_ms: what may be saved up for later; smoothing: weight
+    /// of the newest iteration in the usual cost.
+    TimeShare(double share, double max_credit_ms, double smoothing)
+        : share_(share), max_credit_ms_(max_credit_ms), smoothing_(smoothing) {}
 
     /// Whether it may take part in what comes next.
     [[nodiscard]] bool may() const { return credit_ms_ > 0.0; }
@@ -19,8 +20,7 @@ class TimeShare {
     /// An iteration has cost so much, with it or without.
     void note_iteration(double cost_ms, bool took_part) {
         if (!took_part) {
-            constexpr double kNewest = 0.1;
-            usual_ms_ = usual_ms_ == 0.0 ? cost_ms : usual_ms_ + kNewest * (cost_ms - usual_ms_);
+            usual_ms_ = usual_ms_ == 0.0 ? cost_ms : usual_ms_ + smoothing_ * (cost_ms - usual_ms_);
         }
         const double usual = std::min(cost_ms, usual_ms_);
         credit_ms_ += share_ * usual;
@@ -34,7 +34,7 @@ class TimeShare {
     void charge(double cost_ms) { credit_ms_ -= cost_ms; }
 
   private:
-    double share_, max_credit_ms_;
+    double share_, max_credit_ms_, smoothing_;
     double credit_ms_ = 0.0;
     double usual_ms_ = 0.0;  ///< of an iteration without it, running mean; 0: not known
 };

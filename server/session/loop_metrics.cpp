@@ -21,9 +21,9 @@ void LoopMetrics::note_step(std::optional<Strategy> strategy, double millisecond
     steps.seconds += milliseconds / 1000.0;
 }
 
-void LoopMetrics::publish(const LoopFigures& figures, Clock::time_point now) {
+void LoopMetrics::publish(const LoopFigures& figures, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    const double elapsed = std::chrono::duration<double>(now - published_).count();
+    const double elapsed = seconds(now - published_);
     const std::uint64_t frames = frames_;
     if (elapsed > 0.0) {
         frames_per_second_ = static_cast<double>(frames - frames_before_) / elapsed;

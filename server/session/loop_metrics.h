@@ -2,13 +2,13 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "scheduling/clock.h"
 #include "transport/iteration_schedule.h"
 
 namespace raybundle {
@@ -30,8 +30,6 @@ struct LoopFigures {
 /// What /metrics says about the render loop. Written by its thread, read by any.
 class LoopMetrics {
   public:
-    using Clock = std::chrono::steady_clock;
-
     void count_frame(std::size_t bytes);
     void count_turn() { ++turns_; }
     void count_refused_viewer() { ++refused_; }
@@ -40,7 +38,7 @@ class LoopMetrics {
     /// A step of the solver; `strategy` absent: a slice of a special iteration phase.
     void note_step(std::optional<Strategy> strategy, double milliseconds);
 
-    void publish(const LoopFigures& figures, Clock::time_point now);
+    void publish(const LoopFigures& figures, TimePoint now);
 
     /// Prometheus text; names and units are in deploy/README.md.
     [[nodiscard]] std::string text() const;
@@ -57,7 +55,7 @@ class LoopMetrics {
     LoopFigures figures_;
     double frames_per_second_ = 0.0;
     std::uint64_t frames_before_ = 0;
-    Clock::time_point published_;
+    TimePoint published_;
 };
 
 }  // namespace raybundle

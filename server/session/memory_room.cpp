@@ -52,7 +52,7 @@ std::optional<glm::uvec2> size_within_memory(glm::uvec2 wanted, double bytes_per
     if (pixels <= room) {
         return wanted;
     }
-    if (room < CostModel::kSmallest) {
+    if (room < CostModel::min_pixels) {
         return std::nullopt;
     }
     const double scale = std::sqrt(room / pixels);

@@ -48,20 +48,21 @@ TEST(WalkMapperTest, AnswersAsThingsWereWhenAskedAndHoldsUpNobody) {
     std::map<std::uint32_t, std::optional<WalkMap>> answers;
     std::map<std::uint32_t, std::uint32_t> epochs;
     std::promise<void> first_begun, go_on, all;
-    WalkMapper mapper(scene, [&](const ClientEvent& event, const std::optional<WalkMap>& map,
-                                 std::uint32_t epoch) {
-        const std::uint32_t id = event.message.id();
-        if (id == 1) {
-            first_begun.set_value();
-            go_on.get_future().wait();
-        }
-        const std::lock_guard lock(mutex);
-        answers[id] = map;
-        epochs[id] = epoch;
-        if (answers.size() == 4) {
-            all.set_value();
-        }
-    });
+    WalkMapper mapper(
+        scene, 1.0,
+        [&](const ClientEvent& event, const std::optional<WalkMap>& map, std::uint32_t epoch) {
+            const std::uint32_t id = event.message.id();
+            if (id == 1) {
+                first_begun.set_value();
+                go_on.get_future().wait();
+            }
+            const std::lock_guard lock(mutex);
+            answers[id] = map;
+            epochs[id] = epoch;
+            if (answers.size() == 4) {
+                all.set_value();
+            }
+        });
     mapper.ask(request(7, 1), 3);
     first_begun.get_future().wait();
     // The caller goes on while a map takes long, and the scene with it.

@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "scheduling/scheduling_settings.h"
+
 namespace raybundle {
 namespace {
 
+constexpr double iteration_share = ChangeSettings().iteration_share;
 constexpr ViewerId kFirstDragger = 1;
 constexpr ViewerId kSecondDragger = 2;
 constexpr ViewerId kFirstWatcher = 3;
@@ -68,7 +71,7 @@ struct BusyLoop {
     }
 
     Costs costs;
-    ChangeGate gate;
+    ChangeGate gate{iteration_share};
     bool solver_rests = false;
     ViewerId away = 0;
     double now_ms = 0.0;
@@ -79,7 +82,7 @@ struct BusyLoop {
 };
 
 TEST(ChangeGate, IsOpenBeforeTheFirstChange) {
-    EXPECT_TRUE(ChangeGate().open(false));
+    EXPECT_TRUE(ChangeGate(iteration_share).open(false));
 }
 
 TEST(ChangeGate, EveryViewerGetsAFrameOfEachChangeHoweverLongAnythingTakes) {
@@ -104,8 +107,7 @@ TEST(ChangeGate, IterationsHaveTheirShareHoweverLongAnythingTakes) {
         for (int i = 0; i < 100; ++i) {
             ASSERT_TRUE(loop.change());
         }
-        EXPECT_GE(loop.iterations_ms,
-                  ChangeGate::iteration_share * (loop.now_ms - costs.change_ms));
+        EXPECT_GE(loop.iterations_ms, iteration_share * (loop.now_ms - costs.change_ms));
     }
 }
 

@@ -52,7 +52,7 @@ TEST(MovingScaleTest, SettlesWhereFramesFitIntoTheirBudget) {
 TEST(MovingScaleTest, NeverBecomesTooSmallAndGrowsAgain) {
     MovingScale scale;
     scale.note(1e9, budget_ms);
-    EXPECT_EQ(scale.scale(), MovingScale::kMin);
+    EXPECT_EQ(scale.scale(), MovingScaleSettings().min);
     scale.note(1.3 * budget_ms, budget_ms);
     EXPECT_NEAR(scale.scale(), 0.875, 1e-9);
     scale.note(0.5 * budget_ms, budget_ms);

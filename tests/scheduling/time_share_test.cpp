@@ -11,7 +11,7 @@ namespace {
 /// Extra time over usual time, where an iteration costs `usual` and taking part `extra` more, in
 /// groups of eight.
 double measured_share(double share, double usual, double extra) {
-    TimeShare time(share);
+    TimeShare time(share, 500.0, 0.1);
     double spent = 0.0;
     constexpr int kGroups = 20000;
     for (int group = 0; group < kGroups; ++group) {
@@ -34,7 +34,7 @@ TEST(TimeShareTest, WhatIsAddedStaysBelowItsShareWhateverItCosts) {
 }
 
 TEST(TimeShareTest, WaitsUntilTheUsualCostIsKnown) {
-    TimeShare time(0.15);
+    TimeShare time(0.15, 500.0, 0.1);
     EXPECT_FALSE(time.may());
     time.note_iteration(20.0, false);
     EXPECT_TRUE(time.may());
@@ -43,7 +43,7 @@ TEST(TimeShareTest, WaitsUntilTheUsualCostIsKnown) {
 }
 
 TEST(TimeShareTest, DoesNotSaveUpWithoutBounds) {
-    TimeShare time(0.15, 500.0);
+    TimeShare time(0.15, 500.0, 0.1);
     for (int i = 0; i < 100000; ++i) {
         time.note_iteration(20.0, false);
     }
@@ -53,7 +53,7 @@ TEST(TimeShareTest, DoesNotSaveUpWithoutBounds) {
 
 TEST(TimeBudgetTest, WorkStaysBelowItsShareWhateverAPieceCosts) {
     for (const double piece_ms : {1.0, 30.0, 500.0}) {
-        TimeBudget budget(0.1, 100.0);
+        TimeBudget budget({0.1, 100.0});
         constexpr double kTotalMs = 1e6;
         double spent = 0.0;
         for (double now = 0.0; now < kTotalMs; now += 5.0) {
@@ -68,7 +68,7 @@ TEST(TimeBudgetTest, WorkStaysBelowItsShareWhateverAPieceCosts) {
 }
 
 TEST(TimeBudgetTest, SavesUpNoMoreThanItsBurstAndSurvivesAClockThatJumps) {
-    TimeBudget budget(0.5, 100.0);
+    TimeBudget budget({0.5, 100.0});
     EXPECT_TRUE(budget.may(1e9));
     budget.charge(100.0);
     EXPECT_FALSE(budget.may(1e9));

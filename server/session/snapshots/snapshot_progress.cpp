@@ -2,46 +2,42 @@
 // What those who wait for snapshots hear.
 #include <cmath>
 
-#include "scheduling/elapsed.h"
 #include "session/snapshots/snapshot_queue.h"
 #include "view/error_interval.h"
 
 namespace raybundle {
 
-namespace {
-
-constexpr std::chrono::seconds report_interval(1);
-
-}  // namespace
-
 /// What is known of the picture that is being made.
 v1::SnapshotProgress SnapshotQueue::progress_of_first() const {
     v1::SnapshotProgress progress;
-    if (!image_ || image_->samples() < min_samples || !image_->statistics().known) {
+    if (!picture_.image || picture_.image->samples() < min_samples ||
+        !picture_.image->statistics().known) {
         return progress;
     }
-    const ImageStatistics& statistics = image_->statistics();
+    const ImageStatistics& statistics = picture_.image->statistics();
     progress.set_relative_error(static_cast<float>(statistics.error_high));
     const double factor =
         samples_factor(statistics.noise, statistics.discretisation, requests_.front().error(),
-                       statistics.samples, image_->sample_order());
+                       statistics.samples, picture_.image->sample_order());
     if (std::isfinite(factor)) {
-        const double spent = seconds(Clock::now() - begun_);
-        const auto after = static_cast<double>(tiles_->count() - tiles_->done() - 1);
+        const double spent = seconds(clock_.now() - picture_.begun);
+        const auto after =
+            static_cast<double>(picture_.tiles->count() - picture_.tiles->done() - 1);
         progress.set_seconds_left(static_cast<float>((factor - 1.0 + factor * after) * spent));
     }
     return progress;
 }
 
 void SnapshotQueue::report() {
-    const auto now = Clock::now();
-    if (requests_.empty() || now - last_report_ < report_interval) {
+    const auto now = clock_.now();
+    if (requests_.empty() || seconds(now - last_report_) < pace_.report_interval_s) {
         return;
     }
     last_report_ = now;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
         const ClientEvent& event = requests_[i].event;
-        if (!event.message.has_id() || now - requests_[i].since < report_interval) {
+        if (!event.message.has_id() ||
+            seconds(now - requests_[i].since) < pace_.report_interval_s) {
             continue;
         }
         v1::ServerMessage message;

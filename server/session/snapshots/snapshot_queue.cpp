@@ -8,22 +8,12 @@
 #include <vector>
 
 #include "gpu/egl_context.h"
-#include "scheduling/elapsed.h"
 #include "session/snapshots/snapshot_quota.h"
 #include "session/viewers/picture_refusal.h"
 #include "stream/image_encoder.h"
 #include "view/image_file.h"
 
 namespace raybundle {
-
-namespace {
-
-constexpr std::chrono::hours max_time(1);
-constexpr std::chrono::milliseconds statistics_interval(100);
-constexpr double earlier_slice_ms = 40.0;          // of iterations of an earlier scene at once
-constexpr std::chrono::seconds earlier_kept(120);  // after its last picture
-
-}  // namespace
 
 /// A picture on its way from the GPU to a file.
 struct SnapshotQueue::Finished {
@@ -36,8 +26,13 @@ struct SnapshotQueue::Finished {
     float exposure = 0.0F;
 };
 
-SnapshotQueue::SnapshotQueue(Server& server, MakeEarlier make_earlier)
-    : server_(server), make_earlier_(std::move(make_earlier)) {}
+SnapshotQueue::SnapshotQueue(Server& server, const Clock& clock, const SnapshotPaceSettings& pace,
+                             MakeEarlier make_earlier)
+    : server_(server),
+      clock_(clock),
+      pace_(pace),
+      make_earlier_(std::move(make_earlier)),
+      share_(pace.share, pace.max_credit_ms, pace.cost_smoothing) {}
 
 SnapshotQueue::~SnapshotQueue() = default;
 
@@ -51,7 +46,7 @@ void SnapshotQueue::add(const ClientEvent& request, const Camera& camera, const 
         server_.reply_error(request, v1::Error::RESOURCE_EXHAUSTED, *refusal);
         return;
     }
-    Request added{request, camera, look};
+    Request added{request, camera, look, clock_.now()};
     if (!request.message.snapshot().has_epoch()) {
         added.look = {DisplayMode::photo, look.exposure, {}};
     }
@@ -60,7 +55,8 @@ void SnapshotQueue::add(const ClientEvent& request, const Camera& camera, const 
 }
 
 const ViewerImage* SnapshotQueue::picture_of(ViewerId viewer) const {
-    return !requests_.empty() && requests_.front().event.viewer == viewer ? image_.get() : nullptr;
+    return !requests_.empty() && requests_.front().event.viewer == viewer ? picture_.image.get()
+                                                                          : nullptr;
 }
 
 bool SnapshotQueue::is_making(ViewerId viewer, std::uint32_t request) const {
@@ -96,16 +92,13 @@ void SnapshotQueue::forget(ViewerId viewer) {
 }
 
 void SnapshotQueue::restart() {
-    if (!apart_) {
+    if (!picture_.apart) {
         drop_picture();
     }
 }
 
 void SnapshotQueue::drop_picture() {
-    image_.reset();
-    tiles_.reset();
-    taking_part_ = false;
-    apart_ = false;
+    picture_ = Picture();
 }
 
 void SnapshotQueue::refuse_all() {
@@ -121,14 +114,16 @@ bool SnapshotQueue::begin(const GpuScene& scene, const RadianceStore& store,
                           const ViewPrograms& programs) {
     const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
     try {
-        if (!tiles_) {
-            tiles_.emplace(glm::uvec2(wanted.width(), wanted.height()),
-                           wanted.format() == v1::Snapshot::EXR ? PictureTiles::Content::radiance
-                                                                : PictureTiles::Content::display);
+        if (!picture_.tiles) {
+            picture_.tiles.emplace(glm::uvec2(wanted.width(), wanted.height()),
+                                   wanted.format() == v1::Snapshot::EXR
+                                       ? PictureTiles::Content::radiance
+                                       : PictureTiles::Content::display);
         }
-        image_ = std::make_unique<ViewerImage>(scene, store, programs, tiles_->drawn_size());
-        image_->set_camera(tiles_->drawn_camera(requests_.front().camera));
-        begun_ = Clock::now();
+        picture_.image =
+            std::make_unique<ViewerImage>(scene, store, programs, picture_.tiles->drawn_size());
+        picture_.image->set_camera(picture_.tiles->drawn_camera(requests_.front().camera));
+        picture_.begun = clock_.now();
         return true;
     } catch (const GpuError& error) {
         drop(error);
@@ -148,23 +143,24 @@ void SnapshotQueue::drop(const GpuError& error) {
 
 bool SnapshotQueue::done() {
     const Request& request = requests_.front();
-    if (!image_->smoothed()) {
+    if (!picture_.image->smoothed()) {
         return false;
     }
-    const ImageStatistics& statistics = image_->statistics();
-    const auto share =
-        static_cast<double>(tiles_->done() + 1) / static_cast<double>(tiles_->count());
-    return Clock::now() - request.since > share * max_time ||
-           (image_->samples() >= min_samples && statistics.samples >= min_samples &&
+    const ImageStatistics& statistics = picture_.image->statistics();
+    const auto share = static_cast<double>(picture_.tiles->done() + 1) /
+                       static_cast<double>(picture_.tiles->count());
+    return seconds(clock_.now() - request.since) > share * pace_.max_time_s ||
+           (picture_.image->samples() >= min_samples && statistics.samples >= min_samples &&
             statistics.meets(request.error()));
 }
 
 ViewerImage* SnapshotQueue::next_receiver(const GpuScene& scene, const RadianceStore& store,
                                           const ViewPrograms& programs, std::uint32_t epoch,
                                           bool undisturbed) {
-    taking_part_ = false;
+    picture_.taking_part = false;
     undisturbed_ = undisturbed;
-    if (earlier_ && requests_.empty() && Clock::now() - earlier_used_ > earlier_kept) {
+    if (earlier_ && requests_.empty() &&
+        seconds(clock_.now() - earlier_used_) > pace_.earlier_kept_s) {
         earlier_.reset();
     }
     if (requests_.empty() || (!undisturbed && !share_.may())) {
@@ -174,12 +170,12 @@ ViewerImage* SnapshotQueue::next_receiver(const GpuScene& scene, const RadianceS
         work_on_earlier();
         return nullptr;
     }
-    const auto start = Clock::now();
-    if (!image_ && !begin(scene, store, programs)) {
+    const auto start = clock_.now();
+    if (!picture_.image && !begin(scene, store, programs)) {
         return nullptr;
     }
-    if (!image_->smoothed()) {
-        image_->smooth_step();
+    if (!picture_.image->smoothed()) {
+        picture_.image->smooth_step();
         charge_since(start);
     } else if (done()) {
         if (!delivery_.busy()) {
@@ -192,37 +188,37 @@ ViewerImage* SnapshotQueue::next_receiver(const GpuScene& scene, const RadianceS
         }
         return nullptr;
     }
-    taking_part_ = true;
-    return image_.get();
+    picture_.taking_part = true;
+    return picture_.image.get();
 }
 
-void SnapshotQueue::charge_since(Clock::time_point start) {
+void SnapshotQueue::charge_since(TimePoint start) {
     if (!undisturbed_) {
-        share_.charge(milliseconds_since(start));
+        share_.charge(clock_.ms_since(start));
     }
 }
 
 void SnapshotQueue::note_iteration(double cost_ms) {
     if (!undisturbed_) {
-        share_.note_iteration(cost_ms, taking_part_);
+        share_.note_iteration(cost_ms, picture_.taking_part);
     }
-    if (taking_part_) {
+    if (picture_.taking_part) {
         refresh_statistics();
     }
 }
 
 void SnapshotQueue::refresh_statistics() {
-    const auto now = Clock::now();
-    if (now - last_statistics_ >= statistics_interval) {
+    const auto now = clock_.now();
+    if (seconds(now - last_statistics_) >= pace_.statistics_interval_s) {
         last_statistics_ = now;
-        image_->request_statistics();
+        picture_.image->request_statistics();
     }
 }
 
 /// The next picture is not of the present scene, whose epoch this is.
 bool SnapshotQueue::wants_earlier(std::uint32_t epoch) const {
     const v1::Snapshot& wanted = requests_.front().event.message.snapshot();
-    return apart_ || (wanted.has_epoch() && wanted.epoch() != epoch);
+    return picture_.apart || (wanted.has_epoch() && wanted.epoch() != epoch);
 }
 
 /// False where it cannot be had: the request is answered. Others wait while shaders are compiled.
@@ -249,28 +245,28 @@ bool SnapshotQueue::prepare_earlier() {
 
 /// Some iterations of the earlier scene, as far as there is time for them.
 void SnapshotQueue::work_on_earlier() {
-    if (!image_) {
+    if (!picture_.image) {
         if (!prepare_earlier() ||
             !begin(earlier_->solver().scene(), earlier_->solver().store(), earlier_->programs())) {
             return;
         }
-        apart_ = true;
+        picture_.apart = true;
     }
-    earlier_used_ = Clock::now();
+    earlier_used_ = clock_.now();
     try {
         do {
-            const auto start = Clock::now();
-            if (!image_->smoothed()) {
-                image_->smooth_step();
+            const auto start = clock_.now();
+            if (!picture_.image->smoothed()) {
+                picture_.image->smooth_step();
             }
-            earlier_->step(*image_);
+            earlier_->step(*picture_.image);
             refresh_statistics();
             charge_since(start);
             if (earlier_->between_groups() && finish_earlier()) {
                 return;
             }
         } while ((undisturbed_ || share_.may()) &&
-                 milliseconds_since(earlier_used_) < earlier_slice_ms);
+                 clock_.ms_since(earlier_used_) < pace_.earlier_slice_ms);
     } catch (const GpuError& error) {
         drop(error);
     }
@@ -287,19 +283,19 @@ bool SnapshotQueue::finish_earlier() {
 
 /// Takes the tile that is done, and delivers the picture where it was the last one.
 void SnapshotQueue::deliver(std::uint32_t epoch) {
-    tiles_->take(*image_, requests_.front().look);
-    image_.reset();
-    taking_part_ = false;
-    if (!tiles_->complete()) {
+    picture_.tiles->take(*picture_.image, requests_.front().look);
+    picture_.image.reset();
+    picture_.taking_part = false;
+    if (!picture_.tiles->complete()) {
         return;
     }
     auto picture = std::make_unique<Finished>();
     picture->event = requests_.front().event;
-    picture->size = tiles_->size();
+    picture->size = picture_.tiles->size();
     picture->epoch = epoch;
-    picture->relative_error = static_cast<float>(tiles_->error_high());
-    picture->radiance = tiles_->take_radiance();
-    picture->pixels = tiles_->take_display();
+    picture->relative_error = static_cast<float>(picture_.tiles->error_high());
+    picture->radiance = picture_.tiles->take_radiance();
+    picture->pixels = picture_.tiles->take_display();
     if (picture->radiance.empty()) {
         picture->exposure = requests_.front().look.exposure;
     }

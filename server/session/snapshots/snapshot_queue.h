@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -14,6 +13,8 @@
 
 #include "gpu/egl_context.h"
 #include "net/server.h"
+#include "scheduling/clock.h"
+#include "scheduling/scheduling_settings.h"
 #include "scheduling/time_share.h"
 #include "session/changes/earlier_scene.h"
 #include "view/picture_tiles.h"
@@ -29,14 +30,13 @@ namespace raybundle {
 /// context.
 class SnapshotQueue {
   public:
-    using Clock = std::chrono::steady_clock;
-    static constexpr double time_share = 0.18;        ///< of the solver's time while somebody moves
     static constexpr std::uint64_t min_samples = 32;  ///< before an error is believed
 
     /// Makes the scene as it was after a change; null where that is not known any more.
     using MakeEarlier = std::function<std::unique_ptr<EarlierScene>(std::uint32_t epoch)>;
 
-    SnapshotQueue(Server& server, MakeEarlier make_earlier);
+    SnapshotQueue(Server& server, const Clock& clock, const SnapshotPaceSettings& pace,
+                  MakeEarlier make_earlier);
     ~SnapshotQueue();
     SnapshotQueue(const SnapshotQueue&) = delete;
     SnapshotQueue& operator=(const SnapshotQueue&) = delete;
@@ -58,7 +58,7 @@ class SnapshotQueue {
 
     [[nodiscard]] bool waiting() const { return !requests_.empty(); }
     /// What is rendered now needs no iterations of the present solution.
-    [[nodiscard]] bool apart() const { return apart_; }
+    [[nodiscard]] bool apart() const { return picture_.apart; }
 
     /// Between two groups of iterations: delivers the picture where it is done, else says whether
     /// it takes part in the next group. Null where it does not. undisturbed: nobody moves.
@@ -74,11 +74,19 @@ class SnapshotQueue {
         ClientEvent event;
         Camera camera;
         PictureLook look;
-        Clock::time_point since = Clock::now();
+        TimePoint since;
 
         [[nodiscard]] double error() const {
             return static_cast<double>(event.message.snapshot().relative_error());
         }
+    };
+    /// The picture that is being made.
+    struct Picture {
+        std::optional<PictureTiles> tiles;
+        std::unique_ptr<ViewerImage> image;  ///< its next tile
+        TimePoint begun;                     ///< the image
+        bool apart = false;                  ///< it is, or will be, of earlier_
+        bool taking_part = false;            ///< in the running group of iterations
     };
     struct Finished;
 
@@ -109,7 +117,7 @@ class SnapshotQueue {
     void work_on_earlier();
     bool finish_earlier();
     void refresh_statistics();
-    void charge_since(Clock::time_point start);
+    void charge_since(TimePoint start);
     [[nodiscard]] v1::SnapshotProgress progress_of_first() const;
     void drop_picture();
     [[nodiscard]] bool done();
@@ -118,19 +126,17 @@ class SnapshotQueue {
     static void encode(Finished& picture, Server& server);
 
     Server& server_;
+    const Clock& clock_;
+    const SnapshotPaceSettings pace_;
     MakeEarlier make_earlier_;
     std::deque<Request> requests_;           ///< the first one is being rendered
     std::unique_ptr<EarlierScene> earlier_;  ///< kept for a while: who compares looks around
-    Clock::time_point earlier_used_;
-    bool apart_ = false;                  ///< image_ is, or will be, of earlier_
-    std::optional<PictureTiles> tiles_;   ///< of the picture that is being made
-    std::unique_ptr<ViewerImage> image_;  ///< its next tile
-    Clock::time_point begun_;             ///< image_
-    bool taking_part_ = false;
+    TimePoint earlier_used_;
+    Picture picture_;
     bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
-    Clock::time_point last_report_;
-    Clock::time_point last_statistics_;
-    TimeShare share_{time_share};
+    TimePoint last_report_;
+    TimePoint last_statistics_;
+    TimeShare share_;
     Delivery delivery_{server_};
 };
 

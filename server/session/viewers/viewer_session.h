@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +10,9 @@
 
 #include "net/ws/client_event.h"
 #include "raybundle.pb.h"
+#include "scheduling/clock.h"
+#include "scheduling/scheduling_settings.h"
+#include "session/viewers/viewer_display.h"
 #include "stream/congestion_window.h"
 #include "stream/depth_code.h"
 #include "view/measured_error.h"
@@ -23,12 +25,11 @@ namespace raybundle {
 /// until frames have stayed unacknowledged for long.
 class ViewerSession {
   public:
-    using Clock = std::chrono::steady_clock;
-
     /// Size of the pictures that a hello asks for.
     static glm::uvec2 size_of(const v1::Hello& hello);
 
-    ViewerSession(ViewerId viewer, const v1::Hello& hello, const Camera& camera);
+    ViewerSession(ViewerId viewer, const v1::Hello& hello, const Camera& camera,
+                  const ViewerPaceSettings& pace, const Clock& clock);
 
     /// Camera and size take effect with the next frame or apply_view(): that costs time, of which
     /// every viewer gets his share.
@@ -39,13 +40,13 @@ class ViewerSession {
     void apply_view();
     /// Next frame's picture has so much of its full width and height while the camera moves or
     /// objects are dragged. Between special phases only.
-    void set_moving_scale(double scale, Clock::time_point now);
+    void set_moving_scale(double scale, TimePoint now);
     /// Somebody drags an object: the picture has this size at once. Requires has_image().
-    void note_drag(double scale, Clock::time_point now);
+    void note_drag(double scale, TimePoint now);
     /// A step of the drag has been worked in, however long that took: the picture keeps its size.
-    void stay_in_motion(Clock::time_point now) { last_motion_ = now; }
+    void stay_in_motion(TimePoint now) { motion_.last = now; }
     /// What a frame of the moving camera takes with a full picture, ms; 0: not known yet.
-    [[nodiscard]] double full_frame_ms() const { return full_frame_ms_; }
+    [[nodiscard]] double full_frame_ms() const { return motion_.full_frame_ms; }
     /// The frame just rendered took so long.
     void note_frame_cost(double cost_ms);
     /// Shows what another viewer sees.
@@ -67,30 +68,30 @@ class ViewerSession {
     void set_display(const v1::SetDisplay& message);
     void set_target(const v1::SetTarget& message);
     /// Frames carry depths on a grid with so many columns; 0: none.
-    void set_depths(std::uint32_t columns) { depth_columns_ = columns; }
+    void set_depths(std::uint32_t columns) { frame_.depth_columns = columns; }
 
     /// One slice of antialiasing where the picture has been at rest for a while. True if there was
     /// something to do.
-    bool smooth(Clock::time_point now);
+    bool smooth(TimePoint now);
     /// Something that the whole picture shows has changed: answer with a frame soon.
     void note_change();
     /// The camera or an object moved within the last moments, or no frame has shown the camera yet:
     /// whoever waits long for it must not fall behind those who have just been served.
-    [[nodiscard]] bool moving(Clock::time_point now) const;
+    [[nodiscard]] bool moving(TimePoint now) const;
     /// Something has changed that no frame shows yet, or a frame is being drawn.
-    [[nodiscard]] bool awaits_frame() const { return changed_ || rendering_; }
+    [[nodiscard]] bool awaits_frame() const { return frame_.changed || frame_.rendering; }
     /// A new frame is worth sending now.
-    [[nodiscard]] bool due(Clock::time_point now) const;
+    [[nodiscard]] bool due(TimePoint now) const;
     [[nodiscard]] bool target_met();
-    [[nodiscard]] FrameDemand demand(Clock::time_point now) const;
+    [[nodiscard]] FrameDemand demand(TimePoint now) const;
 
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
     /// Requires has_image().
-    void render(const FrameAdvice& advice, const v1::FrameHeader& figures, Clock::time_point now);
+    void render(const FrameAdvice& advice, const v1::FrameHeader& figures, TimePoint now);
     /// The same of a picture that others use, too, from what the solution knows: waits for it.
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> render_first(
         ViewerImage& shared, const FrameAdvice& advice, const v1::FrameHeader& figures,
-        Clock::time_point now);
+        TimePoint now);
     [[nodiscard]] bool frame_finished();
     /// Its depths, before take_frame(); empty where none were asked for.
     [[nodiscard]] DepthMap take_depths();
@@ -98,23 +99,23 @@ class ViewerSession {
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
     /// Its statistics are old.
-    [[nodiscard]] bool wants_statistics(Clock::time_point now) const;
-    [[nodiscard]] Clock::time_point last_statistics() const { return last_statistics_; }
+    [[nodiscard]] bool wants_statistics(TimePoint now) const;
+    [[nodiscard]] TimePoint last_statistics() const { return errors_.last_statistics; }
     /// Queues new ones. Requires has_image().
-    void refresh_statistics(Clock::time_point now);
+    void refresh_statistics(TimePoint now);
     /// Error, interval and prediction for a `solution` message that has its iterationsPerSecond.
     void fill_solution(v1::Solution* solution);
 
     /// The picture is at rest and its true error worth measuring (again).
-    [[nodiscard]] bool wants_check(Clock::time_point now);
+    [[nodiscard]] bool wants_check(TimePoint now);
     /// Since when it shows what it shows: what was measured before that is of another picture.
-    [[nodiscard]] Clock::time_point last_change() const { return last_change_; }
+    [[nodiscard]] TimePoint last_change() const { return last_change_; }
     /// The picture is being measured.
-    void note_check(Clock::time_point now);
-    [[nodiscard]] Clock::time_point last_check() const { return last_check_; }
+    void note_check(TimePoint now);
+    [[nodiscard]] TimePoint last_check() const { return errors_.last_check; }
     /// by_samples: what they said when it was.
     void take_measured(const SquaredError& square, const ImageStatistics& by_samples) {
-        measured_.take(square, by_samples);
+        errors_.measured.take(square, by_samples);
     }
 
     /// Nobody seems to look: frames stay unacknowledged.
@@ -128,64 +129,74 @@ class ViewerSession {
     [[nodiscard]] double pixels() const;        ///< of the full picture
     [[nodiscard]] double drawn_pixels() const;  ///< of the picture as it is
     /// Of the pictures it shows now.
-    [[nodiscard]] PictureLook look() const;
-    [[nodiscard]] ViewerId id() const { return viewer_; }
-    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] PictureLook look() const { return display_.look(image_.get()); }
+    [[nodiscard]] ViewerId id() const { return identity_.viewer; }
+    [[nodiscard]] const std::string& name() const { return identity_.name; }
     /// Viewer whose camera it follows, 0: none.
-    [[nodiscard]] ViewerId following() const { return following_; }
-    void follow(ViewerId leader) { following_ = leader; }
-    [[nodiscard]] v1::Role role() const { return role_; }
-    void set_role(v1::Role role) { role_ = role; }
-    [[nodiscard]] double target_error() const { return target_error_; }  ///< 0: none
-    [[nodiscard]] bool has_target() const { return target_error_ > 0.0 || target_seconds_ > 0.0; }
+    [[nodiscard]] ViewerId following() const { return identity_.following; }
+    void follow(ViewerId leader) { identity_.following = leader; }
+    [[nodiscard]] v1::Role role() const { return identity_.role; }
+    void set_role(v1::Role role) { identity_.role = role; }
+    [[nodiscard]] double target_error() const { return target_.error; }  ///< 0: none
+    [[nodiscard]] bool has_target() const { return target_.error > 0.0 || target_.seconds > 0.0; }
 
   private:
     [[nodiscard]] ImageStatistics measured_statistics();
-    [[nodiscard]] double since_change_s(Clock::time_point now) const;
-    [[nodiscard]] bool in_motion(Clock::time_point now) const;
+    [[nodiscard]] double since_change_s(TimePoint now) const;
+    [[nodiscard]] bool in_motion(TimePoint now) const;
     [[nodiscard]] glm::uvec2 drawn_size() const;
-    [[nodiscard]] float exposure(const ViewerImage& image, const ImageStatistics& statistics,
-                                 double since_frame_s);
     void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
-                 Clock::time_point now);
-    [[nodiscard]] ColourScale colour_scale(float exposure) const;
+                 TimePoint now);
 
-    ViewerId viewer_;
-    std::string name_;
-    v1::Role role_ = v1::EDITOR;
-    ViewerId following_ = 0;
-    bool lossless_ = false;  // the client decodes PNG
+    struct Identity {
+        ViewerId viewer = 0;
+        std::string name;
+        v1::Role role = v1::EDITOR;
+        ViewerId following = 0;
+        bool lossless = false;  ///< the client decodes PNG
+    };
+    struct Motion {
+        double scale = 1.0;          ///< of the picture's width and height
+        double full_frame_ms = 0.0;  ///< 0: not known yet
+        bool redrawn = false;        ///< for the frame that is being rendered
+        TimePoint last;
+    };
+    struct Target {
+        double error = 0.0;    ///< relative; 0: none
+        double seconds = 0.0;  ///< likewise
+    };
+    struct Errors {
+        MeasuredError measured;
+        std::uint64_t samples_at_check = 0;
+        TimePoint last_check, last_statistics;
+    };
+    struct Frame {
+        v1::FrameHeader header;
+        std::uint32_t number = 0;
+        std::uint32_t camera_id = 0;
+        bool changed = true;  ///< something that no frame shows yet
+        bool rendering = false;
+        std::uint32_t depth_columns = 0;
+        bool depths_coming = false;  ///< with the frame that is being rendered
+        std::uint64_t samples = 0;   ///< of the picture, at the last frame
+        TimePoint last;
+    };
+
+    ViewerPaceSettings pace_;
+    const Clock& clock_;
+    Identity identity_;
     std::unique_ptr<ViewerImage> image_;
     glm::uvec2 size_;
     Camera camera_;
-    bool view_waits_ = true;  // the picture does not show them yet
-    bool redrawn_ = false;    // for the frame that is being rendered
-    double moving_scale_ = 1.0;
-    double full_frame_ms_ = 0.0;
-    DisplayMode mode_ = DisplayMode::photo;
-    float exposure_offset_ = 0.0F;
-    bool auto_exposure_ = true;
-    float scale_maximum_ = 0.0F;  // 0: follows the exposure
-    bool isolines_ = false;
-    float scale_unit_ = 1.0F;  // lx or cd/m²
-    bool linear_scale_ = false;
-    std::optional<float> shown_exposure_;
-    double target_error_ = 0.0;
-    double target_seconds_ = 0.0;
-    std::uint32_t camera_id_ = 0;
-    std::uint32_t frame_ = 0;
-    bool changed_ = true;
-    bool rendering_ = false;
-    std::uint32_t depth_columns_ = 0;
-    bool depths_coming_ = false;  // with the frame that is being rendered
+    bool view_waits_ = true;  // the picture does not show size and camera yet
+    TimePoint last_change_;
+    Motion motion_;
+    ViewerDisplay display_;
+    Target target_;
+    Errors errors_;
+    Frame frame_;
     bool paused_ = false;
     bool acknowledged_ = false;
-    MeasuredError measured_;
-    std::uint64_t samples_at_check_ = 0;
-    Clock::time_point last_check_;
-    v1::FrameHeader header_;
-    Clock::time_point last_change_, last_motion_, last_frame_, last_statistics_;
-    std::uint64_t samples_at_frame_ = 0;
 };
 
 }  // namespace raybundle

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scheduling/elapsed.h"
-#include "session/viewers/stated_error.h"
+#include "session/measure/stated_error.h"
 #include "session/viewers/viewer_session.h"
 
 namespace raybundle {
 
 namespace {
 
-constexpr double statistics_interval_s = 0.15;
-constexpr double check_after_s = 1.0;         // of rest
 constexpr std::uint64_t target_samples = 32;  // before an error is believed
 
 }  // namespace
@@ -21,37 +18,38 @@ bool ViewerSession::target_met() {
     if (!image_) {
         return false;
     }
-    if (target_error_ > 0.0) {
+    if (target_.error > 0.0) {
         const ImageStatistics statistics = measured_statistics();
-        return statistics.samples >= target_samples && statistics.meets(target_error_);
+        return statistics.samples >= target_samples && statistics.meets(target_.error);
     }
-    return target_seconds_ > 0.0 && since_change_s(Clock::now()) >= target_seconds_;
+    return target_.seconds > 0.0 && since_change_s(clock_.now()) >= target_.seconds;
 }
 
 ImageStatistics ViewerSession::measured_statistics() {
-    return measured_.with(image_->statistics());
+    return errors_.measured.with(image_->statistics());
 }
 
-bool ViewerSession::wants_check(Clock::time_point now) {
+bool ViewerSession::wants_check(TimePoint now) {
     // Paths would meet what the picture leaves out.
     return image_ && !camera_.cut() && acknowledged_ && !paused_ && !view_waits_ &&
-           image_->smoothed() && since_change_s(now) >= check_after_s &&
+           image_->smoothed() && since_change_s(now) >= pace_.check_after_s &&
            image_->statistics().known && image_->statistics().samples > 0 &&
            static_cast<double>(image_->samples()) >=
-               next_check_factor * static_cast<double>(samples_at_check_);
+               next_check_factor * static_cast<double>(errors_.samples_at_check);
 }
 
-void ViewerSession::note_check(Clock::time_point now) {
-    samples_at_check_ = image_->samples();
-    last_check_ = now;
+void ViewerSession::note_check(TimePoint now) {
+    errors_.samples_at_check = image_->samples();
+    errors_.last_check = now;
 }
 
-bool ViewerSession::wants_statistics(Clock::time_point now) const {
-    return image_ && !paused_ && seconds(now - last_statistics_) >= statistics_interval_s;
+bool ViewerSession::wants_statistics(TimePoint now) const {
+    return image_ && !paused_ &&
+           seconds(now - errors_.last_statistics) >= pace_.statistics_interval_s;
 }
 
-void ViewerSession::refresh_statistics(Clock::time_point now) {
-    last_statistics_ = now;
+void ViewerSession::refresh_statistics(TimePoint now) {
+    errors_.last_statistics = now;
     image_->request_statistics();
 }
 
@@ -60,23 +58,23 @@ void ViewerSession::fill_solution(v1::Solution* solution) {
         return;
     }
     const ImageStatistics statistics = measured_statistics();
-    state_error(statistics, measured_.known(), *solution);
+    state_error(statistics, errors_.measured.known(), *solution);
     const auto rate = static_cast<double>(solution->iterations_per_second());
-    if (target_error_ > 0.0) {
-        const double more = measured_.samples_factor_to(target_error_, image_->statistics(),
-                                                        image_->sample_order()) -
+    if (target_.error > 0.0) {
+        const double more = errors_.measured.samples_factor_to(target_.error, image_->statistics(),
+                                                               image_->sample_order()) -
                             1.0;
         const double samples = more * static_cast<double>(image_->samples());
         if (target_met()) {
-            if (statistics.error_high <= target_error_) {
+            if (statistics.error_high <= target_.error) {
                 solution->set_seconds_to_target(0.0F);
             }
         } else if (std::isfinite(more) && rate > 0.0) {
             solution->set_seconds_to_target(static_cast<float>(samples / rate));
         }
-    } else if (target_seconds_ > 0.0) {
+    } else if (target_.seconds > 0.0) {
         solution->set_seconds_to_target(
-            static_cast<float>(std::max(0.0, target_seconds_ - since_change_s(Clock::now()))));
+            static_cast<float>(std::max(0.0, target_.seconds - since_change_s(clock_.now()))));
     }
 }
 

@@ -5,12 +5,13 @@
 #include <chrono>
 #include <utility>
 
+#include "scheduling/clock.h"
 #include "session/scene_messages.h"
 
 namespace raybundle {
 
-WalkMapper::WalkMapper(const Scene& scene, Answer answer)
-    : scene_(scene), answer_(std::move(answer)) {
+WalkMapper::WalkMapper(const Scene& scene, double rest, Answer answer)
+    : scene_(scene), rest_(rest), answer_(std::move(answer)) {
     thread_ = std::jthread([this](const std::stop_token& token) { run(token); });
 }
 
@@ -36,18 +37,18 @@ void WalkMapper::ask(const ClientEvent& request, std::uint32_t epoch) {
 }
 
 void WalkMapper::run(const std::stop_token& token) {
-    using Clock = std::chrono::steady_clock;
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, token, [this] { return !jobs_.empty(); })) {
         const Job job = std::move(jobs_.front());
         jobs_.pop_front();
         lock.unlock();
-        const auto begun = Clock::now();
+        const SteadyClock clock;
+        const TimePoint begun = clock.now();
         const glm::vec3 eye = from_message(job.request.message.get_walk_map().eye());
         answer_(job.request, make_walk_map(scene_, job.worlds, eye), job.epoch);
-        const auto rested = Clock::now() + (Clock::now() - begun);
+        const std::chrono::duration<double, std::milli> pause(rest_ * clock.ms_since(begun));
         lock.lock();
-        changed_.wait_until(lock, token, rested, [] { return false; });
+        changed_.wait_for(lock, token, pause, [] { return false; });
     }
 }
 

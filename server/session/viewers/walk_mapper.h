@@ -17,7 +17,7 @@
 namespace raybundle {
 
 /// Works out what stands around viewers on a thread of its own, so that pictures go on meanwhile:
-/// one map after the other, in turn, half of the time at most. Of each viewer one request waits; a
+/// one map after the other, in turn, with pauses. Of each viewer one request waits; a
 /// newer one replaces it.
 class WalkMapper {
   public:
@@ -26,7 +26,8 @@ class WalkMapper {
     /// objects but for their places.
     using Answer = std::function<void(const ClientEvent& request, const std::optional<WalkMap>& map,
                                       std::uint32_t epoch)>;
-    WalkMapper(const Scene& scene, Answer answer);
+    /// rest: after each map, times the work on it.
+    WalkMapper(const Scene& scene, double rest, Answer answer);
 
     /// Takes a getWalkMap, with objects at their present places. On the thread that moves them.
     void ask(const ClientEvent& request, std::uint32_t epoch);
@@ -41,6 +42,7 @@ class WalkMapper {
     void run(const std::stop_token& token);
 
     const Scene& scene_;
+    const double rest_;
     const Answer answer_;
     std::mutex mutex_;
     std::condition_variable_any changed_;

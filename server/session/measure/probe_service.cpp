@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the render loop measures for viewers: a pixel, or the points of a grid.
-#include <algorithm>
+#include "session/measure/probe_service.h"
 
-#include "session/render_loop.h"
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "session/measure/probed_pixel.h"
 #include "session/scene_messages.h"
-#include "session/viewers/probed_pixel.h"
 #include "view/camera_matrices.h"
 
 namespace raybundle {
@@ -68,42 +70,49 @@ std::optional<glm::uvec2> pixel_of(const Camera& camera, glm::uvec2 size, const 
     return glm::uvec2(at);
 }
 
-void RenderLoop::answer_probe(ViewerSession& session, const ClientEvent& event) {
+HandlerResult ProbeService::probe(ViewerSession& session, const ClientEvent& event) {
     const v1::Probe& probe = event.message.probe();
     if (!probe.has_pixel()) {
-        server_.reply_error(event, v1::Error::UNIMPLEMENTED,
-                            "probe.ray: only pixels can be probed");
-        return;
+        parts_.server.reply_error(event, v1::Error::UNIMPLEMENTED,
+                                  "probe.ray: only pixels can be probed");
+        return HandlerResult::answered;
     }
     const glm::uvec2 size = session.size();
     const glm::vec2 pixel(probe.pixel().x(), probe.pixel().y());
     if (!(pixel.x >= 0.0F && pixel.y >= 0.0F && pixel.x < static_cast<float>(size.x) &&
           pixel.y < static_cast<float>(size.y))) {
-        server_.reply_error(event, v1::Error::INVALID_ARGUMENT, "probe.pixel: outside the picture");
-        return;
+        parts_.server.reply_error(event, v1::Error::INVALID_ARGUMENT,
+                                  "probe.pixel: outside the picture");
+        return HandlerResult::answered;
     }
-    prepare_image(session);
+    parts_.pictures.prepare(session);
     const std::optional<PixelProbe> hit = session.probe(glm::uvec2(pixel));
     v1::ServerMessage message;
     v1::ProbeResult* result = message.mutable_probe_result();
     result->set_hit(hit.has_value());
-    result->set_epoch(epoch_);
+    result->set_epoch(parts_.scene.epoch());
     if (hit) {
-        to_message(hit->position, result->mutable_position());
-        to_message(hit->normal, result->mutable_normal());
-        result->set_object(scene_.objects[hit->object].id);
-        result->set_patch(hit->patch);
-        result->set_material(mesh_.triangle_material[mesh_.side_triangle[hit->patch]] + 1);
-        result->set_illuminance(luminance(hit->irradiance));
-        result->set_luminance(luminance(hit->radiance));
-        if (hit->relative_error) {
-            result->set_relative_error(static_cast<float>(*hit->relative_error));
-        }
+        fill_result(*hit, result);
     }
-    server_.reply(event, message);
+    parts_.server.reply(event, message);
+    return HandlerResult::answered;
 }
 
-void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
+void ProbeService::fill_result(const PixelProbe& hit, v1::ProbeResult* result) const {
+    const PatchMesh& mesh = parts_.scene.mesh();
+    to_message(hit.position, result->mutable_position());
+    to_message(hit.normal, result->mutable_normal());
+    result->set_object(parts_.scene.scene().objects[hit.object].id);
+    result->set_patch(hit.patch);
+    result->set_material(mesh.triangle_material[mesh.side_triangle[hit.patch]] + 1);
+    result->set_illuminance(luminance(hit.irradiance));
+    result->set_luminance(luminance(hit.radiance));
+    if (hit.relative_error) {
+        result->set_relative_error(static_cast<float>(*hit.relative_error));
+    }
+}
+
+HandlerResult ProbeService::probe_grid(ViewerSession& session, const ClientEvent& event) {
     const Grid grid(event.message.probe_grid());
     const std::vector<glm::vec3> points = grid.points();
     const Camera& camera = session.camera();
@@ -117,10 +126,10 @@ void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
     }
     v1::ServerMessage answer;
     v1::ProbeGridResult& result = *answer.mutable_probe_grid_result();
-    result.set_epoch(epoch_);
+    result.set_epoch(parts_.scene.epoch());
     result.mutable_illuminance()->Resize(static_cast<int>(points.size()), -1.0F);
     result.mutable_relative_error()->Resize(static_cast<int>(points.size()), -1.0F);
-    prepare_image(session);
+    parts_.pictures.prepare(session);
     const auto found = session.probe(pixels);
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i] && grid.shows(found[i]->position, points[indices[i]], camera.eye)) {
@@ -130,7 +139,8 @@ void RenderLoop::probe_grid(ViewerSession& session, const ClientEvent& event) {
                                       static_cast<float>(found[i]->relative_error.value_or(-1.0)));
         }
     }
-    server_.reply(event, answer);
+    parts_.server.reply(event, answer);
+    return HandlerResult::answered;
 }
 
 }  // namespace raybundle

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -14,6 +13,7 @@
 #include "reference/spot_check.h"
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
+#include "scheduling/clock.h"
 #include "stream/viewer_id.h"
 #include "view/viewer_image.h"
 
@@ -25,11 +25,9 @@ namespace raybundle {
 /// few viewers. Its methods are for one thread; only set_scene() takes that longer, for a copy.
 class ErrorChecker {
   public:
-    using Clock = std::chrono::steady_clock;
-
     struct Picture {
         ViewerId viewer = 0;
-        Clock::time_point shown_since;  ///< names what the picture shows, beside the viewer
+        TimePoint shown_since;  ///< names what the picture shows, beside the viewer
         Camera camera;
         glm::uvec2 size{0};
         std::vector<glm::vec4> radiance;  ///< cd/m², row 0 at the top
@@ -37,18 +35,20 @@ class ErrorChecker {
     };
     struct Result {
         ViewerId viewer = 0;
-        Clock::time_point shown_since;
+        TimePoint shown_since;
         ImageStatistics by_samples;
         SquaredError square;
     };
 
-    ErrorChecker();
+    /// rest: after each picture, times the work on it. The clock is read on the checker's thread,
+    /// too.
+    ErrorChecker(const Clock& clock, double rest);
     ~ErrorChecker();
     ErrorChecker(const ErrorChecker&) = delete;
     ErrorChecker& operator=(const ErrorChecker&) = delete;
 
     /// Takes another picture now. One at a time, with pauses.
-    [[nodiscard]] bool idle(Clock::time_point now);
+    [[nodiscard]] bool idle();
     /// Whether it has this state of the scene. What it is told of others is forgotten.
     [[nodiscard]] bool has_scene(std::uint32_t epoch) const { return scene_ && epoch_ == epoch; }
     void set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh);
@@ -64,7 +64,7 @@ class ErrorChecker {
         std::shared_ptr<const OwnScene> scene;
     };
     struct Begun {  ///< paths of one viewer's picture
-        Clock::time_point shown_since;
+        TimePoint shown_since;
         std::shared_ptr<const OwnScene> scene;
         std::unique_ptr<SpotCheck> check;
     };
@@ -73,6 +73,8 @@ class ErrorChecker {
     Result work(const Job& job);
     SpotCheck& paths_for(const Job& job);
 
+    const Clock& clock_;
+    const double rest_;
     std::shared_ptr<const OwnScene> scene_;
     std::uint32_t epoch_ = 0;
 
@@ -84,7 +86,7 @@ class ErrorChecker {
     bool busy_ = false;
     std::optional<Job> job_;
     std::optional<Result> result_;
-    Clock::time_point rests_until_;
+    TimePoint rests_until_;
     std::thread thread_;
 };
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large the pictures of viewers are: what the limits and the time leave of what they want.
+#include "session/viewers/viewer_admission.h"
+
 #include "net/ws/wire_codec.h"
 #include "session/memory_room.h"
-#include "session/render_loop.h"
 #include "session/scene_messages.h"
 #include "view/picture_limits.h"
 
 namespace raybundle {
 
-void RenderLoop::fill_limits(v1::Limits* limits) {
+void ViewerAdmission::fill_limits(v1::Limits* limits) {
     const PictureLimits pictures = picture_limits();
     limits->set_max_width(3840);
     limits->set_max_height(2160);
@@ -18,48 +18,30 @@ void RenderLoop::fill_limits(v1::Limits* limits) {
     limits->set_max_snapshot_edge(WireLimits().max_picture);
 }
 
-/// Whether there is time for a picture of this size. `instead` is the viewer whose picture it would
-/// replace, or null.
-CostModel::Verdict RenderLoop::admission(glm::uvec2 size, const ViewerSession* instead) const {
-    if (settings_.min_frames_per_second <= 0.0) {
-        return {};
-    }
+CostModel::Verdict ViewerAdmission::within_time(glm::uvec2 size,
+                                                const ViewerSession* instead) const {
     double present = 0.0;
-    for (const auto& [id, session] : sessions_) {
+    for (const auto& [id, session] : parts_.viewers) {
         present += session->paused() || session.get() == instead ? 0.0 : session->pixels();
     }
-    const double limit_ms = 1000.0 / settings_.min_frames_per_second;
-    return cost_.admit(size.x, size.y, present, limit_ms);
-}
-
-/// Whether several people watch, and a frame for each of them takes more than a second: none sees
-/// at once what the others do.
-bool RenderLoop::crowded() const {
-    constexpr double at_once_ms = 1000.0;  // of attention that stays (R. Miller 1968)
-    double pixels = 0.0;
-    int watching = 0;
-    for (const auto& [id, session] : sessions_) {
-        pixels += session->paused() ? 0.0 : session->pixels();
-        watching += session->paused() ? 0 : 1;
-    }
-    return watching > 1 && cost_.round_ms(pixels) > at_once_ms;
+    return parts_.policy.admit(size.x, size.y, present);
 }
 
 /// The largest picture of this shape that there is memory for, by what the present ones take;
 /// nothing where there is none. A GPU says so itself.
-std::optional<glm::uvec2> RenderLoop::within_memory(glm::uvec2 size,
-                                                    const ViewerSession* instead) const {
+std::optional<glm::uvec2> ViewerAdmission::within_memory(glm::uvec2 size,
+                                                         const ViewerSession* instead) const {
     double bytes = 0.0;
     double pixels = 0.0;
     double released = 0.0;
-    for (const auto& [id, session] : sessions_) {
+    for (const auto& [id, session] : parts_.viewers) {
         if (session->has_image()) {
             bytes += static_cast<double>(session->image().bytes());
             pixels += session->pixels();
             released += session.get() == instead ? session->pixels() : 0.0;
         }
     }
-    const auto available = settings_.software_rendering ? available_memory() : std::nullopt;
+    const auto available = parts_.software_rendering ? available_memory() : std::nullopt;
     if (!available || pixels <= 0.0) {
         return size;
     }
@@ -67,22 +49,18 @@ std::optional<glm::uvec2> RenderLoop::within_memory(glm::uvec2 size,
     return size_within_memory(size, per_pixel, *available + released * per_pixel);
 }
 
-/// The size at which a viewport is served. One beyond the limits, or for which there is no memory,
-/// gets the largest of its shape that there is memory and time for: its client has to scale
-/// pictures anyway.
-glm::uvec2 RenderLoop::served_size(glm::uvec2 wanted, const ViewerSession* instead) const {
+glm::uvec2 ViewerAdmission::served_size(glm::uvec2 wanted, const ViewerSession* instead) const {
     const glm::uvec2 limited = fitted(wanted, picture_limits());
     const glm::uvec2 size = within_memory(limited, instead).value_or(limited);
-    const auto fit = size == wanted ? std::nullopt : admission(size, instead).would_fit;
+    const auto fit = size == wanted ? std::nullopt : within_time(size, instead).would_fit;
     return fit ? glm::uvec2(fit->first, fit->second) : size;
 }
 
-/// Why a picture of this size cannot be served, with what would fit; empty where it can.
-std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instead) const {
+std::string ViewerAdmission::no_room_for(glm::uvec2 size, const ViewerSession* instead) const {
     if (!within_memory(size, instead)) {
         return "the server has no memory for another picture";
     }
-    const CostModel::Verdict verdict = admission(size, instead);
+    const CostModel::Verdict verdict = within_time(size, instead);
     if (verdict.fits) {
         return {};
     }
@@ -94,15 +72,15 @@ std::string RenderLoop::no_room_for(glm::uvec2 size, const ViewerSession* instea
                 : ", nothing would fit now");
 }
 
-void RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) {
+HandlerResult ViewerAdmission::set_viewport(ViewerSession& session, const ClientEvent& event) {
     const v1::SetViewport& message = event.message.set_viewport();
     const glm::uvec2 wanted(message.width(), message.height());
     const glm::uvec2 size = served_size(wanted, &session);
     const bool larger =
         static_cast<double>(size.x) * static_cast<double>(size.y) > session.pixels();
     if (const std::string reason = larger ? no_room_for(size, &session) : ""; !reason.empty()) {
-        server_.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
-        return;
+        parts_.server.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
+        return HandlerResult::answered;
     }
     session.set_viewport(size);
     v1::ServerMessage answer;
@@ -110,7 +88,8 @@ void RenderLoop::set_viewport(ViewerSession& session, const ClientEvent& event) 
     if (size != wanted) {
         to_message(size, answer.mutable_ok()->mutable_viewport());
     }
-    server_.reply(event, answer);
+    parts_.server.reply(event, answer);
+    return HandlerResult::answered;
 }
 
 }  // namespace raybundle

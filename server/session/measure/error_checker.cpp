@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/viewers/error_checker.h"
+#include "session/measure/error_checker.h"
 
 #include <spdlog/spdlog.h>
 #include <tbb/task_arena.h>
@@ -15,7 +15,6 @@ namespace raybundle {
 namespace {
 
 constexpr std::chrono::milliseconds longest_work(150);  // CPU time on one picture, at a time
-constexpr double rest_factor = 5.0;                     // of the work: a sixth of one core
 constexpr std::size_t max_begun = 8;
 constexpr std::uint64_t seed = 0x73706f7463686563ULL;
 
@@ -46,7 +45,8 @@ struct ErrorChecker::OwnScene {
     mutable std::unique_ptr<const TracedScene> traced_;
 };
 
-ErrorChecker::ErrorChecker() : thread_([this] { run(); }) {}
+ErrorChecker::ErrorChecker(const Clock& clock, double rest)
+    : clock_(clock), rest_(rest), thread_([this] { run(); }) {}
 
 ErrorChecker::~ErrorChecker() {
     {
@@ -57,9 +57,9 @@ ErrorChecker::~ErrorChecker() {
     thread_.join();
 }
 
-bool ErrorChecker::idle(Clock::time_point now) {
+bool ErrorChecker::idle() {
     const std::lock_guard lock(mutex_);
-    return !busy_ && now >= rests_until_;
+    return !busy_ && clock_.now() >= rests_until_;
 }
 
 void ErrorChecker::set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh) {
@@ -101,8 +101,8 @@ void ErrorChecker::run() {
         job.reset();
         lock.lock();
         result_ = std::move(result);
-        rests_until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                          rest_factor * (thread_time() - start));
+        rests_until_ = clock_.now() + std::chrono::duration_cast<TimePoint::duration>(
+                                          rest_ * (thread_time() - start));
         busy_ = false;
     }
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace raybundle {
+
+/// Weights of viewers in FrameScheduler.
+struct FrameShareSettings {
+    double moving_quantum_ms = 20.0;  ///< what a round gives a viewer whose picture moves
+    double resting_quantum_ms = 5.0;  ///< and one whose picture rests
+    double unknown_cost_ms = 10.0;    ///< assumed for a viewer's first frame
+    double max_cost_ms = 10000.0;     ///< longer measurements are cut
+    double smoothing = 0.3;           ///< weight of a new measurement
+};
+
+/// A share of the time in the long run, and what may be saved up.
+struct BudgetSettings {
+    double share = 1.0;
+    double burst_ms = 0.0;
+};
+
+/// What a frame and an iteration have to share while somebody walks, and what while nobody does.
+struct RoundSettings {
+    double frame_slice_ms = 60.0;  ///< frames between two steps of the solver
+    double slice_steps = 2.0;      ///< or so many steps of the solver while somebody moves
+    double walk_round_ms =
+        40.0;  ///< a frame of each who walks and a step; with encoding 50: 20 a second
+    double walk_pause_ms = 250.0;   ///< without a frame in motion for so long nobody walks
+    double min_solver_share = 0.2;  ///< of the time, where frames take more than the rest
+    double solver_burst_ms = 50.0;  ///< what the solver may save up meanwhile
+};
+
+/// What gathering light in viewers' pixels may add to an iteration.
+struct ReceiverSettings {
+    double min_moving_ms = 40.0;  ///< while somebody moves, or
+    double frames_share = 0.5;    ///< so much of what frames in motion take, where that is more
+    double resting_ms = 100.0;    ///< while nobody moves: who begins to must not wait long
+};
+
+/// Sizes of pictures in motion.
+struct MovingScaleSettings {
+    double min = 0.625;        ///< of width and height
+    double step = 1.0 / 16.0;  ///< likewise
+};
+
+/// Special phases, and what comes between two changes.
+struct ChangeSettings {
+    /// Of the 150 ms from a change to its frame what composing and encoding leave.
+    double phase_deadline_ms = 110.0;
+    double phase_smoothing = 0.3;  ///< weight of the newest phase in means
+    double drag_pause_ms = 400.0;  ///< without a step for so long nobody drags
+    double iteration_share =
+        0.2;  ///< of the time of changes and frames, as beside frames of a walk
+};
+
+/// When a viewer counts as moving or away, and how often its picture is worth a frame or a look.
+struct ViewerPaceSettings {
+    double moving_s = 0.4;                ///< after its last change a viewer counts as moving
+    double moving_interval_s = 0.016;     ///< between frames of a picture that has changed
+    double refining_share = 0.1;          ///< between frames of one that refines: of its age
+    double min_refining_s = 0.1;          ///< but never less than this
+    double max_refining_s = 1.0;          ///< nor more
+    double cost_smoothing = 0.2;          ///< weight of a new measurement of a frame in motion
+    double away_after_ms = 3000.0;        ///< without acknowledgement a viewer counts as away
+    double forget_after_ms = 60e3;        ///< and after this its picture is forgotten
+    double statistics_interval_s = 0.15;  ///< between two looks at the error of a picture
+    double check_after_s = 1.0;           ///< of rest before its true error is measured
+};
+
+/// Snapshots beside viewers.
+struct SnapshotPaceSettings {
+    double share = 0.18;             ///< of the solver's time, while somebody moves
+    double max_credit_ms = 500.0;    ///< that may be saved up
+    double cost_smoothing = 0.1;     ///< weight of the newest iteration in the usual cost
+    double earlier_slice_ms = 40.0;  ///< of iterations of an earlier scene at once
+    double earlier_kept_s = 120.0;   ///< an earlier scene is kept after its last picture
+    double max_time_s = 3600.0;      ///< of one snapshot, then it is delivered as it is
+    double statistics_interval_s = 0.1;
+    double report_interval_s = 1.0;
+};
+
+/// All that decides who gets time: docs/scheduling.md says it in sentences.
+struct SchedulingSettings {
+    /// `--min-fps`: a viewer is refused where the others would fall below this; 0: nobody is.
+    double min_frames_per_second = 0.0;
+    /// Without viewers the solver rests after this many iterations since the last change.
+    std::uint64_t idle_iterations = 4096;
+    /// With several viewers, a round longer than this is said to be crowded: attention that stays
+    /// (R. Miller 1968).
+    double crowded_ms = 1000.0;
+
+    FrameShareSettings frames;
+    RoundSettings round;
+    ReceiverSettings receivers;
+    MovingScaleSettings moving_scale;
+    ChangeSettings changes;
+    ViewerPaceSettings viewers;
+    SnapshotPaceSettings snapshots;
+
+    /// Requests of one viewer, where there are one or two; all of more share what two may have.
+    BudgetSettings requests{0.25, 250.0};
+    double request_shares = 2.0;  ///< more viewers than so have smaller shares
+    /// First frames while others move: of viewers that answer, and of connections that do not.
+    BudgetSettings greeting{0.1, 250.0};
+    BudgetSettings silent_greeting{0.03, 250.0};
+    /// Statistics of pictures.
+    BudgetSettings statistics{0.1, 20.0};
+    /// Threads beside the render thread rest so many times as long as they have worked.
+    double error_check_rest = 5.0;  ///< a sixth of one core
+    double walk_map_rest = 1.0;     ///< half of one core
+
+    double solution_interval_s = 0.25;  ///< between two `solution` messages
+    double min_presence_interval_s = 0.1;
+    double presence_interval_per_viewer_s = 0.01;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/changes/change_coordinator.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "bundle/low_discrepancy.h"
+#include "session/changes/changed_materials.h"
+#include "session/changes/special_settings.h"
+#include "session/scene_messages.h"
+#include "session/unix_time.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr const char* not_saved = "the change could not be saved, so it was not made";
+
+/// Whether a change can be worked in together with those that come before it.
+bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
+    const bool moving = pending.front().change.has_move_object();
+    if (next.is_undo() || next.change.has_move_object() != moving) {
+        return false;
+    }
+    const auto same = [&next](const PendingChange& p) {
+        return subject_of(p.change) == subject_of(next.change);
+    };
+    return !moving ||
+           (pending.size() < MOST_MOVED && std::none_of(pending.begin(), pending.end(), same));
+}
+
+/// A move whose drag goes on.
+bool is_dragged(const PendingChange& pending) {
+    if (pending.requests.empty()) {
+        return false;
+    }
+    const v1::MoveObject& last = pending.requests.back().message.move_object();
+    return last.has_final() && !last.final();
+}
+
+}  // namespace
+
+HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const ClientEvent& event) {
+    const v1::SceneChanged change = change_of(event);
+    if (change.change_case() != v1::SceneChanged::CHANGE_NOT_SET) {
+        const v1::Error problem = problem_of(parts_.scene.scene(), change);
+        if (problem.code() != v1::Error::CODE_UNSPECIFIED) {
+            parts_.server.reply_error(event, problem.code(), problem.message());
+            return HandlerResult::answered;
+        }
+    }
+    queue_.add(event);
+    return HandlerResult::answered;
+}
+
+void ChangeCoordinator::start_pending() {
+    if (queue_.empty() || parts_.scene.solver().correcting() ||
+        !parts_.policy.may_begin(parts_.demand.nobody_waits())) {
+        return;
+    }
+    PendingChange first = queue_.take();
+    if (first.is_undo()) {
+        start_undo(first);
+        return;
+    }
+    const TimePoint begun = parts_.policy.clock().now();
+    std::vector<PendingChange> pending;
+    pending.push_back(std::move(first));
+    while (!queue_.empty() && fits(queue_.front(), pending)) {
+        pending.push_back(queue_.take());
+    }
+    if (start(std::move(pending))) {
+        parts_.policy.note_beginning(parts_.policy.clock().ms_since(begun));
+        end_change();
+    }
+}
+
+/// False: nothing could be saved, so nothing has changed.
+bool ChangeCoordinator::start(std::vector<PendingChange> pending) {
+    const bool moving = pending.front().change.has_move_object();
+    const bool made = moving ? start_moves(pending) : start_surfaces(pending);
+    if (made) {
+        for (const PendingChange& change : pending) {
+            announce(change);
+        }
+    }
+    return made;
+}
+
+/// Keeps of `pending` what could be saved.
+bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
+    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    std::vector<ObjectMove> moves;
+    for (const PendingChange& p : pending) {
+        const std::uint32_t object = p.change.move_object().object() - 1;
+        moves.push_back({object, parts_.scene.scene().objects[object].world_from_object()});
+    }
+    if (moves.empty()) {
+        return false;
+    }
+    gather_all();
+    const bool dragged = std::any_of(pending.begin(), pending.end(), is_dragged);
+    begin_phase(parts_.scene.solver(), dragged);
+    if (dragged) {
+        shrink_for_drag();
+    }
+    parts_.scene.solver().move_objects(moves, parts_.receivers.list());
+    return true;
+}
+
+/// Keeps of `pending` what could be saved.
+bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
+    ChangedMaterials changed(parts_.scene.scene(), pending);
+    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    if (pending.empty()) {
+        return false;
+    }
+    changed.look_again(parts_.scene.scene(), pending);
+    LiveScene& live = parts_.scene;
+    const bool covered = std::all_of(
+        changed.reflecting().begin(), changed.reflecting().end(),
+        [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });
+    if (covered) {
+        gather_all();
+        begin_phase(live.solver(), false);
+        live.solver().change_surfaces(live.scene(), live.mesh(), changed.all(),
+                                      changed.reflecting(), parts_.receivers.list());
+    } else {
+        refresh_surfaces(live.scene(), changed.all(), live.mesh());
+        replan(changed.reflecting());
+    }
+    return true;
+}
+
+/// A material calls for shaders that the scene did not need so far: another solver takes over the
+/// solution.
+void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
+    LiveScene& live = parts_.scene;
+    SolverSettings settings = live.solver_settings();
+    settings.seed = mix_bits(settings.seed + ++replans_);
+    auto next = std::make_unique<Solver>(live.scene(), live.mesh(), settings);
+    auto programs = std::make_unique<ViewPrograms>(next->scene());
+    parts_.pictures.renew(*next, *programs);
+    gather_all();
+    begin_phase(*next, false);
+    next->take_over(live.solver(), reflecting, parts_.receivers.list());
+    live.replace(std::move(next), std::move(programs));
+    spdlog::info("shaders have been planned anew for a changed material");
+}
+
+void ChangeCoordinator::start_undo(const PendingChange& pending) {
+    const ClientEvent& request = pending.requests.front();
+    const std::uint32_t epoch = request.message.undo().epoch();
+    const SceneHistory& history = parts_.scene.log().history();
+    if (pending.undone) {
+        if (undo_failed_) {
+            parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved);
+        } else {
+            parts_.server.reply_ok(request);
+        }
+        return;
+    }
+    undo_failed_ = false;
+    if (const auto changes = history.back_to(epoch); changes && changes->empty()) {
+        parts_.server.reply_ok(request);
+    } else if (changes) {
+        queue_.add_undone(*changes, pending);
+    } else if (epoch > parts_.scene.epoch()) {
+        parts_.server.reply_error(request, v1::Error::INVALID_ARGUMENT,
+                                  "undo.epoch: there have been only " +
+                                      std::to_string(parts_.scene.epoch()) + " changes");
+    } else {
+        parts_.server.reply_error(request, v1::Error::NOT_FOUND,
+                                  "undo.epoch: what was before change " +
+                                      std::to_string(history.oldest()) + " is not known any more");
+    }
+}
+
+/// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
+bool ChangeCoordinator::record(PendingChange& pending) {
+    Scene& scene = parts_.scene.scene();
+    ChangeLog& log = parts_.scene.log();
+    const v1::SceneChanged before = state_of(scene, pending.change);
+    sign(pending);
+    if (!log.record(pending.change, before)) {
+        undo_failed_ = true;
+        for (const ClientEvent& request : pending.requests) {
+            parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved);
+        }
+        return false;
+    }
+    apply(scene, pending.change);
+    v1::SceneChanged after = state_of(scene, pending.change);
+    after.set_epoch(log.epoch());
+    log.note_states(before, after);
+    set_before(before, pending.change);
+    log.records().tell_beginning(pending.change);
+    return true;
+}
+
+/// Notes in a change who makes it, and when.
+void ChangeCoordinator::sign(PendingChange& pending) const {
+    if (!pending.requests.empty()) {
+        pending.change.set_by(pending.requests.back().viewer);
+    }
+    const ViewerSession* const viewer = parts_.viewers.find(pending.change.by());
+    pending.change.set_by_name(viewer == nullptr ? "" : viewer->name());
+    pending.change.set_at_ms(unix_ms());
+}
+
+/// All pictures take part in a special phase, those of viewers who look away, too.
+void ChangeCoordinator::gather_all() {
+    parts_.snapshots.restart();
+    parts_.pictures.note_change();
+    parts_.receivers.clear();
+    for (const auto& [id, session] : parts_.viewers) {
+        if (session->has_image()) {
+            parts_.receivers.add(session->image());
+        }
+    }
+}
+
+void ChangeCoordinator::begin_phase(Solver& solver, bool dragged) {
+    double target = 0.0;
+    for (const auto& [id, session] : parts_.viewers) {
+        if (session->target_error() > 0.0) {
+            target =
+                target > 0.0 ? std::min(target, session->target_error()) : session->target_error();
+        }
+    }
+    solver.set_special(special_settings(parts_.policy.phase_budget(), target, !queue_.empty()));
+    parts_.policy.begin_phase(dragged);
+    parts_.metrics.count_phase();
+}
+
+/// While an object is dragged, phases gather light in fewer pixels if they take too long.
+void ChangeCoordinator::shrink_for_drag() {
+    const TimePoint now = parts_.policy.clock().now();
+    for (const auto& [id, session] : parts_.viewers) {
+        if (session->has_image()) {
+            session->note_drag(parts_.policy.drag_scale(), now);
+        }
+    }
+}
+
+void ChangeCoordinator::announce(const PendingChange& pending) {
+    parts_.scene.note_change();
+    v1::ServerMessage message;
+    *message.mutable_scene_changed() = pending.change;
+    for (const ClientEvent& request : pending.requests) {
+        parts_.server.reply(request, message);
+    }
+    // An undo is broadcast to its requester, too.
+    parts_.server.broadcast(message, pending.requests.empty() ? 0 : pending.change.by());
+    for (const auto& [id, session] : parts_.viewers) {
+        session->note_change();
+    }
+}
+
+void ChangeCoordinator::note_bundle(double cost_ms) {
+    double full = 0.0;
+    double drawn = 0.0;
+    for (const auto& [id, session] : parts_.viewers) {
+        full += session->has_image() ? session->pixels() : 0.0;
+        drawn += session->has_image() ? session->drawn_pixels() : 0.0;
+    }
+    parts_.policy.note_bundle(cost_ms, !parts_.scene.solver().correcting(), full, drawn);
+    end_change();
+}
+
+/// Once a change has been worked in, every viewer waits for a frame that shows it.
+void ChangeCoordinator::end_change() {
+    if (parts_.scene.solver().correcting()) {
+        return;
+    }
+    const TimePoint now = parts_.policy.clock().now();
+    std::vector<ViewerId> watchers;
+    for (const auto& [id, session] : parts_.viewers) {
+        watchers.push_back(id);
+        if (parts_.policy.phase_of_drag()) {
+            session->stay_in_motion(now);
+        }
+    }
+    parts_.policy.end_change(watchers);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "net/server.h"
+#include "scheduling/change_policy.h"
+#include "session/changes/change_queue.h"
+#include "session/handler_result.h"
+#include "session/live_scene.h"
+#include "session/loop_metrics.h"
+#include "session/receiver_list.h"
+#include "session/snapshots/snapshot_queue.h"
+#include "session/solver_demand.h"
+#include "session/viewers/viewer_pictures.h"
+#include "session/viewers/viewers.h"
+
+namespace raybundle {
+
+/// Makes the changes that viewers ask for: decides their order, records each, has the solver work
+/// it in and announces it.
+class ChangeCoordinator {
+  public:
+    struct Parts {
+        LiveScene& scene;
+        const Viewers& viewers;
+        ViewerPictures& pictures;
+        ReceiverList& receivers;
+        SnapshotQueue& snapshots;
+        const SolverDemand& demand;
+        ChangePolicy& policy;
+        Server& server;
+        LoopMetrics& metrics;
+    };
+    explicit ChangeCoordinator(const Parts& parts) : parts_(parts) {}
+
+    /// Handles moveObject, setLight, setMaterial and undo: each waits for its turn, and is answered
+    /// when it has been made.
+    HandlerResult request(ViewerSession& session, const ClientEvent& event);
+
+    /// Makes the change that waits longest, with those right behind it that one special phase can
+    /// work in: lights and materials, or some moved objects. Does nothing while the policy wants
+    /// frames and iterations first.
+    void start_pending();
+
+    /// A bundle of a special phase has been transferred and has taken so long.
+    void note_bundle(double cost_ms);
+
+    /// Requests that wait; there are none then.
+    [[nodiscard]] std::vector<ClientEvent> take_requests() { return queue_.take_requests(); }
+
+  private:
+    bool start(std::vector<PendingChange> pending);
+    bool start_moves(std::vector<PendingChange>& pending);
+    bool start_surfaces(std::vector<PendingChange>& pending);
+    void start_undo(const PendingChange& pending);
+    bool record(PendingChange& pending);
+    void sign(PendingChange& pending) const;
+    void gather_all();
+    void begin_phase(Solver& solver, bool dragged);
+    void shrink_for_drag();
+    void replan(std::span<const std::uint32_t> reflecting);
+    void announce(const PendingChange& pending);
+    void end_change();
+
+    Parts parts_;
+    ChangeQueue queue_;
+    bool undo_failed_ = false;  // a change of the running undo could not be saved
+    std::uint64_t replans_ = 0;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/session_services.h"
+
+namespace raybundle {
+
+SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& settings)
+    : snapshot_queue(
+          s.server, s.policy.clock(), s.policy.settings().snapshots,
+          [&live = s.live](std::uint32_t epoch) { return make_earlier_scene(live, epoch); }),
+      snapshots({s.live, snapshot_queue, s.receivers, s.server}),
+      changes({s.live, s.viewers, s.pictures, s.receivers, snapshot_queue, s.demand,
+               s.policy.changes(), s.server, s.metrics}),
+      errors({s.live, s.viewers, s.policy}),
+      solver({s.live, s.viewers, s.receivers, snapshot_queue, changes, errors, s.demand, s.policy,
+              s.server, s.metrics, settings.lost_after_change}),
+      frames({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
+      presence({s.viewers, s.policy, s.server}),
+      views({s.live, presence, s.policy, s.server}),
+      admission({s.viewers, s.policy, s.server, settings.software_rendering}),
+      probes({s.live, s.pictures, s.server}),
+      review({s.live, s.viewers, s.pictures, s.demand, s.policy, s.server}),
+      scenes({s.live, s.server, settings.scene_requests, settings.effect_requests}),
+      arrivals({s.live,
+                s.viewers,
+                admission,
+                views,
+                review,
+                presence,
+                s.server,
+                s.metrics,
+                {settings.renderer, settings.software_rendering,
+                 static_cast<bool>(settings.scene_requests)}}),
+      status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}) {}
+
+void SessionServices::forget(SessionState& state, ViewerId viewer) {
+    frames.forget(viewer);
+    state.policy.forget(viewer);
+    snapshots.forget(viewer);
+    state.pictures.forget(state.viewers.at(viewer));
+    state.viewers.erase(viewer);
+    presence.forget(viewer);
+}
+
+}  // namespace raybundle

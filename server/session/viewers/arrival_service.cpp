@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/viewers/arrival_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include "session/scene_messages.h"
+
+namespace raybundle {
+
+void ArrivalService::join(const ClientEvent& event) {
+    v1::Hello hello = event.message.hello();
+    const glm::uvec2 size = parts_.admission.served_size(ViewerSession::size_of(hello), nullptr);
+    to_message(size, hello.mutable_viewport());
+    if (const std::string reason = parts_.admission.no_room_for(size, nullptr); !reason.empty()) {
+        parts_.metrics.count_refused_viewer();
+        parts_.server.reply_error(event, v1::Error::RESOURCE_EXHAUSTED, reason);
+        parts_.server.close(event.viewer, CloseCode::try_again_later, reason);
+        return;
+    }
+    ViewerSession& session =
+        parts_.viewers.add(event.viewer, hello, parts_.scene.scene().cameras.front());
+    session.set_role(event.role);
+    parts_.views.restore_target(session);
+    parts_.presence.note_arrival();
+    v1::ServerMessage message;
+    fill_welcome(event, size, message.mutable_welcome());
+    parts_.server.reply(event, message);
+    if (!event.message.has_id()) {
+        parts_.server.send(event.viewer, message);
+    }
+    spdlog::info("viewer {} '{}' joined", event.viewer, hello.name());
+}
+
+void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
+                                  v1::Welcome* welcome) const {
+    welcome->set_protocol("1.0");
+    welcome->set_server("raybundle " RAYBUNDLE_VERSION);
+    welcome->set_viewer(event.viewer);
+    welcome->set_role(event.role);
+    welcome->set_epoch(parts_.scene.epoch());
+    describe_scene(parts_.scene.scene(), welcome->mutable_scene());
+    ViewerAdmission::fill_limits(welcome->mutable_limits());
+    to_message(size, welcome->mutable_viewport());
+    welcome->set_renderer(parts_.traits.renderer);
+    welcome->set_software_rendering(parts_.traits.software_rendering);
+    welcome->set_can_open_scenes(parts_.traits.can_open_scenes);
+    welcome->set_saving(parts_.scene.log().saving());
+    welcome->set_name(event.message.hello().name());
+    parts_.review.fill_welcome(welcome);
+}
+
+}  // namespace raybundle

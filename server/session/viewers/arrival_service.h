@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+
+#include "net/server.h"
+#include "session/live_scene.h"
+#include "session/loop_metrics.h"
+#include "session/review/review_service.h"
+#include "session/viewers/presence_service.h"
+#include "session/viewers/view_service.h"
+#include "session/viewers/viewer_admission.h"
+#include "session/viewers/viewers.h"
+
+namespace raybundle {
+
+/// What viewers are told of the machine and of what this server can do.
+struct ServerTraits {
+    std::string renderer;             ///< name of what draws
+    bool software_rendering = false;  ///< it is no GPU
+    bool can_open_scenes = false;
+};
+
+/// Lets viewers in: answers `hello` with `welcome`, or refuses them.
+class ArrivalService {
+  public:
+    struct Parts {
+        const LiveScene& scene;
+        Viewers& viewers;
+        const ViewerAdmission& admission;
+        const ViewService& views;
+        const ReviewService& review;
+        PresenceService& presence;
+        Server& server;
+        LoopMetrics& metrics;
+        ServerTraits traits;
+    };
+    explicit ArrivalService(Parts parts) : parts_(std::move(parts)) {}
+
+    void join(const ClientEvent& event);
+
+  private:
+    void fill_welcome(const ClientEvent& event, glm::uvec2 size, v1::Welcome* welcome) const;
+
+    Parts parts_;
+};
+
+}  // namespace raybundle
