@@ -110,26 +110,4 @@ std::optional<v1::Role> AccessTokens::role_of(const TokenDigest& digest) const {
     return token ? std::optional(token->role) : std::nullopt;
 }
 
-v1::Role required_role(v1::ClientMessage::BodyCase body) {
-    using Body = v1::ClientMessage::BodyCase;
-    switch (body) {
-        case Body::kMoveObject:
-        case Body::kSetLight:
-        case Body::kSetMaterial:
-        case Body::kUndo:
-        case Body::kListScenes:
-        case Body::kOpenScene:
-        case Body::kMeasureEffects:
-            return v1::EDITOR;
-        case Body::kAddPin:
-        case Body::kRemovePin:
-        case Body::kSaveViewpoint:
-        case Body::kRemoveViewpoint:
-        case Body::kPointAt:
-            return v1::REVIEWER;
-        default:
-            return v1::VIEWER;
-    }
-}
-
 }  // namespace raybundle

@@ -60,7 +60,4 @@ class AccessTokens {
 /// Whether people read two names as the same: without regard to case and blanks around.
 bool same_name(std::string_view a, std::string_view b);
 
-/// Lowest role that may send a message of this kind.
-v1::Role required_role(v1::ClientMessage::BodyCase body);
-
 }  // namespace raybundle

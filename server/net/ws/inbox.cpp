@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "net/ws/message_rules.h"
+
 namespace raybundle {
 namespace {
 
@@ -12,9 +14,8 @@ using WaitingBody = v1::ClientMessage::BodyCase;
 
 /// Messages of which only the newest matters.
 bool is_state(const v1::ClientMessage& message) {
-    const auto body = message.body_case();
-    return body == WaitingBody::kSetCamera || body == WaitingBody::kSetViewport ||
-           body == WaitingBody::kMoveObject;
+    const MessageRule* const rule = rule_of(message.body_case());
+    return rule != nullptr && rule->waiting == Waiting::newest_only;
 }
 
 bool is_final(const v1::MoveObject& move) {

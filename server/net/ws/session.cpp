@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "net/clock.h"
+#include "net/ws/message_rules.h"
 
 namespace raybundle {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "net/ws/json_fields.h"
 #include "net/ws/json_scan.h"
-#include "net/ws/message_validation.h"
+#include "net/ws/message_rules.h"
 #include "net/ws/protocol_version.h"
 
 namespace raybundle {

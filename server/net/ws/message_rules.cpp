@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/message_validation.h"
+#include "net/ws/message_rules.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -7,14 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <iterator>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "net/http/scene_name.h"
+#include "net/ws/message_checker.h"
 
 namespace raybundle {
 namespace {
 
+using Client = v1::ClientMessage;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
@@ -30,44 +33,6 @@ constexpr float kMaxExposure = 30.0F;  ///< EV
 constexpr float kMaxSeconds = 86400.0F;
 constexpr std::uint64_t kMaxGridPoints = 1024;
 constexpr std::uint32_t kMaxDepthColumns = 512;
-
-/// Collects the first violation; later checks are skipped.
-class Checker {
-  public:
-    explicit Checker(const WireLimits& limits) : limits_(limits) {}
-
-    void require(bool holds, std::string_view field, std::string_view reason) {
-        if (!holds && !refusal_) {
-            refusal_ = Refusal{v1::Error::INVALID_ARGUMENT,
-                               std::string(field) + ": " + std::string(reason), std::nullopt};
-        }
-    }
-
-    [[nodiscard]] std::optional<Refusal> result() const { return refusal_; }
-
-    /// Of a viewport, or of a snapshot.
-    template <typename Size>
-    void size(const Size& size, bool viewport, const std::string& field) {
-        const std::uint32_t most = viewport ? limits_.max_viewport : limits_.max_picture;
-        require(size.width() >= 1 && size.width() <= most, field + ".width",
-                "must be 1.." + std::to_string(most));
-        require(size.height() >= 1 && size.height() <= most, field + ".height",
-                "must be 1.." + std::to_string(most));
-    }
-
-    void colour(const v1::Vec3& colour, float max, std::string_view field, std::string_view range) {
-        const auto inside = [max](float value) { return value >= 0.0F && value <= max; };
-        require(inside(colour.x()) && inside(colour.y()) && inside(colour.z()), field, range);
-    }
-
-    void share(float value, std::string_view field) {
-        require(value >= 0.0F && value <= 1.0F, field, "must be 0..1");
-    }
-
-  private:
-    const WireLimits& limits_;
-    std::optional<Refusal> refusal_;
-};
 
 glm::dvec3 to_vector(const v1::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
@@ -93,7 +58,7 @@ double number(const Message& message, const FieldDescriptor& field) {
 
 /// Every float and double of the message and its parts is finite and of a size one can square.
 /// The depth is that of the schema, which is not recursive.
-void check_numbers(const Message& message, const std::string& path, Checker& check) {
+void check_numbers(const Message& message, const std::string& path, MessageChecker& check) {
     const auto* const reflection = message.GetReflection();
     std::vector<const FieldDescriptor*> fields;
     reflection->ListFields(message, &fields);
@@ -112,7 +77,7 @@ void check_numbers(const Message& message, const std::string& path, Checker& che
     }
 }
 
-void check_body(const v1::Hello& hello, Checker& check) {
+void check_body(const v1::Hello& hello, MessageChecker& check) {
     check.require(!hello.protocol().empty(), "hello.protocol", "is missing");
     check.require(characters(hello.name()) <= kMaxName, "hello.name",
                   "must be at most 64 characters");
@@ -124,7 +89,7 @@ void check_body(const v1::Hello& hello, Checker& check) {
 
 /// Where a camera stands: SetCamera or SaveViewpoint, called `name` in complaints.
 template <typename View>
-void check_view(const View& view, const std::string& name, Checker& check) {
+void check_view(const View& view, const std::string& name, MessageChecker& check) {
     check.require(view.has_eye(), name + ".eye", "is missing");
     check.require(view.has_target(), name + ".target", "is missing");
     const glm::dvec3 sight = to_vector(view.target()) - to_vector(view.eye());
@@ -135,11 +100,11 @@ void check_view(const View& view, const std::string& name, Checker& check) {
     check.require(sine >= kMinLength, name + ".up", "must not lie along the line of sight");
 }
 
-void check_fov(float fov, const std::string& field, Checker& check) {
+void check_fov(float fov, const std::string& field, MessageChecker& check) {
     check.require(fov >= kMinFov && fov <= kMaxFov, field, "must be 0.001..3.14 radians");
 }
 
-void check_body(const v1::SetCamera& camera, Checker& check) {
+void check_body(const v1::SetCamera& camera, MessageChecker& check) {
     check_view(camera, "setCamera", check);
     if (camera.has_vertical_fov()) {
         check_fov(camera.vertical_fov(), "setCamera.verticalFov", check);
@@ -150,15 +115,15 @@ void check_body(const v1::SetCamera& camera, Checker& check) {
     }
 }
 
-void check_body(const v1::GetWalkMap& map, Checker& check) {
+void check_body(const v1::GetWalkMap& map, MessageChecker& check) {
     check.require(map.has_eye(), "getWalkMap.eye", "is missing");
 }
 
-void check_body(const v1::SetViewport& viewport, Checker& check) {
+void check_body(const v1::SetViewport& viewport, MessageChecker& check) {
     check.size(viewport, true, "setViewport");
 }
 
-void check_body(const v1::SetTarget& target, Checker& check) {
+void check_body(const v1::SetTarget& target, MessageChecker& check) {
     if (target.has_relative_error()) {
         const float error = target.relative_error();
         check.require(error > 0.0F && error <= 1.0F, "setTarget.relativeError",
@@ -171,7 +136,7 @@ void check_body(const v1::SetTarget& target, Checker& check) {
     }
 }
 
-void check_body(const v1::SetDisplay& display, Checker& check) {
+void check_body(const v1::SetDisplay& display, MessageChecker& check) {
     check.require(display.ByteSizeLong() > 0, "setDisplay",
                   "changes nothing: needs mode, exposure, autoExposure, scaleMaximum, isolines, "
                   "scaleUnit or linearScale");
@@ -188,13 +153,13 @@ void check_body(const v1::SetDisplay& display, Checker& check) {
                   "must be above 0");
 }
 
-void check_body(const v1::SetDepths& depths, Checker& check) {
+void check_body(const v1::SetDepths& depths, MessageChecker& check) {
     const std::uint32_t columns = depths.columns();
     check.require(columns == 0 || (columns >= 2 && columns <= kMaxDepthColumns),
                   "setDepths.columns", "must be 0 or 2..512");
 }
 
-void check_body(const v1::MoveObject& move, Checker& check) {
+void check_body(const v1::MoveObject& move, MessageChecker& check) {
     check.require(move.object() >= 1, "moveObject.object", "is missing");
     check.require(move.has_transform(), "moveObject.transform", "is missing");
     const auto& transform = move.transform();
@@ -210,7 +175,7 @@ void check_body(const v1::MoveObject& move, Checker& check) {
     }
 }
 
-void check_body(const v1::SetLight& light, Checker& check) {
+void check_body(const v1::SetLight& light, MessageChecker& check) {
     check.require(light.light() >= 1, "setLight.light", "is missing");
     check.require(light.has_intensity() || light.has_on() || light.has_colour(), "setLight",
                   "changes nothing: needs intensity, on or colour");
@@ -223,7 +188,7 @@ void check_body(const v1::SetLight& light, Checker& check) {
     }
 }
 
-void check_body(const v1::SetMaterial& material, Checker& check) {
+void check_body(const v1::SetMaterial& material, MessageChecker& check) {
     check.require(material.material() >= 1, "setMaterial.material", "is missing");
     check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
                   "setMaterial", "changes nothing: needs baseColour, roughness or metallic");
@@ -232,7 +197,7 @@ void check_body(const v1::SetMaterial& material, Checker& check) {
     check.share(material.metallic(), "setMaterial.metallic");
 }
 
-void check_body(const v1::Probe& probe, Checker& check) {
+void check_body(const v1::Probe& probe, MessageChecker& check) {
     check.require(probe.where_case() != v1::Probe::WHERE_NOT_SET, "probe",
                   "needs a pixel or a ray");
     if (probe.has_pixel()) {
@@ -246,17 +211,17 @@ void check_body(const v1::Probe& probe, Checker& check) {
     }
 }
 
-void check_body(const v1::AddPin& pin, Checker& check) {
+void check_body(const v1::AddPin& pin, MessageChecker& check) {
     const std::size_t length = characters(pin.text());
     check.require(length >= 1 && length <= kMaxText, "addPin.text", "must be 1..500 characters");
     check.require(pin.has_position(), "addPin.position", "is missing");
 }
 
-void check_body(const v1::RemovePin& pin, Checker& check) {
+void check_body(const v1::RemovePin& pin, MessageChecker& check) {
     check.require(pin.pin() >= 1, "removePin.pin", "is missing");
 }
 
-void check_body(const v1::SaveViewpoint& viewpoint, Checker& check) {
+void check_body(const v1::SaveViewpoint& viewpoint, MessageChecker& check) {
     const std::size_t length = characters(viewpoint.name());
     check.require(length >= 1 && length <= kMaxName, "saveViewpoint.name",
                   "must be 1..64 characters");
@@ -264,15 +229,15 @@ void check_body(const v1::SaveViewpoint& viewpoint, Checker& check) {
     check_fov(viewpoint.vertical_fov(), "saveViewpoint.verticalFov", check);
 }
 
-void check_body(const v1::RemoveViewpoint& viewpoint, Checker& check) {
+void check_body(const v1::RemoveViewpoint& viewpoint, MessageChecker& check) {
     check.require(viewpoint.viewpoint() >= 1, "removeViewpoint.viewpoint", "is missing");
 }
 
-void check_body(const v1::PointAt& point, Checker& check) {
+void check_body(const v1::PointAt& point, MessageChecker& check) {
     check.require(point.has_position(), "pointAt.position", "is missing");
 }
 
-void check_body(const v1::ProbeGrid& grid, Checker& check) {
+void check_body(const v1::ProbeGrid& grid, MessageChecker& check) {
     check.require(grid.has_origin(), "probeGrid.origin", "is missing");
     const glm::dvec3 x = to_vector(grid.step_x());
     const glm::dvec3 y = to_vector(grid.step_y());
@@ -285,11 +250,11 @@ void check_body(const v1::ProbeGrid& grid, Checker& check) {
                   "columns times rows must be 1..1024");
 }
 
-void check_body(const v1::Ack& ack, Checker& check) {
+void check_body(const v1::Ack& ack, MessageChecker& check) {
     check.require(ack.decode_ms() >= 0.0, "ack.decodeMs", "must not be negative");
 }
 
-void check_body(const v1::Snapshot& snapshot, Checker& check) {
+void check_body(const v1::Snapshot& snapshot, MessageChecker& check) {
     check.size(snapshot, false, "snapshot");
     check.require(snapshot.relative_error() > 0.0F && snapshot.relative_error() <= 1.0F,
                   "snapshot.relativeError", "must be above 0 and at most 1");
@@ -297,74 +262,74 @@ void check_body(const v1::Snapshot& snapshot, Checker& check) {
                   "snapshot.format", "must be EXR or PNG");
 }
 
-void check_body(const v1::OpenScene& open, Checker& check) {
+void check_body(const v1::OpenScene& open, MessageChecker& check) {
     const std::string problem = scene_name_problem(open.name());
     check.require(problem.empty(), "openScene.name", problem);
 }
 
-void check_message(const v1::ClientMessage& message, Checker& check) {
-    using Body = v1::ClientMessage::BodyCase;
-    switch (message.body_case()) {
-        case Body::kHello:
-            return check_body(message.hello(), check);
-        case Body::kSetCamera:
-            return check_body(message.set_camera(), check);
-        case Body::kSetViewport:
-            return check_body(message.set_viewport(), check);
-        case Body::kSetTarget:
-            return check_body(message.set_target(), check);
-        case Body::kSetDisplay:
-            return check_body(message.set_display(), check);
-        case Body::kMoveObject:
-            return check_body(message.move_object(), check);
-        case Body::kSetLight:
-            return check_body(message.set_light(), check);
-        case Body::kSetMaterial:
-            return check_body(message.set_material(), check);
-        case Body::kProbe:
-            return check_body(message.probe(), check);
-        case Body::kAddPin:
-            return check_body(message.add_pin(), check);
-        case Body::kAck:
-            return check_body(message.ack(), check);
-        case Body::kSnapshot:
-            return check_body(message.snapshot(), check);
-        case Body::kRemovePin:
-            return check_body(message.remove_pin(), check);
-        case Body::kSaveViewpoint:
-            return check_body(message.save_viewpoint(), check);
-        case Body::kRemoveViewpoint:
-            return check_body(message.remove_viewpoint(), check);
-        case Body::kPointAt:
-            return check_body(message.point_at(), check);
-        case Body::kProbeGrid:
-            return check_body(message.probe_grid(), check);
-        case Body::kOpenScene:
-            return check_body(message.open_scene(), check);
-        case Body::kSetDepths:
-            return check_body(message.set_depths(), check);
-        case Body::kGetWalkMap:
-            return check_body(message.get_walk_map(), check);
-        case Body::kSetHidden:
-        case Body::kFollow:
-        case Body::kPing:
-        case Body::kUndo:
-        case Body::kListChanges:
-        case Body::kListScenes:
-        case Body::kMeasureEffects:
-        case Body::kCancelSnapshot:
-        case Body::BODY_NOT_SET:
-            return;
-    }
+/// Checks the body that a message has, e.g. ClientMessage::set_camera.
+template <auto body>
+void check(const Client& message, MessageChecker& checker) {
+    check_body((message.*body)(), checker);
 }
+
+constexpr MessageRule rules[] = {
+    {Client::kHello, v1::VIEWER, Waiting::queued, check<&Client::hello>},
+    {Client::kSetCamera, v1::VIEWER, Waiting::newest_only, check<&Client::set_camera>},
+    {Client::kSetViewport, v1::VIEWER, Waiting::newest_only, check<&Client::set_viewport>},
+    {Client::kSetTarget, v1::VIEWER, Waiting::queued, check<&Client::set_target>},
+    {Client::kSetDisplay, v1::VIEWER, Waiting::queued, check<&Client::set_display>},
+    {Client::kSetDepths, v1::VIEWER, Waiting::queued, check<&Client::set_depths>},
+    {Client::kSetHidden, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kGetWalkMap, v1::VIEWER, Waiting::queued, check<&Client::get_walk_map>},
+    {Client::kFollow, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kProbe, v1::VIEWER, Waiting::queued, check<&Client::probe>},
+    {Client::kProbeGrid, v1::VIEWER, Waiting::queued, check<&Client::probe_grid>},
+    {Client::kSnapshot, v1::VIEWER, Waiting::queued, check<&Client::snapshot>},
+    {Client::kCancelSnapshot, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kListChanges, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kAck, v1::VIEWER, Waiting::queued, check<&Client::ack>},
+    {Client::kPing, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kAddPin, v1::REVIEWER, Waiting::queued, check<&Client::add_pin>},
+    {Client::kRemovePin, v1::REVIEWER, Waiting::queued, check<&Client::remove_pin>},
+    {Client::kSaveViewpoint, v1::REVIEWER, Waiting::queued, check<&Client::save_viewpoint>},
+    {Client::kRemoveViewpoint, v1::REVIEWER, Waiting::queued, check<&Client::remove_viewpoint>},
+    {Client::kPointAt, v1::REVIEWER, Waiting::queued, check<&Client::point_at>},
+    {Client::kMoveObject, v1::EDITOR, Waiting::newest_only, check<&Client::move_object>},
+    {Client::kSetLight, v1::EDITOR, Waiting::queued, check<&Client::set_light>},
+    {Client::kSetMaterial, v1::EDITOR, Waiting::queued, check<&Client::set_material>},
+    {Client::kUndo, v1::EDITOR, Waiting::queued, nullptr},
+    {Client::kListScenes, v1::EDITOR, Waiting::queued, nullptr},
+    {Client::kOpenScene, v1::EDITOR, Waiting::queued, check<&Client::open_scene>},
+    {Client::kMeasureEffects, v1::EDITOR, Waiting::queued, nullptr},
+};
 
 }  // namespace
 
-std::optional<Refusal> validate(const v1::ClientMessage& message, const WireLimits& limits) {
-    Checker check(limits);
-    check_numbers(message, "", check);
-    check_message(message, check);
-    return check.result();
+std::span<const MessageRule> message_rules() {
+    return rules;
+}
+
+const MessageRule* rule_of(Client::BodyCase body) {
+    const auto* const found =
+        std::find_if(std::begin(rules), std::end(rules),
+                     [body](const MessageRule& rule) { return rule.body == body; });
+    return found == std::end(rules) ? nullptr : found;
+}
+
+v1::Role required_role(Client::BodyCase body) {
+    const MessageRule* const rule = rule_of(body);
+    return rule == nullptr ? v1::VIEWER : rule->role;
+}
+
+std::optional<Refusal> validate(const Client& message, const WireLimits& limits) {
+    MessageChecker checker(limits);
+    check_numbers(message, "", checker);
+    if (const MessageRule* const rule = rule_of(message.body_case());
+        rule != nullptr && rule->check != nullptr) {
+        rule->check(message, checker);
+    }
+    return checker.result();
 }
 
 }  // namespace raybundle

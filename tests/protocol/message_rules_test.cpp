@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/message_validation.h"
+#include "net/ws/message_rules.h"
 
 #include <gtest/gtest.h>
 
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
 #include <string>
 
 namespace raybundle {
@@ -27,6 +30,19 @@ void expect_case(const std::string& text, const char* field) {
     ASSERT_NE(refusal, nullptr) << text;
     EXPECT_EQ(refusal->code, v1::Error::INVALID_ARGUMENT);
     EXPECT_EQ(refusal->text.rfind(std::string(field) + ":", 0), 0U) << refusal->text;
+}
+
+TEST(MessageRules, EveryMessageHasOne) {
+    const auto* const body = v1::ClientMessage::descriptor()->FindOneofByName("body");
+    const auto rules = message_rules();
+    EXPECT_EQ(rules.size(), static_cast<std::size_t>(body->field_count()));
+    for (int i = 0; i < body->field_count(); ++i) {
+        const auto number = static_cast<v1::ClientMessage::BodyCase>(body->field(i)->number());
+        EXPECT_EQ(std::count_if(rules.begin(), rules.end(),
+                                [number](const MessageRule& rule) { return rule.body == number; }),
+                  1)
+            << body->field(i)->name();
+    }
 }
 
 TEST(MessageValidation, Camera) {
