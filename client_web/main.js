@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts the page: the application, its tools and panels, its keys, buttons and gestures.
 
-import {RaybundleApp} from './app.js';
-import {Collisions} from './collisions.js';
-import {Compare} from './compare.js';
-import {DisplayPanel} from './display_panel.js';
-import {swung} from './doors.js';
-import {addEffects} from './effects.js';
-import {announce, byId, fileName, returnFocus, saveFile, whileAsked} from './elements.js';
-import {Gizmo} from './gizmo.js';
-import {Grabbing} from './grabbing.js';
-import {GridPanel} from './grid_panel.js';
-import {ChangeList} from './change_list.js';
-import {History, addHistory, subjectOf} from './history.js';
-import {IsolineNumbers} from './isolines.js';
-import {addKeys} from './keys.js';
-import {LightPanel} from './light_panel.js';
-import {Lost} from './lost.js';
-import {Marks} from './marks.js';
-import {Measuring} from './measure.js';
-import {MeasuredStrip} from './measured_strip.js';
-import {People} from './people.js';
-import {PICTURE_SIZES} from './picture.js';
-import {Pins} from './pins.js';
-import {Plans} from './plans.js';
-import {PointerControl} from './pointer_control.js';
-import {reportHtml} from './report.js';
-import {SavingState} from './saving.js';
-import {SceneFiles} from './scene_files.js';
-import {ScenePanel} from './scene_panel.js';
-import {fromHash, toHash} from './share.js';
-import {SnapshotPanel} from './snapshot_panel.js';
-import {addTabs} from './tabs.js';
-import {addTheme} from './theme.js';
-import {TargetPanel} from './target_panel.js';
-import {Viewpoints} from './viewpoints.js';
-import {FirstHint, Walking, remembered} from './walking.js';
+import {RaybundleApp} from './app/app.js';
+import {Collisions} from './camera/collisions.js';
+import {Compare} from './review/compare.js';
+import {DisplayPanel} from './measure/display_panel.js';
+import {swung} from './scene/doors.js';
+import {addEffects} from './scene/effects.js';
+import {announce, byId, fileName, returnFocus, saveFile, whileAsked} from './ui/elements.js';
+import {Gizmo} from './scene/gizmo.js';
+import {Grabbing} from './scene/grabbing.js';
+import {GridPanel} from './measure/grid_panel.js';
+import {ChangeList} from './review/change_list.js';
+import {History, addHistory, subjectOf} from './scene/history.js';
+import {IsolineNumbers} from './measure/isolines.js';
+import {addKeys} from './app/keys.js';
+import {LightPanel} from './scene/light_panel.js';
+import {Lost} from './camera/lost.js';
+import {Marks} from './picture/marks.js';
+import {Measuring} from './measure/measure.js';
+import {MeasuredStrip} from './measure/measured_strip.js';
+import {People} from './review/people.js';
+import {PICTURE_SIZES} from './picture/picture.js';
+import {Pins} from './review/pins.js';
+import {Plans} from './camera/plans.js';
+import {PointerControl} from './camera/pointer_control.js';
+import {reportHtml} from './review/report.js';
+import {SavingState} from './ui/saving.js';
+import {SceneFiles} from './scene/scene_files.js';
+import {ScenePanel} from './scene/scene_panel.js';
+import {fromHash, toHash} from './review/share.js';
+import {SnapshotPanel} from './review/snapshot_panel.js';
+import {addTabs} from './app/tabs.js';
+import {addTheme} from './app/theme.js';
+import {TargetPanel} from './measure/target_panel.js';
+import {Viewpoints} from './review/viewpoints.js';
+import {FirstHint, Walking, remembered} from './camera/walking.js';
 
 /** Below this width the panel starts closed, CSS pixels. */
 const PHONE_WIDTH = 700;
@@ -68,12 +68,12 @@ const gridPanel = new GridPanel(app, measuring, display);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
 const changes = new ChangeList(app);
-app.on('sceneChanged', (/** @type {import('./protocol.js').SceneChanged} */ change) => {
+app.on('sceneChanged', (/** @type {import('./net/protocol.js').SceneChanged} */ change) => {
     if (change.by !== app.client.welcome?.viewer) {
         history.noteOther(subjectOf(change), people.name(change.by));
     }
 });
-app.on('missed', (/** @type {import('./history.js').Subject[]} */ subjects) => {
+app.on('missed', (/** @type {import('./scene/history.js').Subject[]} */ subjects) => {
     for (const subject of subjects) {
         history.noteOther(subjectOf(subject), 'Somebody');
     }
@@ -121,7 +121,7 @@ let clicks = 0;
 /**
  * What a click on the picture does, by tool.
  *
- * @param {import('./pointer_control.js').Point} at
+ * @param {import('./camera/pointer_control.js').Point} at
  */
 async function clickAt(at) {
     if (app.tool === 'measure') {
@@ -142,7 +142,7 @@ async function clickAt(at) {
 /**
  * A double click opens or closes a door, or else goes there; what its two clicks have selected is as it was.
  *
- * @param {import('./pointer_control.js').Point} at
+ * @param {import('./camera/pointer_control.js').Point} at
  */
 async function doubleClickAt(at) {
     if (app.tool === 'select') {
@@ -275,7 +275,7 @@ function addButtons() {
     const size = byId('picture-size', HTMLSelectElement);
     size.addEventListener('change', () => {
         if (size.value in PICTURE_SIZES) {
-            app.picture.size = /** @type {import('./picture.js').PictureSize} */ (size.value);
+            app.picture.size = /** @type {import('./picture/picture.js').PictureSize} */ (size.value);
         }
     });
     const toggle = byId('panel-toggle', HTMLButtonElement);

@@ -2,18 +2,18 @@
 // For other people's pages: <raybundle-view src="https://server:8080"> shows a scene and lets the
 // visitor look around. RaybundleClient is the connection alone. See example.html.
 
-import {CameraControl} from './camera_control.js';
-import {CameraLink, askForDepths} from './camera_link.js';
-import {framedFov} from './camera.js';
-import {Picture} from './picture.js';
-import {PointerControl} from './pointer_control.js';
-import {RaybundleClient} from './raybundle_client.js';
+import {CameraControl} from './camera/camera_control.js';
+import {CameraLink, askForDepths} from './net/camera_link.js';
+import {framedFov} from './camera/camera.js';
+import {Picture} from './picture/picture.js';
+import {PointerControl} from './camera/pointer_control.js';
+import {RaybundleClient} from './net/raybundle_client.js';
 
 export {RaybundleClient};
 
-/** @typedef {import('./protocol.js').Welcome} Welcome */
+/** @typedef {import('./net/protocol.js').Welcome} Welcome */
 
-/** @type {import('./protocol.js').View} */
+/** @type {import('./net/protocol.js').View} */
 const NO_VIEW = {
     eye: {x: 0, y: 1.6, z: 4},
     target: {x: 0, y: 1.6, z: 0},

@@ -4,21 +4,21 @@
 import assert from 'node:assert/strict';
 import {describe, it} from 'node:test';
 
-import * as camera from '../../client_web/camera.js';
-import {CameraControl, motionOf, walkingSpeed} from '../../client_web/camera_control.js';
-import {carried, grip, keptInside} from '../../client_web/drag.js';
-import {layOut} from '../../client_web/error_plot.js';
-import * as format from '../../client_web/format.js';
-import {ErrorHistory, RateMeter, Samples} from '../../client_web/meters.js';
-import {outlinePath, visibleEdges} from '../../client_web/overlay.js';
-import {pickByBounds} from '../../client_web/picking.js';
-import {fitViewport} from '../../client_web/picture.js';
-import {loadedLight, sameLight} from '../../client_web/light_panel.js';
-import {snapshotSize} from '../../client_web/snapshot_panel.js';
-import {progressText} from '../../client_web/snapshot_request.js';
-import {retryDelay} from '../../client_web/raybundle_client.js';
-import {SceneModel, movedBounds, shifted} from '../../client_web/scene_model.js';
-import * as vector from '../../client_web/vector.js';
+import * as camera from '../../client_web/camera/camera.js';
+import {CameraControl, motionOf, walkingSpeed} from '../../client_web/camera/camera_control.js';
+import {carried, grip, keptInside} from '../../client_web/scene/drag.js';
+import {layOut} from '../../client_web/measure/error_plot.js';
+import * as format from '../../client_web/ui/format.js';
+import {ErrorHistory, RateMeter, Samples} from '../../client_web/measure/meters.js';
+import {outlinePath, visibleEdges} from '../../client_web/picture/overlay.js';
+import {pickByBounds} from '../../client_web/scene/picking.js';
+import {fitViewport} from '../../client_web/picture/picture.js';
+import {loadedLight, sameLight} from '../../client_web/scene/light_panel.js';
+import {snapshotSize} from '../../client_web/review/snapshot_panel.js';
+import {progressText} from '../../client_web/review/snapshot_request.js';
+import {retryDelay} from '../../client_web/net/raybundle_client.js';
+import {SceneModel, movedBounds, shifted} from '../../client_web/scene/scene_model.js';
+import * as vector from '../../client_web/ui/vector.js';
 
 const {vec3} = vector;
 

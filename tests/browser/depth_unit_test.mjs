@@ -5,10 +5,10 @@ import assert from 'node:assert/strict';
 import {describe, it} from 'node:test';
 import {deflateSync} from 'node:zlib';
 
-import {look, project, rayThrough, walk} from '../../client_web/camera.js';
-import {clipFromPicture, gridTriangles} from '../../client_web/depth_warp.js';
-import {decodeDepths} from '../../client_web/depths.js';
-import {add, scale} from '../../client_web/vector.js';
+import {look, project, rayThrough, walk} from '../../client_web/camera/camera.js';
+import {clipFromPicture, gridTriangles} from '../../client_web/picture/depth_warp.js';
+import {decodeDepths} from '../../client_web/picture/depths.js';
+import {add, scale} from '../../client_web/ui/vector.js';
 
 /**
  * Depths as the server packs them (server/stream/depth_code.cpp).

@@ -6,15 +6,15 @@ import {readFileSync, readdirSync} from 'node:fs';
 import path from 'node:path';
 import {describe, it} from 'node:test';
 
-import {Arrivals} from '../../client_web/arrivals.js';
-import {describeChange} from '../../client_web/change_list.js';
-import {onScale, scaleColour, turboColour, valueOnScale} from '../../client_web/colour.js';
-import {linearTicks} from '../../client_web/display_panel.js';
-import {gridCsv, intervalsOf, summaryOf, uniformityText} from '../../client_web/grid.js';
-import {chosenLabels, crossingsOf, placeOf} from '../../client_web/isolines.js';
-import {SceneModel} from '../../client_web/scene_model.js';
-import {measured, plusMinus, plusMinusCell} from '../../client_web/units.js';
-import {vec3} from '../../client_web/vector.js';
+import {Arrivals} from '../../client_web/review/arrivals.js';
+import {describeChange} from '../../client_web/review/change_list.js';
+import {onScale, scaleColour, turboColour, valueOnScale} from '../../client_web/measure/colour.js';
+import {linearTicks} from '../../client_web/measure/display_panel.js';
+import {gridCsv, intervalsOf, summaryOf, uniformityText} from '../../client_web/measure/grid.js';
+import {chosenLabels, crossingsOf, placeOf} from '../../client_web/measure/isolines.js';
+import {SceneModel} from '../../client_web/scene/scene_model.js';
+import {measured, plusMinus, plusMinusCell} from '../../client_web/ui/units.js';
+import {vec3} from '../../client_web/ui/vector.js';
 import {ROOT} from './daemon.mjs';
 
 const WHITE = vec3(1, 1, 1);
@@ -154,7 +154,7 @@ describe('numbers at isolines', () => {
 describe('the executable', () => {
     it('has every file of the page', () => {
         const listed = readFileSync(path.join(ROOT, 'server/net/CMakeLists.txt'), 'utf8').split(/[\s()]+/);
-        const files = readdirSync(path.join(ROOT, 'client_web')).filter((file) => /\.(js|css|html)$/.test(file));
+        const files = readdirSync(path.join(ROOT, 'client_web'), {recursive: true}).filter((file) => /\.(js|css|html)$/.test(file));
         assert.deepEqual(files.filter((file) => !listed.includes(file)), []);
     });
 });

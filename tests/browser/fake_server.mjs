@@ -16,10 +16,10 @@ export class FileServer {
     /** @returns {Promise<FileServer>} */
     static async start() {
         const server = http.createServer((request, response) => {
-            const name = request.url === '/' ? 'index.html' : path.basename(request.url ?? '');
-            const file = path.join(FOLDER, name);
+            const {pathname} = new URL(request.url ?? '/', 'http://localhost');
+            const file = path.join(FOLDER, pathname === '/' ? 'index.html' : pathname);
             const type = TYPES[path.extname(file)];
-            if (!type || !existsSync(file)) {
+            if (!file.startsWith(FOLDER) || !type || !existsSync(file)) {
                 response.writeHead(404).end();
                 return;
             }

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import {beforeEach, describe, it} from 'node:test';
 
-import {FrameReceiver, parseFrame} from '../../client_web/frame_receiver.js';
+import {FrameReceiver, parseFrame} from '../../client_web/net/frame_receiver.js';
 
 /**
  * A frame on the wire.

@@ -179,7 +179,7 @@ describe('a review', () => {
             const {width, height} = window.raybundle.picture.canvas;
             const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
             context.drawImage(image, 0, 0);
-            const {turbo} = await import(new URL('colour.js', location.href).href);
+            const {turbo} = await import(new URL('measure/colour.js', location.href).href);
             const rows = Array.from({length: image.height - height}, (_, row) => {
                 const {data} = context.getImageData(0, height + row, width, 1);
                 return Array.from({length: width}, (__, x) => [...data.slice(4 * x, 4 * x + 3)]);

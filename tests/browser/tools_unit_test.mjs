@@ -4,36 +4,36 @@
 import assert from 'node:assert/strict';
 import {describe, it} from 'node:test';
 
-import {goTo, look, project, walk} from '../../client_web/camera.js';
-import * as colour from '../../client_web/colour.js';
-import {choicesOf} from '../../client_web/compare.js';
-import {effectCost, pathInWords} from '../../client_web/effects.js';
+import {goTo, look, project, walk} from '../../client_web/camera/camera.js';
+import * as colour from '../../client_web/measure/colour.js';
+import {choicesOf} from '../../client_web/review/compare.js';
+import {effectCost, pathInWords} from '../../client_web/scene/effects.js';
 import {
     carriedGrid, csvCell, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, standardStep,
     summaryOf,
     typicalError,
-} from '../../client_web/grid.js';
-import {stateOf} from '../../client_web/grid_panel.js';
-import {History, subjectOf} from '../../client_web/history.js';
-import {layOutStrip} from '../../client_web/legend.js';
-import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/light_panel.js';
-import {lightState} from '../../client_web/light_state.js';
-import {DarkViews} from '../../client_web/lost.js';
-import {avatarTexts, frustumOf} from '../../client_web/people.js';
-import {changeOf} from '../../client_web/pins.js';
-import * as placement from '../../client_web/placement.js';
-import {escaped, reportHtml} from '../../client_web/report.js';
-import {progressText, timeText} from '../../client_web/opening.js';
-import {listTag, namesText, openingQuestion, refusalOf, sizeText, uploadProblem} from '../../client_web/scene_files.js';
-import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene_model.js';
-import {isOutside, placeOf, placeProblem, placedAt} from '../../client_web/scene_panel.js';
-import {fromHash, toHash} from '../../client_web/share.js';
-import {adviceOf, bannerOf, sentence} from '../../client_web/status.js';
-import {duration, targetAt} from '../../client_web/target_panel.js';
-import * as units from '../../client_web/units.js';
-import {centre, length, sub, vec3} from '../../client_web/vector.js';
-import {cssMatrix, homography} from '../../client_web/view_warp.js';
-import {hintText, outsideDeadZone} from '../../client_web/walking.js';
+} from '../../client_web/measure/grid.js';
+import {stateOf} from '../../client_web/measure/grid_panel.js';
+import {History, subjectOf} from '../../client_web/scene/history.js';
+import {layOutStrip} from '../../client_web/measure/legend.js';
+import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_panel.js';
+import {lightState} from '../../client_web/scene/light_state.js';
+import {DarkViews} from '../../client_web/camera/lost.js';
+import {avatarTexts, frustumOf} from '../../client_web/review/people.js';
+import {changeOf} from '../../client_web/review/pins.js';
+import * as placement from '../../client_web/scene/placement.js';
+import {escaped, reportHtml} from '../../client_web/review/report.js';
+import {progressText, timeText} from '../../client_web/scene/opening.js';
+import {listTag, namesText, openingQuestion, refusalOf, sizeText, uploadProblem} from '../../client_web/scene/scene_files.js';
+import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene/scene_model.js';
+import {isOutside, placeOf, placeProblem, placedAt} from '../../client_web/scene/scene_panel.js';
+import {fromHash, toHash} from '../../client_web/review/share.js';
+import {adviceOf, bannerOf, sentence} from '../../client_web/ui/status.js';
+import {duration, targetAt} from '../../client_web/measure/target_panel.js';
+import * as units from '../../client_web/ui/units.js';
+import {centre, length, sub, vec3} from '../../client_web/ui/vector.js';
+import {cssMatrix, homography} from '../../client_web/picture/view_warp.js';
+import {hintText, outsideDeadZone} from '../../client_web/camera/walking.js';
 
 const VIEW = {eye: vec3(1, 1.6, 4), target: vec3(0, 1, 0), up: vec3(0, 1, 0), verticalFov: 0.8};
 const close = (actual, expected, bound, what) =>

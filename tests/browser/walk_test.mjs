@@ -161,7 +161,7 @@ async function openDrawing(browser, url) {
 async function moveAndCompare({name, left, upwards, forwards, rightwards}) {
     const app = window.raybundle;
     const {picture, link, client} = app;
-    const {look, walk} = await import('./camera.js');
+    const {look, walk} = await import('./camera/camera.js');
     const small = (canvas) => {
         const context = new OffscreenCanvas(160, 110).getContext('2d');
         context.drawImage(canvas, 0, 0, 160, 110);

@@ -4,17 +4,17 @@
 import assert from 'node:assert/strict';
 import {describe, it} from 'node:test';
 
-import {project} from '../../client_web/camera.js';
-import {luminance} from '../../client_web/colour.js';
-import {swung} from '../../client_web/doors.js';
-import {byName, glossWord, reflecting} from '../../client_web/material_card.js';
-import {DarkViews} from '../../client_web/lost.js';
-import {byStorey, matches} from '../../client_web/object_list.js';
-import {isHinge} from '../../client_web/placement.js';
-import {planOf, sectionOf} from '../../client_web/plans.js';
-import {PlacedObject, SceneModel} from '../../client_web/scene_model.js';
-import {length, sub, vec3} from '../../client_web/vector.js';
-import {WalkGrid, Walker} from '../../client_web/walk_grid.js';
+import {project} from '../../client_web/camera/camera.js';
+import {luminance} from '../../client_web/measure/colour.js';
+import {swung} from '../../client_web/scene/doors.js';
+import {byName, glossWord, reflecting} from '../../client_web/scene/material_card.js';
+import {DarkViews} from '../../client_web/camera/lost.js';
+import {byStorey, matches} from '../../client_web/scene/object_list.js';
+import {isHinge} from '../../client_web/scene/placement.js';
+import {planOf, sectionOf} from '../../client_web/camera/plans.js';
+import {PlacedObject, SceneModel} from '../../client_web/scene/scene_model.js';
+import {length, sub, vec3} from '../../client_web/ui/vector.js';
+import {WalkGrid, Walker} from '../../client_web/camera/walk_grid.js';
 
 const CELL = 0.1;
 const LAYER = 0.05;

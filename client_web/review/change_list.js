@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has been changed in the scene, by whom, when, from what to what: everybody's, also before this page came.
+
+import {nameOf} from './arrivals.js';
+import {luminance, toHex, temperatureOf} from '../measure/colour.js';
+import {byId, replaceRows, showValue} from '../ui/elements.js';
+import {metres} from '../ui/format.js';
+import {subjectOf} from '../scene/history.js';
+import {deedOf} from '../scene/placement.js';
+import {threeDigits} from '../ui/units.js';
+import {completeTransform, length, matrixVector, scale, sub} from '../ui/vector.js';
+
+/**
+ * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('../net/protocol.js').SceneChanged} SceneChanged
+ * @typedef {import('../scene/scene_model.js').SceneModel} SceneModel
+ * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {object} LogEntry
+ * @property {Date} time
+ * @property {number} epoch
+ * @property {number} before  epoch of the scene before it, and before the steps of a drag
+ * @property {string} by  name of who has done it
+ * @property {boolean} mine
+ * @property {string} text  what has been done, in the past tense, e.g. "moved short box by 0.50 m"
+ */
+
+const MAX_ENTRIES = 1000;
+/** So many are listed in the panel, the newest ones. */
+const MAX_LISTED = 50;
+/** A control that is in the hand changes again within so long, ms; as the server counts. */
+const IN_HAND_MS = 2000;
+
+/**
+ * @param {LogEntry} entry
+ * @returns {string} for who uses this page
+ */
+export const entryText = ({by, mine, text}) => `${mine ? 'You' : by} ${text}`;
+
+/** Events: `change`. */
+export class ChangeList extends EventTarget {
+    /** Newest last. @type {SceneChanged[]} */
+    #changes = [];
+    #list = byId('changes', HTMLElement);
+
+    /** @param {RaybundleApp} app */
+    constructor(app) {
+        super();
+        this.app = app;
+        app.on('sceneChanged', (change) => {
+            this.#add(this.#completed(change));
+            this.#show();
+        });
+        app.on('anew', () => {
+            this.#changes = [];
+            this.#show();
+        });
+        app.on('welcome', () => this.#ask());
+    }
+
+    /** Changes that are done, oldest first. @returns {LogEntry[]} */
+    get entries() {
+        const own = this.app.client.welcome?.viewer;
+        const loaded = this.#loadedTransforms();
+        return this.#changes
+            .filter(({moveObject}) => moveObject?.final !== false)
+            .map((change) => ({
+                time: new Date(change.atMs ?? 0),
+                epoch: change.epoch,
+                before: (change.firstEpoch ?? change.epoch) - 1,
+                by: change.by === 0 ? 'The server' : nameOf({viewer: change.by, name: change.byName ?? ''}),
+                mine: this.#isOwn(change, own),
+                text: describeChange(this.app.scene, change, loaded.get(change.moveObject?.object ?? 0)),
+            }));
+    }
+
+    /**
+     * Where objects stood before all changes that are known: what `welcome` brings may be a restarted scene.
+     *
+     * @returns {Map<number, Required<Transform>>}
+     */
+    #loadedTransforms() {
+        const loaded = new Map();
+        for (const {moveObject, objectBefore} of this.#changes) {
+            if (moveObject && objectBefore && !loaded.has(moveObject.object)) {
+                loaded.set(moveObject.object, completeTransform(objectBefore.transform));
+            }
+        }
+        return loaded;
+    }
+
+    /**
+     * Numbers of viewers begin anew when the server does; names stay.
+     *
+     * @param {SceneChanged} change
+     * @param {number | undefined} own
+     */
+    #isOwn({by, byName}, own) {
+        return by === own && (byName ?? '') === (this.app.client.welcome?.name ?? byName ?? '');
+    }
+
+    /** What has been changed before this page came, or while it was away. */
+    async #ask() {
+        // Servers of before know no history.
+        const answer = await this.app.client.request({listChanges: {}}).answer.catch(() => null);
+        if (answer?.changeHistory) {
+            this.#changes = answer.changeHistory.changes;
+            for (const [id, transform] of this.#loadedTransforms()) {
+                const object = this.app.scene?.object(id);
+                if (object) {
+                    object.loaded = transform;
+                }
+            }
+            this.#show();
+            this.app.dispatchEvent(new CustomEvent('history'));
+        }
+    }
+
+    /**
+     * A change with what older servers do not tell.
+     *
+     * @param {SceneChanged} change
+     * @returns {SceneChanged}
+     */
+    #completed(change) {
+        const {moveObject, objectBefore, atMs} = change;
+        const object = this.app.scene?.object(moveObject?.object);
+        const before =
+            objectBefore ?? (object ? {object: object.id, transform: object.earlier} : undefined);
+        return {...change, objectBefore: before, atMs: atMs ?? Date.now()};
+    }
+
+    /** @param {SceneChanged} change */
+    #add(change) {
+        const subject = subjectOf(change);
+        const last = this.#changes.findLast((other) => subjectOf(other) === subject);
+        const inHand = !change.moveObject && last === this.#changes.at(-1) && sinceOf(last, change) < IN_HAND_MS;
+        if (last && last.by === change.by && (last.moveObject?.final === false || inHand)) {
+            this.#changes.splice(this.#changes.indexOf(last), 1);
+            const {objectBefore, lightBefore, materialBefore} = last;
+            change = {...change, objectBefore, lightBefore, materialBefore, firstEpoch: last.firstEpoch ?? last.epoch};
+        }
+        this.#changes.push(change);
+        this.#changes.splice(0, this.#changes.length - MAX_ENTRIES);
+    }
+
+    #show() {
+        const entries = this.entries;
+        const newest = entries.slice(-MAX_LISTED).reverse();
+        showValue('lastChange', newest.length > 0 ? entryText(newest[0]) : '');
+        const rows = newest.map((entry) => {
+            const row = document.createElement('li');
+            const when = document.createElement('time');
+            when.dateTime = entry.time.toISOString();
+            when.textContent = timeText(entry.time);
+            row.append(when, ` ${entryText(entry)}`);
+            return row;
+        });
+        replaceRows(this.#list, rows);
+        byId('changes-none', HTMLElement).hidden = rows.length > 0;
+        this.dispatchEvent(new Event('change'));
+    }
+}
+
+/**
+ * @param {SceneChanged | undefined} before
+ * @param {SceneChanged} now
+ */
+const sinceOf = (before, now) => (now.atMs ?? 0) - (before?.atMs ?? 0);
+
+/**
+ * @param {Date} time
+ * @returns {string} with the day, where it is not today
+ */
+export function timeText(time) {
+    const today = time.toDateString() === new Date().toDateString();
+    return time.toLocaleString([], today ? {timeStyle: 'short'} : {dateStyle: 'short', timeStyle: 'short'});
+}
+
+/**
+ * @param {SceneModel | null} scene
+ * @param {SceneChanged} change
+ * @param {Required<Transform>} [loaded]  of the object that has moved; absent: as when the page opened
+ * @returns {string} e.g. "dimmed LED panel: 100 → 50 %"
+ */
+export function describeChange(scene, change, loaded) {
+    const {moveObject, setLight, setMaterial, objectBefore, lightBefore, materialBefore} = change;
+    if (moveObject) {
+        return describeMove(scene?.object(moveObject.object) ?? null, moveObject, objectBefore, loaded);
+    }
+    if (setLight) {
+        return describeLight(scene?.lights.find(({id}) => id === setLight.light), setLight, lightBefore);
+    }
+    const material = scene?.materials.find(({id}) => id === setMaterial?.material);
+    return describeMaterial(material?.name || 'a material', setMaterial, materialBefore);
+}
+
+/**
+ * @param {import('../scene/scene_model.js').PlacedObject | null} object
+ * @param {import('../net/protocol.js').MoveObject} to
+ * @param {import('../net/protocol.js').MoveObject | undefined} from
+ * @param {Required<Transform>} [loaded]
+ */
+function describeMove(object, to, from, loaded) {
+    if (!object || !from) {
+        return `moved ${object?.name ?? 'an object'}`;
+    }
+    const [before, after] = [completeTransform(from.transform), completeTransform(to.transform)];
+    const deed = deedOf(before, after, loaded ?? object.original);
+    if (deed === 'put back') {
+        return `put back ${object.name}`;
+    }
+    if (deed === 'resize') {
+        const share = (/** @type {Required<import('../net/protocol.js').Transform>} */ {scale}) =>
+            Math.round((100 * length(scale)) / (length(object.original.scale) || 1));
+        return `resized ${object.name}: ${share(before)} → ${share(after)} %`;
+    }
+    if (deed === 'turn') {
+        const {rotation: p} = before;
+        const {rotation: q} = after;
+        const half = Math.min(Math.abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w), 1);
+        return `turned ${object.name} by ${Math.round((360 / Math.PI) * Math.acos(half))}°`;
+    }
+    const place = (/** @type {Required<Transform>} */ transform) => {
+        const {x, y, z} = object.baseAt(transform);
+        return [x, y, z].map((value) => value.toFixed(2).replace('-', '−')).join(' ');
+    };
+    const by = length(matrixVector(object.worldFromParent, sub(after.translation, before.translation)));
+    return `moved ${object.name} by ${metres(by)}: ${place(before)} → ${place(after)}\u00a0m`;
+}
+
+/**
+ * @param {import('../net/protocol.js').Light | undefined} light
+ * @param {import('../net/protocol.js').SetLight} to
+ * @param {import('../net/protocol.js').SetLight | undefined} from
+ */
+function describeLight(light, to, from) {
+    const name = light?.name || 'a light';
+    if (!from) {
+        return to.on === undefined ? `set ${name}` : `switched ${to.on ? 'on' : 'off'} ${name}`;
+    }
+    const parts = [];
+    if (to.on !== undefined && to.on !== from.on) {
+        parts.push(`switched ${to.on ? 'on' : 'off'} ${name}`);
+    }
+    const [before, after] = [from.intensity ?? 0, to.intensity ?? from.intensity ?? 0];
+    if (!near(before, after)) {
+        const whole = light?.loadedIntensity;
+        const [one, unit] = whole ? [whole / 100, '%'] : [1, UNITS[light?.unit ?? ''] ?? ''];
+        const value = (/** @type {number} */ intensity) =>
+            whole ? String(Number((intensity / one).toPrecision(3))) : threeDigits(intensity / one);
+        const verb = after < before ? 'dimmed' : 'brightened';
+        parts.push(`${verb} ${name}: ${value(before)} → ${value(after)}\u00a0${unit}`.trimEnd());
+    }
+    if (to.colour && from.colour && !sameColour(to.colour, from.colour)) {
+        parts.push(`changed the colour of ${name}: ${temperatureOf(from.colour)} → ${temperatureOf(to.colour)} K`);
+    }
+    return parts.join(', ') || `set ${name} as it was`;
+}
+
+/** @type {Record<string, string>} */
+const UNITS = {CD_PER_M2: 'cd/m²', CD: 'cd', LX: 'lx', LM: 'lm'};
+
+/**
+ * @param {string} name
+ * @param {import('../net/protocol.js').SetMaterial | undefined} to
+ * @param {import('../net/protocol.js').SetMaterial | undefined} from
+ */
+function describeMaterial(name, to, from) {
+    if (!to || !from) {
+        return `set ${name}`;
+    }
+    const parts = [];
+    if (to.baseColour && from.baseColour && !sameColour(to.baseColour, from.baseColour)) {
+        parts.push(`painted ${name}: ${paintText(from.baseColour, to.baseColour)}`);
+    }
+    for (const part of /** @type {const} */ (['roughness', 'metallic'])) {
+        const [before, after] = [from[part], to[part]];
+        if (before !== undefined && after !== undefined && !near(before, after)) {
+            parts.push(`set the ${part} of ${name}: ${before.toFixed(2)} → ${after.toFixed(2)}`);
+        }
+    }
+    return parts.join(', ') || `set ${name} as it was`;
+}
+
+/**
+ * Reflectances, as the card of a material has them, and the colours where these differ in more.
+ *
+ * @param {import('../net/protocol.js').Vec3} before
+ * @param {import('../net/protocol.js').Vec3} after
+ */
+function paintText(before, after) {
+    const percent = (/** @type {import('../net/protocol.js').Vec3} */ colour) => (100 * luminance(colour)).toFixed(0);
+    const sameHue = sameColour(scale(before, luminance(after)), scale(after, luminance(before)));
+    return sameHue && percent(before) !== percent(after)
+        ? `${percent(before)} → ${percent(after)}\u00a0%`
+        : `${toHex(before)} → ${toHex(after)}, ${percent(before)} → ${percent(after)}\u00a0%`;
+}
+
+/** Relative difference of numbers that are the same but for single precision. */
+const SAME = 1e-4;
+
+/** @type {(a: number, b: number) => boolean} */
+const near = (a, b) => Math.abs(a - b) <= SAME * Math.max(Math.abs(a), Math.abs(b));
+
+/** @type {(a: import('../net/protocol.js').Vec3, b: import('../net/protocol.js').Vec3) => boolean} */
+const sameColour = (a, b) => near(a.x, b.x) && near(a.y, b.y) && near(a.z, b.z);
