@@ -25,27 +25,27 @@ class ChangePolicy {
 
     /// A special phase begins. dragged: of an object whose drag goes on.
     void begin_phase(bool dragged);
-    /// What had to be done before its first bundle has taken so long.
+    /// Notes the cost of all that came before its first bundle.
     void note_beginning(double cost_ms) { gate_.begin_change(cost_ms); }
-    /// A bundle of it has been transferred and has taken so long. last: the phase is at its end.
-    /// Pictures have full_pixels together, of which drawn_pixels are drawn.
+    /// Notes the cost of a bundle of it. last: the phase ends. Of the full_pixels of all pictures,
+    /// drawn_pixels are drawn.
     void note_bundle(double cost_ms, bool last, double full_pixels, double drawn_pixels);
-    /// The change has been worked in: these viewers wait for a frame that shows it.
+    /// Notes that the change has been worked in: these viewers wait for a frame that shows it.
     void end_change(std::span<const ViewerId> watchers);
 
-    /// A viewer's frame has taken so long.
+    /// Notes the cost of a viewer's frame.
     void note_frame(ViewerId viewer, double cost_ms) { gate_.note_frame(viewer, cost_ms); }
-    /// A viewer cannot take a frame now.
+    /// Does not wait for this viewer, which cannot take a frame now.
     void excuse(ViewerId viewer) { gate_.excuse(viewer); }
     void note_iteration(double cost_ms) { gate_.note_iteration(cost_ms); }
 
     /// Bundles that a phase has time for.
     [[nodiscard]] const PhaseBudget& phase_budget() const { return phases_; }
-    /// The running phase, or the last one, is of a drag that goes on.
+    /// True if the running phase, or the last one, belongs to a drag that goes on.
     [[nodiscard]] bool phase_of_drag() const { return phase_of_drag_; }
-    /// An object has just been dragged.
+    /// True shortly after an object has been dragged.
     [[nodiscard]] bool dragging() const;
-    /// Of width and height of all pictures, while an object is dragged.
+    /// Share of width and height that all pictures have while an object is dragged.
     [[nodiscard]] double drag_scale() const { return drag_scale_.scale(); }
 
   private:

@@ -45,44 +45,46 @@ class FramePolicy {
     [[nodiscard]] ChangePolicy& changes() { return changes_; }
     [[nodiscard]] const ChangePolicy& changes() const { return changes_; }
 
-    /// A viewer has left.
+    /// Forgets a viewer that has left.
     void forget(ViewerId viewer);
 
     /// Viewers whose requests have had their share of the time, and wait.
     [[nodiscard]] std::set<ViewerId> exhausted_requests();
-    /// A request of one of so many viewers has taken so long.
+    /// Notes the cost of a request. viewers: how many there are.
     void note_request(ViewerId viewer, double cost_ms, std::size_t viewers);
 
     /// Looks at what frames in motion take now, and chooses the size of their pictures.
     /// drawn_moving: a frame in motion is about to be drawn.
     void begin_frames(std::span<const ViewerLoad> loads, bool drawn_moving);
-    /// For how long frames are drawn until the next step of the solver.
+    /// Time for frames until the next step of the solver.
     [[nodiscard]] double frame_slice_ms(bool moving) const;
     /// Whose frame comes next; nothing where nobody wants one.
     [[nodiscard]] std::optional<ViewerId> next_frame(std::span<const FrameRequest> requests) {
         return frames_.next(requests);
     }
-    /// A frame of so many pixels has taken so long.
+    /// Notes the cost of a frame of so many pixels.
     void note_frame(ViewerId viewer, double cost_ms, double drawn_pixels);
-    /// Of width and height of the next frame's picture, while it moves.
+    /// Share of width and height that the next frame's picture has while it moves.
     [[nodiscard]] double moving_scale() const;
-    /// First frames while others move. answers: of viewers that have answered a ping.
+    /// Whether there is time for a first frame while others move. answers: the viewer has answered
+    /// a ping.
     [[nodiscard]] bool may_greet(bool answers);
     void note_greeting(bool answers, double cost_ms);
 
     /// What a frame for everybody who moves takes, ms; 0: nobody moves.
     [[nodiscard]] double moving_frames_ms(std::span<const ViewerLoad> loads) const;
-    /// Frames in motion are being sent, and do not fit into their rhythm beside the solver's steps.
-    /// Who takes no frames for a while does not hold up the solver.
+    /// True while frames in motion are sent and leave too little time for steps of the solver. A
+    /// viewer that takes no frames for a while does not hold up the solver.
     [[nodiscard]] bool walking(std::span<const ViewerLoad> loads) const;
-    /// Frames in motion come first: the solver has what they leave, and never nothing.
+    /// Whether the solver may make a step: it has the time that frames in motion leave, and a fifth
+    /// at least.
     [[nodiscard]] bool solver_may_run(std::span<const ViewerLoad> loads, bool in_special_phase);
-    /// A step of the solver has taken so long.
+    /// Notes the cost of a step of the solver.
     void note_step(double cost_ms, std::span<const ViewerLoad> loads);
-    /// It was an iteration, and so many pixels gathered light.
+    /// Notes that the step was an iteration in which so many pixels gathered light.
     void note_iteration(double cost_ms, double receiver_pixels);
-    /// Whose pictures gather light in the next iterations: of viewers that look, or of all where
-    /// nobody does, as many as there is time for.
+    /// Chooses the viewers whose pictures gather light in the next iterations: as many as there is
+    /// time for, of those that look, or of all if nobody does.
     [[nodiscard]] std::vector<ViewerId> choose_receivers(std::span<const ViewerLoad> loads);
 
     /// Whether there is time to look at the error of a picture.
@@ -92,7 +94,7 @@ class FramePolicy {
     /// Whether there is time for a picture of this size beside present_pixels.
     [[nodiscard]] CostModel::Verdict admit(std::uint32_t width, std::uint32_t height,
                                            double present_pixels) const;
-    /// Several people watch, and a frame for each of them takes so long that none sees at once what
+    /// True if several people watch and a frame for each takes so long that none sees at once what
     /// the others do.
     [[nodiscard]] bool crowded(std::span<const ViewerLoad> loads) const;
 

@@ -23,14 +23,14 @@ class FrameScheduler {
   public:
     explicit FrameScheduler(const FrameShareSettings& settings = {}) : settings_(settings) {}
 
-    /// The viewer to render for next, or nothing where nobody wants a frame. A viewer that is not
-    /// among the requests loses what it has saved.
+    /// The viewer whose frame comes next; nothing if nobody wants one. A viewer without a request
+    /// loses what it has saved.
     std::optional<ViewerId> next(std::span<const FrameRequest> requests);
 
-    /// A frame of this viewer has taken so long.
+    /// Notes the cost of a frame of this viewer.
     void charge(ViewerId viewer, double milliseconds);
 
-    /// Something else for this viewer has taken so long.
+    /// Notes the cost of other work for this viewer.
     void charge_besides(ViewerId viewer, double milliseconds);
 
     /// Smoothed cost of this viewer's frames.

@@ -5,15 +5,14 @@
 
 namespace raybundle {
 
-/// Size of the pictures whose cameras move, so that their frames keep a rhythm that people see as
-/// motion: full while there is time for it, else as much smaller as it takes, by steps. Has no
-/// clock of its own.
+/// Chooses the size of pictures in motion, so that frames come often enough to be seen as motion:
+/// full size while there is time for it, else smaller, by steps. Has no clock of its own.
 class MovingScale {
   public:
     explicit MovingScale(const MovingScaleSettings& settings = {}) : settings_(settings) {}
 
-    /// A frame for each who moves would take full_ms if their pictures were full, and shall take
-    /// no more than budget_ms.
+    /// full_ms: time of a frame for every picture in motion, if all were full. budget_ms: time that
+    /// they may take.
     void note(double full_ms, double budget_ms);
 
     /// Of width and height, at most 1.

@@ -13,15 +13,15 @@ class PhaseBudget {
   public:
     explicit PhaseBudget(const ChangeSettings& settings = {}) : settings_(settings) {}
 
-    /// A phase begins; its predecessor, where that is not at its end, does not count.
+    /// Notes that a phase begins. A phase that has not ended before does not count.
     void begin(double now_ms);
-    /// A bundle of it, of either stage, has been transferred. last: the phase is at its end; what
-    /// it took, waiting included, is what the next one is expected to take.
+    /// Notes that a bundle of the phase has been transferred. last: the phase ends; the next one is
+    /// expected to take as long, waiting included.
     void note_bundle(double now_ms, bool last);
-    /// Since the running phase, or the last one, began.
+    /// Time since the running phase, or the last one, began.
     [[nodiscard]] double elapsed_ms(double now_ms) const { return now_ms - since_ms_; }
 
-    /// Bundles until the deadline; nothing as long as no phase has been measured.
+    /// Bundles until the deadline; nothing before the first phase has been measured.
     [[nodiscard]] std::optional<double> bundles_in_time() const;
 
   private:

@@ -18,15 +18,15 @@ struct ReceiverRequest {
     double cost_ms = 0.0;  ///< that its pixels add to an iteration
 };
 
-/// Deals out which pictures gather light in the next group of iterations where all together would
-/// take too long: those at rest in turn, each in as many groups as any other, and moving ones with
-/// what time is left. Each round goes through them in another random order: bundles come from
-/// low-discrepancy sequences, of which every n-th group alone would be a biased part.
+/// Chooses the pictures that gather light in the next group of iterations, if all together would
+/// take too long. Pictures at rest take turns, each in as many groups as any other; pictures in
+/// motion get the rest of the time. Each round has another random order: bundles come from
+/// low-discrepancy sequences, and every n-th group of such a sequence is biased.
 class ReceiverScheduler {
   public:
     explicit ReceiverScheduler(std::uint64_t seed = 1) : random_(seed) {}
 
-    /// Who gathers: as many as fit into `budget_ms`, but one at least where there are any.
+    /// As many viewers as fit into `budget_ms`; one at least, if there are any.
     std::vector<ViewerId> next(std::span<const ReceiverRequest> members, double budget_ms);
 
   private:

@@ -11,9 +11,9 @@
 
 namespace raybundle {
 
-/// Bounds the time that requests take from frames and iterations, whatever one costs: those of one
-/// viewer a quarter, those of all together half. Whoever has had its share waits, and what it
-/// wants with it, in the inbox, which is bounded. Has no clock of its own.
+/// Bounds the time that requests take from frames and iterations: requests of one viewer take a
+/// quarter, those of all together half. Requests of a viewer that has had its share wait in the
+/// inbox, which is bounded. Has no clock of its own.
 class RequestShare {
   public:
     /// budget: of a viewer, where there are full_shares viewers at most; more have smaller shares.
@@ -21,14 +21,14 @@ class RequestShare {
                           double full_shares = SchedulingSettings().request_shares)
         : budget_(budget), full_shares_(full_shares) {}
 
-    /// A request of this viewer, one of so many, has taken so long.
+    /// Notes the cost of a request of this viewer. viewers: how many there are.
     void charge(ViewerId viewer, double cost_ms, std::size_t viewers) {
         const double crowd = static_cast<double>(viewers) / full_shares_;
         budgets_.try_emplace(viewer, budget_)
             .first->second.charge(cost_ms * (crowd > 1.0 ? crowd : 1.0));
     }
 
-    /// Those who have had their share.
+    /// Viewers that have had their share.
     [[nodiscard]] std::set<ViewerId> exhausted(double now_ms) {
         std::set<ViewerId> result;
         for (auto& [viewer, budget] : budgets_) {

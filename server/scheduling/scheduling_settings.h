@@ -24,8 +24,8 @@ struct BudgetSettings {
 struct RoundSettings {
     double frame_slice_ms = 60.0;  ///< frames between two steps of the solver
     double slice_steps = 2.0;      ///< or so many steps of the solver while somebody moves
-    double walk_round_ms =
-        40.0;  ///< a frame of each who walks and a step; with encoding 50: 20 a second
+    /// A frame of everyone who walks, and a step; 50 ms with encoding: 20 frames a second.
+    double walk_round_ms = 40.0;
     double walk_pause_ms = 250.0;   ///< without a frame in motion for so long nobody walks
     double min_solver_share = 0.2;  ///< of the time, where frames take more than the rest
     double solver_burst_ms = 50.0;  ///< what the solver may save up meanwhile
@@ -50,8 +50,8 @@ struct ChangeSettings {
     double phase_deadline_ms = 110.0;
     double phase_smoothing = 0.3;  ///< weight of the newest phase in means
     double drag_pause_ms = 400.0;  ///< without a step for so long nobody drags
-    double iteration_share =
-        0.2;  ///< of the time of changes and frames, as beside frames of a walk
+    /// Of the time of changes and their frames, as beside frames of a walk.
+    double iteration_share = 0.2;
 };
 
 /// When a viewer counts as moving or away, and how often its picture is worth a frame or a look.
@@ -82,11 +82,12 @@ struct SnapshotPaceSettings {
 
 /// All that decides who gets time: docs/scheduling.md says it in sentences.
 struct SchedulingSettings {
-    /// `--min-fps`: a viewer is refused where the others would fall below this; 0: nobody is.
+    /// Option `minFramesPerSecond`: a viewer is refused if the others would get fewer frames; 0:
+    /// nobody is.
     double min_frames_per_second = 0.0;
     /// Without viewers the solver rests after this many iterations since the last change.
     std::uint64_t idle_iterations = 4096;
-    /// With several viewers, a round longer than this is said to be crowded: attention that stays
+    /// Several viewers are told that it is crowded if a round takes longer: attention lasts so long
     /// (R. Miller 1968).
     double crowded_ms = 1000.0;
 

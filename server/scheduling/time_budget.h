@@ -7,9 +7,9 @@
 
 namespace raybundle {
 
-/// Bounds what something may take of the time that passes: a share of it in the long run, and so
-/// much at once. A single piece of work may overdraw, which is paid back before the next. Has no
-/// clock of its own.
+/// Bounds the time that a kind of work takes: to a share of the time that passes, and to a burst
+/// after a pause. One piece of work may overdraw; the next waits until that has been paid back. Has
+/// no clock of its own.
 class TimeBudget {
   public:
     explicit TimeBudget(const BudgetSettings& settings)
@@ -23,7 +23,7 @@ class TimeBudget {
         return credit_ms_ > 0.0;
     }
 
-    /// From now on.
+    /// Sets the share from now on.
     void set_share(double share) { share_ = share; }
     void charge(double cost_ms) { credit_ms_ -= cost_ms; }
 

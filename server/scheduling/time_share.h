@@ -5,8 +5,8 @@
 
 namespace raybundle {
 
-/// Lets something take part in iterations as long as what it adds to their cost stays below a share
-/// of what they cost without it, in the long run.
+/// Lets a guest take part in iterations. In the long run, the guest adds at most a share of what
+/// iterations cost without it. Has no clock of its own.
 class TimeShare {
   public:
     /// share: of the usual cost; max_credit_ms: what may be saved up for later; smoothing: weight
@@ -14,10 +14,10 @@ class TimeShare {
     TimeShare(double share, double max_credit_ms, double smoothing)
         : share_(share), max_credit_ms_(max_credit_ms), smoothing_(smoothing) {}
 
-    /// Whether it may take part in what comes next.
+    /// Whether the guest may take part in the next iterations.
     [[nodiscard]] bool may() const { return credit_ms_ > 0.0; }
 
-    /// An iteration has cost so much, with it or without.
+    /// Notes the cost of an iteration, with the guest or without.
     void note_iteration(double cost_ms, bool took_part) {
         if (!took_part) {
             usual_ms_ = usual_ms_ == 0.0 ? cost_ms : usual_ms_ + smoothing_ * (cost_ms - usual_ms_);
@@ -30,7 +30,7 @@ class TimeShare {
         credit_ms_ = std::min(credit_ms_, max_credit_ms_);
     }
 
-    /// It has cost so much besides.
+    /// Notes other work for the guest.
     void charge(double cost_ms) { credit_ms_ -= cost_ms; }
 
   private:

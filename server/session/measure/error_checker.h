@@ -19,10 +19,10 @@
 
 namespace raybundle {
 
-/// Measures the true error of viewers' pictures at rest by path tracing some of their pixels: on a
-/// thread of its own, one picture at a time, and with pauses, so that it takes a small share of one
-/// core. What it has traced is kept for as long as scene, camera and size stay as they are, for a
-/// few viewers. Its methods are for one thread; only set_scene() takes that longer, for a copy.
+/// Measures the true error of viewers' pictures at rest by path tracing some of their pixels. It
+/// has a thread of its own, takes one picture at a time, and pauses, so that it uses a small share
+/// of one core. For a few viewers it keeps the traced paths while scene, camera and size stay the
+/// same. Its methods are for one thread; only set_scene() takes long, for a copy.
 class ErrorChecker {
   public:
     struct Picture {
@@ -47,9 +47,9 @@ class ErrorChecker {
     ErrorChecker(const ErrorChecker&) = delete;
     ErrorChecker& operator=(const ErrorChecker&) = delete;
 
-    /// Takes another picture now. One at a time, with pauses.
+    /// Whether it takes another picture now: it works on none, and does not pause.
     [[nodiscard]] bool idle();
-    /// Whether it has this state of the scene. What it is told of others is forgotten.
+    /// Whether it has this state of the scene. It forgets all other states.
     [[nodiscard]] bool has_scene(std::uint32_t epoch) const { return scene_ && epoch_ == epoch; }
     void set_scene(std::uint32_t epoch, const Scene& scene, const PatchMesh& mesh);
     /// Requires idle() and a scene.

@@ -22,12 +22,12 @@
 
 namespace raybundle {
 
-/// Pictures that viewers have asked for, rendered off-screen one after the other. A picture takes
-/// part in whole groups of iterations, a large one tile by tile (PictureTiles); while anybody
-/// moves, only as often as keeps what it costs below a share of the time. One of an earlier epoch
-/// has iterations of its own: while somebody moves in the same share of the time, while all rest in
-/// turns with the present scene, and all of the time where nobody needs it. Thread of the GL
-/// context.
+/// Renders the pictures that viewers have asked for, off-screen, one after the other. A picture
+/// takes part in whole groups of iterations, a large one tile by tile (PictureTiles). While anybody
+/// moves, it takes part only as often as its share of the time allows. A picture of an earlier
+/// epoch has iterations of its own: in the same share while somebody moves, in turns with the
+/// present scene while all rest, and all of the time while nobody needs the present scene. Thread
+/// of the GL context.
 class SnapshotQueue {
   public:
     static constexpr std::uint64_t min_samples = 32;  ///< before an error is believed
@@ -45,13 +45,13 @@ class SnapshotQueue {
     void add(const ClientEvent& request, const Camera& camera, const PictureLook& look);
     /// Whether picture_of() a viewer is that of its request with this id.
     [[nodiscard]] bool is_making(ViewerId viewer, std::uint32_t request) const;
-    /// Takes a request back that the viewer has made; what is_making() it is destroyed.
+    /// Takes a viewer's request back; its picture is destroyed if is_making() it.
     void cancel(const ClientEvent& request);
-    /// A viewer has left: what it has asked for is dropped.
+    /// Drops the requests of a viewer that has left.
     void forget(ViewerId viewer);
     /// The picture that is being made for a viewer, null where there is none. forget() destroys it.
     [[nodiscard]] const ViewerImage* picture_of(ViewerId viewer) const;
-    /// The scene has changed, or another solver has it: a picture of it begins anew.
+    /// Begins the picture anew: the scene has changed, or another solver has taken over.
     void restart();
     /// Answers all that waits: the server is stopping.
     void refuse_all();
@@ -60,13 +60,13 @@ class SnapshotQueue {
     /// What is rendered now needs no iterations of the present solution.
     [[nodiscard]] bool apart() const { return picture_.apart; }
 
-    /// Between two groups of iterations: delivers the picture where it is done, else says whether
-    /// it takes part in the next group. Null where it does not. undisturbed: nobody moves.
+    /// Between two groups of iterations: delivers the picture if it is done. Returns the picture if
+    /// it takes part in the next group, else null. undisturbed: nobody moves.
     ViewerImage* next_receiver(const GpuScene& scene, const RadianceStore& store,
                                const ViewPrograms& programs, std::uint32_t epoch, bool undisturbed);
     /// Tells those who wait how far their pictures are, once a second.
     void report();
-    /// An iteration has taken so long, ms.
+    /// Notes the cost of an iteration, ms.
     void note_iteration(double cost_ms);
 
   private:

@@ -10,9 +10,9 @@
 
 namespace raybundle {
 
-/// What viewers want to wait for, by their names, so that who comes back after the server was
-/// killed need not say it again. Each is in the journal before it is here. Viewers without a name
-/// are not remembered. Knows neither GL nor the network.
+/// Remembers the targets that viewers have set, by their names, also after the server has been
+/// killed. A target is in the journal before it is here. Viewers without a name are not remembered.
+/// Knows neither GL nor the network.
 class TargetStore {
   public:
     static constexpr std::size_t max_targets = 64;  ///< what was set longest ago is forgotten first

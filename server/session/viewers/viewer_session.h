@@ -20,9 +20,9 @@
 
 namespace raybundle {
 
-/// What one viewer wants to see and how far its picture is; everything the render loop keeps of it.
-/// The picture itself exists while somebody looks at it: from the first acknowledged frame on,
-/// until frames have stayed unacknowledged for long.
+/// All that the render loop keeps of one viewer: what it wants to see, its picture, how far that
+/// is. The picture exists while somebody looks at it: from the first acknowledged frame on, until
+/// frames have stayed unacknowledged for long.
 class ViewerSession {
   public:
     /// Size of the pictures that a hello asks for.
@@ -31,29 +31,29 @@ class ViewerSession {
     ViewerSession(ViewerId viewer, const v1::Hello& hello, const Camera& camera,
                   const ViewerPaceSettings& pace, const Clock& clock);
 
-    /// Camera and size take effect with the next frame or apply_view(): that costs time, of which
-    /// every viewer gets his share.
+    /// Camera and size take effect with the next frame or apply_view(): drawing them costs time,
+    /// which is shared among viewers.
     void set_camera(const v1::SetCamera& message, std::uint32_t request_id);
     void set_viewport(glm::uvec2 size);
     /// objects: indices of those that its pictures do not show.
     void set_hidden(std::vector<std::uint32_t> objects);
     void apply_view();
-    /// Next frame's picture has so much of its full width and height while the camera moves or
-    /// objects are dragged. Between special phases only.
+    /// Sets the share of full width and height that the next frame's picture has while the camera
+    /// moves or objects are dragged. Between special phases only.
     void set_moving_scale(double scale, TimePoint now);
     /// Somebody drags an object: the picture has this size at once. Requires has_image().
     void note_drag(double scale, TimePoint now);
-    /// A step of the drag has been worked in, however long that took: the picture keeps its size.
+    /// Keeps the picture's size: a step of the drag has just been worked in.
     void stay_in_motion(TimePoint now) { motion_.last = now; }
-    /// What a frame of the moving camera takes with a full picture, ms; 0: not known yet.
+    /// Time of a frame in motion with a full picture, ms; 0: not known yet.
     [[nodiscard]] double full_frame_ms() const { return motion_.full_frame_ms; }
-    /// The frame just rendered took so long.
+    /// Notes the cost of the frame just rendered.
     void note_frame_cost(double cost_ms);
     /// Shows what another viewer sees.
     void adopt_camera(const Camera& camera);
-    /// What it looks at, or will with its next frame.
+    /// The camera of the next frame.
     [[nodiscard]] const Camera& camera() const { return camera_; }
-    /// Of its full picture, likewise.
+    /// Size of the full picture of the next frame.
     [[nodiscard]] glm::uvec2 size() const { return size_; }
     /// What pixels of the full picture show. Requires has_image().
     [[nodiscard]] std::vector<std::optional<PixelProbe>> probe(std::span<const glm::uvec2> pixels);
@@ -70,17 +70,17 @@ class ViewerSession {
     /// Frames carry depths on a grid with so many columns; 0: none.
     void set_depths(std::uint32_t columns) { frame_.depth_columns = columns; }
 
-    /// One slice of antialiasing where the picture has been at rest for a while. True if there was
-    /// something to do.
+    /// Makes one slice of antialiasing if the picture has been at rest for a while. True if there
+    /// was something to do.
     bool smooth(TimePoint now);
-    /// Something that the whole picture shows has changed: answer with a frame soon.
+    /// Notes that the whole picture has changed: it is due soon.
     void note_change();
-    /// The camera or an object moved within the last moments, or no frame has shown the camera yet:
-    /// whoever waits long for it must not fall behind those who have just been served.
+    /// True while the camera or an object has just moved, or no frame has shown the camera yet: a
+    /// viewer that has waited long must not fall behind those just served.
     [[nodiscard]] bool moving(TimePoint now) const;
-    /// Something has changed that no frame shows yet, or a frame is being drawn.
+    /// True while a change is not shown by any frame, or a frame is being drawn.
     [[nodiscard]] bool awaits_frame() const { return frame_.changed || frame_.rendering; }
-    /// A new frame is worth sending now.
+    /// Whether a new frame is worth sending now.
     [[nodiscard]] bool due(TimePoint now) const;
     [[nodiscard]] bool target_met();
     [[nodiscard]] FrameDemand demand(TimePoint now) const;
@@ -88,7 +88,8 @@ class ViewerSession {
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
     /// Requires has_image().
     void render(const FrameAdvice& advice, const v1::FrameHeader& figures, TimePoint now);
-    /// The same of a picture that others use, too, from what the solution knows: waits for it.
+    /// Renders the first frame into a picture that others use, too, from the solution alone. Waits
+    /// for it.
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> render_first(
         ViewerImage& shared, const FrameAdvice& advice, const v1::FrameHeader& figures,
         TimePoint now);
@@ -98,7 +99,7 @@ class ViewerSession {
     /// Header of the finished frame, and its pixels (RGBA, row 0 at the top).
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> take_frame();
 
-    /// Its statistics are old.
+    /// Whether its statistics are old.
     [[nodiscard]] bool wants_statistics(TimePoint now) const;
     [[nodiscard]] TimePoint last_statistics() const { return errors_.last_statistics; }
     /// Queues new ones. Requires has_image().
@@ -106,29 +107,30 @@ class ViewerSession {
     /// Error, interval and prediction for a `solution` message that has its iterationsPerSecond.
     void fill_solution(v1::Solution* solution);
 
-    /// The picture is at rest and its true error worth measuring (again).
+    /// Whether the picture is at rest and its true error is worth measuring (again).
     [[nodiscard]] bool wants_check(TimePoint now);
-    /// Since when it shows what it shows: what was measured before that is of another picture.
+    /// Time since which the picture shows the same. What was measured before belongs to another
+    /// picture.
     [[nodiscard]] TimePoint last_change() const { return last_change_; }
-    /// The picture is being measured.
+    /// Notes that the picture is being measured.
     void note_check(TimePoint now);
     [[nodiscard]] TimePoint last_check() const { return errors_.last_check; }
-    /// by_samples: what they said when it was.
+    /// by_samples: statistics at the time of the measurement.
     void take_measured(const SquaredError& square, const ImageStatistics& by_samples) {
         errors_.measured.take(square, by_samples);
     }
 
-    /// Nobody seems to look: frames stay unacknowledged.
+    /// True while frames stay unacknowledged: nobody seems to look.
     [[nodiscard]] bool paused() const { return paused_; }
     void set_paused(bool paused) { paused_ = paused; }
 
-    /// It has acknowledged a frame, so that its own picture is worth having.
+    /// True once it has acknowledged a frame: its own picture is worth having.
     [[nodiscard]] bool acknowledged() const { return acknowledged_; }
     void note_acknowledged() { acknowledged_ = true; }
 
     [[nodiscard]] double pixels() const;        ///< of the full picture
     [[nodiscard]] double drawn_pixels() const;  ///< of the picture as it is
-    /// Of the pictures it shows now.
+    /// Display of the frames that are shown now.
     [[nodiscard]] PictureLook look() const { return display_.look(image_.get()); }
     [[nodiscard]] ViewerId id() const { return identity_.viewer; }
     [[nodiscard]] const std::string& name() const { return identity_.name; }

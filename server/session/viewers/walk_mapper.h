@@ -16,14 +16,13 @@
 
 namespace raybundle {
 
-/// Works out what stands around viewers on a thread of its own, so that pictures go on meanwhile:
-/// one map after the other, in turn, with pauses. Of each viewer one request waits; a
-/// newer one replaces it.
+/// Makes maps of what stands around viewers, on a thread of its own: one map after the other, in
+/// turn, with pauses. Of each viewer one request waits; a newer one replaces it.
 class WalkMapper {
   public:
-    /// `answer` hears of each request on the mapper's thread, of one that was replaced with no map
-    /// on the caller's. The scene must outlive the mapper and keep its triangles, vertices and
-    /// objects but for their places.
+    /// Calls `answer` for each request: on the mapper's thread with its map, or on the caller's
+    /// thread without one if a newer request has replaced it. The scene must outlive the mapper and
+    /// keep its triangles, vertices and objects but for their places.
     using Answer = std::function<void(const ClientEvent& request, const std::optional<WalkMap>& map,
                                       std::uint32_t epoch)>;
     /// rest: after each map, times the work on it.
