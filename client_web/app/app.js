@@ -2,7 +2,7 @@
 // The page's application: connection, camera, picture, scene and selection. Everything else in the
 // page (tools, panels, review) is built on it by main.js. `window.raybundle` is the one instance.
 
-import {framedFov, framing, project, rayThrough} from '../camera/camera.js';
+import {framing} from '../camera/camera.js';
 import {CameraControl} from '../camera/camera_control.js';
 import {CameraLink, askForDepths} from '../net/camera_link.js';
 import {ObjectMover} from '../scene/drag.js';
@@ -15,6 +15,7 @@ import {RaybundleClient} from '../net/raybundle_client.js';
 import {Readouts} from '../measure/readouts.js';
 import {SceneModel} from '../scene/scene_model.js';
 import {Status, sentence} from '../ui/status.js';
+import {Screen} from './screen.js';
 
 /**
  * @typedef {import('../net/protocol.js').Vec3} Vec3
@@ -56,10 +57,6 @@ export class RaybundleApp extends EventTarget {
     selected = null;
     /** What a click does. */
     tool = 'select';
-    /** Size of the pictures that the server has been asked for. */
-    #viewport = {width: 1, height: 1};
-    /** Vertical field of view of the chosen camera, before it is fitted to the screen. */
-    #authorFov = NO_VIEW.verticalFov;
     /** View to start with instead of the first camera, as a shared link has it. */
     #firstView = /** @type {View | null} */ (null);
     /** This viewer's number at the last connection. */
@@ -70,7 +67,8 @@ export class RaybundleApp extends EventTarget {
         super();
         this.#firstView = settings.view ?? null;
         this.picture = new Picture(byId('picture', HTMLElement), byId('canvas', HTMLCanvasElement));
-        this.client = new RaybundleClient({...settings, viewport: () => this.#askViewport()});
+        this.screen = new Screen(this.picture, NO_VIEW.verticalFov);
+        this.client = new RaybundleClient({...settings, viewport: () => this.screen.askViewport()});
         this.camera = new CameraControl(NO_VIEW);
         this.link = new CameraLink(this.client);
         this.picker = new Picker(this.client);
@@ -145,9 +143,7 @@ export class RaybundleApp extends EventTarget {
      * @param {Vec3} point  metres
      */
     project(point) {
-        const {clientWidth, clientHeight} = this.picture.element;
-        const {x, y, depth} = project(this.view, this.picture.aspect, point);
-        return {x: x * clientWidth, y: y * clientHeight, depth};
+        return this.screen.project(this.view, point);
     }
 
     /**
@@ -155,9 +151,8 @@ export class RaybundleApp extends EventTarget {
      *
      * @param {Point} at  CSS pixels
      */
-    rayAt({x, y}) {
-        const {clientWidth, clientHeight} = this.picture.element;
-        return rayThrough(this.view, this.picture.aspect, x / clientWidth, y / clientHeight);
+    rayAt(at) {
+        return this.screen.rayAt(this.view, at);
     }
 
     /**
@@ -168,7 +163,7 @@ export class RaybundleApp extends EventTarget {
      * @returns {Promise<PlacedObject | null>}
      */
     async pickAt(x, y) {
-        const pixel = this.#pixelAt({x, y});
+        const pixel = this.screen.pixelAt({x, y});
         return this.scene ? this.picker.pick(this.scene, this.rayAt({x, y}), pixel) : null;
     }
 
@@ -179,7 +174,7 @@ export class RaybundleApp extends EventTarget {
      * @returns {Promise<ProbeResult | null>} null: nothing is there, or no answer
      */
     async probeAt(at) {
-        const answer = await this.ask({probe: {pixel: this.#pixelAt(at)}});
+        const answer = await this.ask({probe: {pixel: this.screen.pixelAt(at)}});
         return answer?.probeResult?.hit ? answer.probeResult : null;
     }
 
@@ -241,9 +236,8 @@ export class RaybundleApp extends EventTarget {
      * @param {View} camera
      * @returns {View}
      */
-    framed({eye, target, up, verticalFov}) {
-        this.#authorFov = verticalFov;
-        return {eye, target, up, verticalFov: framedFov(verticalFov, this.picture.aspect)};
+    framed(camera) {
+        return this.screen.framed(camera);
     }
 
     /**
@@ -366,28 +360,15 @@ export class RaybundleApp extends EventTarget {
         this.drawOverlay();
     }
 
-    /** @param {Point} at  CSS pixels */
-    #pixelAt({x, y}) {
-        const {clientWidth, clientHeight} = this.picture.element;
-        const {width, height} = this.#viewport;
-        return {x: (x / clientWidth) * width, y: (y / clientHeight) * height};
-    }
-
-    #askViewport() {
-        this.#viewport = this.picture.viewport;
-        return this.#viewport;
-    }
-
     #viewportChanged() {
-        const {width, height} = this.#viewport;
-        const wanted = this.#askViewport();
-        if (wanted.width !== width || wanted.height !== height) {
+        const wanted = this.screen.askChangedViewport();
+        if (wanted) {
             this.client.send({setViewport: wanted});
         }
     }
 
     #resized() {
-        const verticalFov = framedFov(this.#authorFov, this.picture.aspect);
+        const verticalFov = this.screen.fittedFov;
         if (verticalFov !== this.view.verticalFov && !this.link.led && !this.view.near) {
             this.camera.set({...this.view, verticalFov});
         }

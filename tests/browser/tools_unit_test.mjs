@@ -16,7 +16,7 @@ import {
 import {stateOf} from '../../client_web/measure/grid_panel.js';
 import {History, subjectOf} from '../../client_web/scene/history.js';
 import {layOutStrip} from '../../client_web/measure/legend.js';
-import {NewestOnly, dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_panel.js';
+import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_values.js';
 import {lightState} from '../../client_web/scene/light_state.js';
 import {DarkViews} from '../../client_web/camera/lost.js';
 import {avatarTexts, frustumOf} from '../../client_web/review/people.js';
@@ -26,6 +26,7 @@ import {escaped, reportHtml} from '../../client_web/review/report.js';
 import {progressText, timeText} from '../../client_web/scene/opening.js';
 import {listTag, namesText, openingQuestion, refusalOf, sizeText, uploadProblem} from '../../client_web/scene/scene_files.js';
 import {Anchor, PlacedObject, SceneModel} from '../../client_web/scene/scene_model.js';
+import {NewestOnly} from '../../client_web/scene/surface_change.js';
 import {isOutside, placeOf, placeProblem, placedAt} from '../../client_web/scene/scene_panel.js';
 import {fromHash, toHash} from '../../client_web/review/share.js';
 import {adviceOf, bannerOf, sentence} from '../../client_web/ui/status.js';
