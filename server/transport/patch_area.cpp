@@ -11,4 +11,12 @@ double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t side) {
     return 0.5 * static_cast<double>(glm::length(glm::cross(e1, e2)));
 }
 
+double patch_area(const Scene& scene, const PatchMesh& mesh, std::uint32_t patch) {
+    double sum = 0.0;
+    for (const std::uint32_t side : mesh.sides_of(patch)) {
+        sum += world_area(scene, mesh, side);
+    }
+    return sum;
+}
+
 }  // namespace raybundle
