@@ -118,6 +118,52 @@ TEST(JoinedPatches, AreNoMoreThanTwiceTheTarget) {
     EXPECT_GT(mesh.patch_count(), 200U);
 }
 
+/// A small room on a large site: there is place for all of its triangles.
+TEST(JoinedPatches, AreNoneWhereTheTargetHasPlaceForAllTriangles) {
+    SceneBuilder b = room(6);
+    b.add_quad({-500, -0.1F, -500}, {0, 0, 1000}, {1000, 0, 0}, 1, 1,
+               b.add_material(glm::vec3(0.5F)));
+    Scene scene = b.loaded_scene();
+    TessellationSettings settings;
+    settings.target_patches = 1000;
+    settings.join_triangles = true;
+    const PatchMesh mesh = tessellate(scene, settings);
+    EXPECT_TRUE(mesh.patch_sets.empty());
+    EXPECT_GT(mesh.patch_count(), 800U);
+}
+
+/// Fewer than there are sides of things: all round, whatever is between.
+TEST(JoinedPatches, AreNoMoreThanThatHoweverSmallTheTarget) {
+    SceneBuilder b = room(1);
+    const auto paint = b.add_material(glm::vec3(0.5F));
+    b.scene.materials[paint].double_sided = true;
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 at(0.3F + 0.16F * static_cast<float>(i % 20),
+                           0.5F + 0.2F * static_cast<float>(i / 20), 2);
+        add_ball(b, at, 0.02F, 4, paint);
+        b.add_quad(at + glm::vec3(0.08F, 0, 0), {0, 0.1F, 0}, {0, 0, 0.1F}, 1, 1, paint);
+    }
+    Scene scene = b.loaded_scene();
+    TessellationSettings settings;
+    settings.target_patches = 150;
+    settings.join_triangles = true;
+    const PatchMesh mesh = tessellate(scene, settings);
+    EXPECT_GT(mesh.side_count(), 10'000U);
+    EXPECT_LE(mesh.patch_count(), 300U);
+    double apart = 0.0;
+    for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
+        apart += double{side_area(mesh, side)};
+    }
+    double together = 0.0;
+    for (std::uint32_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        for (const std::uint32_t side : mesh.sides_of(patch)) {
+            together += double{side_area(mesh, side)};
+            EXPECT_EQ(mesh.patch_of(side), patch);
+        }
+    }
+    EXPECT_NEAR(together, apart, 1e-9 * apart);
+}
+
 TEST(JoinedPatches, HaveNormalsOnOneSide) {
     SceneBuilder b = room(1);
     add_ball(b, {2, 1, 2}, 0.05F, 12, b.add_material(glm::vec3(0.5F)));

@@ -163,6 +163,9 @@ bool EdgeRefinement::split(const std::vector<bool>& chosen, std::size_t max_patc
         return false;
     }
     patch_count_ = count;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        triangles_[t].small = triangles_[t].small && !chosen[t];
+    }
     add_midpoints(marked, edges);
     split_triangles(edges);
     return true;

@@ -58,8 +58,9 @@ class EdgeRefinement {
     /// more than `max_patches`.
     bool refine(double target_edge, std::size_t max_patches);
 
-    /// Splits the longest edges of some triangles (by index), and of neighbours as it takes. False,
-    /// with nothing done, if there would be more than `max_patches`.
+    /// Splits the longest edges of some triangles (by index), and of neighbours as it takes. Those
+    /// chosen are small no more. False, with nothing done, if there would be more than
+    /// `max_patches`.
     bool split(const std::vector<bool>& chosen, std::size_t max_patches);
 
     /// World space, m, counter-clockwise from the front.

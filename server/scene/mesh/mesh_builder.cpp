@@ -116,8 +116,11 @@ class MeshBuilder {
                         std::bit_cast<std::uint32_t>(light.r),
                         std::bit_cast<std::uint32_t>(light.g),
                         std::bit_cast<std::uint32_t>(light.b)};
-        face.kind =
-            kinds_.try_emplace(kind, static_cast<std::uint32_t>(kinds_.size())).first->second;
+        const auto number_of = [this](const Kind& of) {
+            return kinds_.try_emplace(of, static_cast<std::uint32_t>(kinds_.size())).first->second;
+        };
+        face.kind = number_of(kind);
+        face.rough_kind = number_of({kind[0], kind[1], kind[2], 0U, 0U, 0U});
         face.colour = colour.base_colour;
         face.widest = scene_.materials[triangle.material].metallic >= metal ? widest_of_metals
                                                                             : widest_of_others;
@@ -132,7 +135,10 @@ class MeshBuilder {
         }
         JoinSettings settings = join_;
         const std::size_t others = mesh_.side_count() - sides_of_faces();
-        settings.most_sets = settings.most_sets > others ? settings.most_sets - others : 0;
+        settings.most_sides -= std::min(settings.most_sides, others);
+        if (settings.wanted_sides > 0) {
+            settings.wanted_sides -= std::min(settings.wanted_sides - 1, others);
+        }
         const std::vector<std::uint32_t> sets = join_faces(scene_, faces_, settings);
         mesh_.patch_sets = make_patch_sets(mesh_, small_, sets);
     }

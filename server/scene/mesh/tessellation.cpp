@@ -92,8 +92,17 @@ double direct_flux(const EdgeRefinement& refinement, const NearField& field) {
     return sum * static_cast<double>(stride);
 }
 
+/// Patches of triangles that will not be joined.
+std::size_t large_patches(const EdgeRefinement& refinement) {
+    std::size_t count = 0;
+    for (const EdgeRefinement::RefinedTriangle& triangle : refinement.triangles()) {
+        count += triangle.small ? 0 : triangle.two_sided ? 2 : 1;
+    }
+    return count;
+}
+
 /// Splits patches on which light changes, as surfaces close by see, the worst first where not all
-/// can be. Triangles that will be joined stay.
+/// can be. What is split is not joined to others.
 void refine_near_field(const Scene& scene, const TessellationSettings& settings, bool join,
                        Refined& refined) {
     const NearField field(scene);
@@ -101,8 +110,16 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
     const auto& triangles = refinement.triangles();
     const std::size_t patches =
         join ? JoinPlan::patches(refinement, refined.edge) : refinement.patch_count();
-    const std::size_t most_patches =
-        std::min(settings.max_patches, refinement.patch_count() + patches / 2);
+    const std::size_t most = refinement.patch_count() + patches / 2;
+    const auto most_patches = [&] {
+        if (!join) {
+            return std::min(settings.max_patches, most);
+        }
+        // Of a small triangle that is split both halves count, and one is new.
+        const std::size_t room = patches + patches / 2;
+        const std::size_t taken = std::min(room, large_patches(refinement));
+        return std::min(settings.max_patches, refinement.patch_count() + (room - taken) / 2);
+    };
     const double least = misplaced_share * direct_flux(refinement, field);
     double threshold = least;      // lm
     std::vector<float> misplaced;  // lm, by node; below zero: not known yet
@@ -110,7 +127,6 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
         misplaced.resize(refinement.nodes().size(), -1.0F);
         tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
             float& value = misplaced[triangles[t].node];
-            value = triangles[t].small ? 0.0F : value;
             if (value < 0.0F) {
                 value = static_cast<float>(
                     field.misplaced_flux(face_of(refinement, triangles[t]), least));
@@ -124,43 +140,45 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
                 return;
             }
             threshold *= 2.0;
-        } while (!refinement.split(chosen, most_patches));
+        } while (!refinement.split(chosen, most_patches()));
         threshold *= 0.5;
     }
 }
 
-/// Whether triangles of the scene are to be joined.
-bool joins(const JoinPlan& plan, const TessellationSettings& settings) {
-    const double edge = settings.patch_size > 0.0F
-                            ? double{settings.patch_size}
-                            : edge_for(plan, static_cast<double>(std::min(settings.target_patches,
-                                                                          settings.max_patches)));
-    return settings.join_triangles && plan.any_small(edge);
+/// Whether triangles that have so many sides are to be joined: where the file's own ones would take
+/// the goal beyond the target, and some are small.
+bool joins(const JoinPlan& plan, const TessellationSettings& settings, std::size_t sides) {
+    const bool sized = settings.patch_size > 0.0F;
+    const double edge = sized ? double{settings.patch_size}
+                              : edge_for(plan, static_cast<double>(std::min(settings.target_patches,
+                                                                            settings.max_patches)));
+    return settings.join_triangles && (sized || sides > settings.target_patches / 2) &&
+           plan.any_small(edge);
 }
 
-/// Refines the scene's triangles, those that are cut where others stand on them. join: those that
-/// are small will be joined.
-Refined refine(const Scene& scene, const TessellationSettings& settings, const JoinPlan& plan,
-               bool join) {
+/// Refines the scene's triangles, those that are cut where others stand on them.
+Refined refine(const Scene& scene, const TessellationSettings& settings) {
+    const JoinPlan plan(scene);
     EdgeRefinement refinement(scene);
     if (refinement.patch_count() > settings.max_patches) {
         throw SceneError(scene.path, "",
                          fmt::format("{} patches without any tessellation; the limit is {}",
                                      refinement.patch_count(), settings.max_patches));
     }
+    bool join = joins(plan, settings, refinement.patch_count());
     const auto goal = [&] {
         return goal_of(settings, join ? std::size_t{0} : refinement.patch_count());
     };
     const double edge = settings.patch_size > 0.0F ? double{settings.patch_size}
                                                    : edge_for(plan, static_cast<double>(goal()));
     refinement.cut(find_contact_lines(scene, edge), contact_resolution * edge);
+    join = joins(plan, settings, refinement.patch_count());
     if (join) {
         plan.mark_small(refinement, edge);
     }
+    const std::size_t patches = goal();
     Refined refined{std::move(refinement), edge};
     if (!(settings.patch_size > 0.0F)) {
-        const std::size_t patches =
-            goal_of(settings, join ? std::size_t{0} : refined.refinement.patch_count());
         refined = refine_to_count(refined.refinement, plan, join, patches);
     } else if (!refined.refinement.refine(edge, settings.max_patches)) {
         throw SceneError(scene.path, "",
@@ -175,18 +193,19 @@ JoinSettings join_settings(const TessellationSettings& settings, const Refined& 
     JoinSettings joined;
     joined.edge = refined.edge;
     joined.patch_area = mean_area * refined.edge * refined.edge;
-    joined.most_sets = settings.patch_size > 0.0F
-                           ? settings.max_patches
-                           : std::min(2 * settings.target_patches, settings.max_patches);
+    joined.most_sides = settings.max_patches;
+    if (!(settings.patch_size > 0.0F)) {
+        joined.most_sides = std::min(2 * settings.target_patches, settings.max_patches);
+        joined.wanted_sides =
+            std::min(goal_of(settings, settings.target_patches), settings.max_patches);
+    }
     return joined;
 }
 
 }  // namespace
 
 PatchMesh tessellate(Scene& scene, const TessellationSettings& settings) {
-    const JoinPlan plan(scene);
-    const bool join = joins(plan, settings);
-    const Refined refined = refine(scene, settings, plan, join);
+    const Refined refined = refine(scene, settings);
     return build_mesh(scene, refined.refinement, join_settings(settings, refined));
 }
 

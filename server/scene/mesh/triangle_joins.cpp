@@ -22,6 +22,10 @@ constexpr double square_variance = 1.0 / 6.0;  // of places on a square, over it
 constexpr double largest_extent = 2.0;         // of a set, over the target edge
 constexpr double lift_share = 0.05;            // of the target edge: what is lower hides nothing
 constexpr int most_rounds = 64;
+// Of sets, in areas of a patch of the target edge: where joining begins, and where it begins to
+// look for neighbours without a common edge.
+constexpr double smallest_size = 0x1p-10;
+constexpr double smallest_near = 0x1p-3;
 constexpr int most_levels = 12;  // each of sets twice as large
 constexpr unsigned grid_bits = 20;
 constexpr std::uint32_t none = 0xffffffffU;
@@ -107,14 +111,22 @@ class Joining {
 
     std::vector<std::uint32_t> run() {
         links_ = edges();
-        join_all(1.0);
-        link_near();
-        join_all(1.0);
-        double size = 1.0;
-        for (int level = 0; level < most_levels && sets_.size() > settings_.most_sets; ++level) {
-            size *= 2.0;
+        double size = settings_.wanted_sides > 0 ? smallest_size : 1.0;
+        for (; size <= 1.0 && above(settings_.wanted_sides) > 0; size *= 2.0) {
+            join_all(size);
+            if (size >= smallest_near && above(settings_.wanted_sides) > 0) {
+                link_near();
+                join_all(size);
+            }
+        }
+        for (int level = 0; level < most_levels && above(settings_.most_sides) > 0; ++level) {
             link_near();
             join_all(size);
+            size *= 2.0;
+        }
+        for (const bool facing : {true, false}) {
+            while (above(settings_.most_sides) > 0 && join_neighbours(facing)) {
+            }
         }
         return numbered();
     }
@@ -170,9 +182,28 @@ class Joining {
         return 2U * static_cast<std::uint32_t>(axis) + (set.axis[axis] < 0.0 ? 1U : 0U);
     }
 
-    /// Links sets of one kind that face alike and follow each other along a curve through all
-    /// places, and that see each other.
-    void link_near() {
+    [[nodiscard]] std::uint32_t sides_of(const FaceSet& set) const {
+        return faces_[set.largest].two_sided ? 2 : 1;
+    }
+
+    /// How many more sides there are than so many.
+    [[nodiscard]] std::size_t above(std::size_t limit) const {
+        std::size_t sides = 0;
+        for (const FaceSet& set : sets_) {
+            sides += sides_of(set);
+        }
+        return sides - std::min(sides, limit);
+    }
+
+    struct Item {
+        std::uint64_t group;
+        std::uint64_t place;
+        std::uint32_t set;
+    };
+
+    /// All sets, those of each group along a curve through all places. group: of a set.
+    template <typename Group>
+    [[nodiscard]] std::vector<Item> along_curve(const Group& group) const {
         glm::dvec3 low(1e300);
         double extent = 0.0;
         for (const FaceSet& set : sets_) {
@@ -182,17 +213,12 @@ class Joining {
             const glm::dvec3 e = set.high - low;
             extent = std::max({extent, e.x, e.y, e.z});
         }
-        struct Item {
-            std::uint64_t group;  // kind and facing
-            std::uint64_t place;
-            std::uint32_t set;
-        };
         std::vector<Item> items;
         items.reserve(sets_.size());
         const double cells = static_cast<double>((1U << grid_bits) - 1U) / std::max(extent, 1e-30);
         for (std::uint32_t i = 0; i < sets_.size(); ++i) {
             const glm::dvec3 at = (0.5 * (sets_[i].low + sets_[i].high) - low) * cells;
-            items.push_back({8U * std::uint64_t{sets_[i].kind} + facing_of(sets_[i]),
+            items.push_back({group(sets_[i]),
                              spread_bits(static_cast<std::uint64_t>(at.x)) |
                                  spread_bits(static_cast<std::uint64_t>(at.y)) << 1U |
                                  spread_bits(static_cast<std::uint64_t>(at.z)) << 2U,
@@ -201,6 +227,50 @@ class Joining {
         std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
             return std::tie(a.group, a.place, a.set) < std::tie(b.group, b.place, b.set);
         });
+        return items;
+    }
+
+    /// Joins neighbours of one rough kind, and of one facing if that counts, in pairs, the smallest
+    /// first, as far as there are too many. False where there are none.
+    bool join_neighbours(bool facing) {
+        const std::vector<Item> items = along_curve([&](const FaceSet& set) {
+            return 8U * std::uint64_t{faces_[set.largest].rough_kind} +
+                   (facing ? facing_of(set) : 0U);
+        });
+        struct Pair {
+            double area;
+            std::size_t first;
+        };
+        std::vector<Pair> pairs;
+        for (std::size_t i = 0; i + 1 < items.size(); ++i) {
+            if (items[i].group == items[i + 1].group) {
+                pairs.push_back({sets_[items[i].set].area + sets_[items[i + 1].set].area, i});
+                ++i;
+            }
+        }
+        std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+            return std::tie(a.area, a.first) < std::tie(b.area, b.first);
+        });
+        std::vector<Partner> partners(sets_.size());
+        std::size_t left = above(settings_.most_sides);
+        for (const Pair& pair : pairs) {
+            const std::uint32_t a = items[pair.first].set;
+            const std::uint32_t b = items[pair.first + 1].set;
+            partners[a].set = b;
+            partners[b].set = a;
+            left -= std::min<std::size_t>(left, sides_of(sets_[a]));
+            if (left == 0) {
+                break;
+            }
+        }
+        return join_mutual(partners);
+    }
+
+    /// Links sets of one kind that face alike and follow each other along a curve through all
+    /// places, and that see each other.
+    void link_near() {
+        const std::vector<Item> items = along_curve(
+            [](const FaceSet& set) { return 8U * std::uint64_t{set.kind} + facing_of(set); });
         std::vector<Link> found;
         constexpr std::size_t ahead = 4;
         for (std::size_t i = 0; i < items.size(); ++i) {
@@ -268,6 +338,11 @@ class Joining {
                 best[b] = {costs[i], tie, a};
             }
         }
+        return join_mutual(best);
+    }
+
+    /// Joins what is each other's partner. False where nothing is.
+    bool join_mutual(const std::vector<Partner>& best) {
         std::vector<std::uint32_t> next(sets_.size(), none);  // number of each set from now on
         std::vector<FaceSet> sets;
         sets.reserve(sets_.size());
