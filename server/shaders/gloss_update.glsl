@@ -61,7 +61,13 @@ vec3 update_gloss(uint patch_id, vec3 irradiance, vec3 reflected, float step) {
     RARELY(irradiance != vec3(0.0)) {
         source = incoming_source(patch_id, normal);
         Brdf brdf = patch_brdf(patch_id);
-        vec4 at_in = brdf_at(brdf, dot(normal, source.direction));
+        float cosine = dot(normal, source.direction);
+#ifdef PATCH_SETS  // light from below the mean plane of several triangles has no lobe about its normal
+        vec4 at_in = brdf_at(brdf, abs(cosine));
+        at_in.w = cosine > 0.0 ? at_in.w : 0.0;
+#else
+        vec4 at_in = brdf_at(brdf, cosine);
+#endif
         sample_radiance = brdf_albedo(brdf, at_in) * irradiance * brdf_inverse_pi;
         vec3 magnitude = abs(irradiance);
         importance = max(magnitude.r, max(magnitude.g, magnitude.b)) * at_in.w;

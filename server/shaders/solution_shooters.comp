@@ -134,7 +134,7 @@ void main() {
     s.object = patches[id].object;
 #ifdef GLOSSY
     s.glossy = is_glossy(id) ? 1u : 0u;
-    s.lobe = s.glossy != 0u ? main_lobe(id, s.normal, position) : vec4(0.0);
+    s.lobe = s.glossy != 0u ? main_lobe(id, patches[id].normal, position) : vec4(0.0);
 #else
     s.glossy = 0u;
     s.lobe = vec4(0.0);

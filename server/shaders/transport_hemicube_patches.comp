@@ -162,7 +162,7 @@ void main() {
     float escaped = 0.0;
 #ifdef SHOOTER_GLOSSY
     pixel_area *= face_weight(face);
-    vec3 normal = bundle.axis_z.xyz;
+    vec3 normal = shooter_normal();
     Gloss shooter = shooter_gloss(vertex_base);
     vec3 main_part = radiance_at(bundle.resolution.z, bundle.slopes.xyz).rgb;
     float inverse_luminance = 1.0 / max(luminance(texelFetch(radiance_texels, int(bundle.resolution.z)).rgb), 1e-20);
@@ -182,7 +182,7 @@ void main() {
             float form_factor = r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
                                 cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
 #ifdef SHOOTER_GLOSSY
-            vec3 sent = main_part + difference_radiance(shooter, normal, d * inverse_length);
+            vec3 sent = main_part + difference_radiance(shooter, normal, above(d * inverse_length, normal));
             missed += cosine * luminance(sent) * inverse_luminance;
             sum += form_factor * (sent - bundle.constant.rgb);
 #else

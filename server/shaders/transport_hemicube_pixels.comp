@@ -19,8 +19,8 @@ layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 vec3 sent_radiance(vec3 w_out) {
     vec3 sent = radiance_at(bundle.resolution.z, bundle.slopes.xyz).rgb - bundle.constant.rgb;
 #ifdef SHOOTER_GLOSSY
-    vec3 normal = bundle.axis_z.xyz;
-    sent += difference_radiance(shooter_gloss(vertex_base), normal, w_out);
+    vec3 normal = shooter_normal();
+    sent += difference_radiance(shooter_gloss(vertex_base), normal, above(w_out, normal));
 #endif
     return sent;
 }

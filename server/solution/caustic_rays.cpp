@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "scene/contact/facet_walk.h"
 #include "scene/mesh/patch_colour.h"
+#include "scene/mesh/patch_means.h"
 #include "scene/mix_bits.h"
 #include "solution/reflectance_tables.h"
 
@@ -50,6 +52,14 @@ class CausticRays::Random {
     std::uint64_t state_;
 };
 
+/// About z, by the cosine.
+glm::vec3 CausticRays::cosine_direction(Random& random) {
+    const float square = random.next();
+    const float turn = 2.0F * std::numbers::pi_v<float> * random.next();
+    const float radius = std::sqrt(square);
+    return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0F - square)};
+}
+
 CausticRays::CausticRays(const Scene& scene, const PatchMesh& mesh, const SpecularRays& rays)
     : rays_(rays),
       lobes_(scene.materials.size()),
@@ -63,6 +73,9 @@ CausticRays::CausticRays(const Scene& scene, const PatchMesh& mesh, const Specul
       facet_tree_(mesh.facet_tree) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         update(scene, i);
+    }
+    for (std::uint32_t patch = 0; patch < mesh.patch_count() && !sets_.empty(); ++patch) {
+        bent_.push_back(is_bent(mesh, patch));
     }
 }
 
@@ -109,42 +122,46 @@ void CausticRays::follow(const LightRay& ray, Random& random,
     }
 }
 
-/// Corners of one of the triangles of the patch that has been met, by area. back: the side is one.
-std::array<glm::vec3, 3> CausticRays::random_face(const SpecularRays::Hit& hit, Random& random,
-                                                  bool& back) const {
-    back = !hit.front;
+/// Of the patch that has been met, by area.
+CausticRays::Face CausticRays::random_face(const SpecularRays::Hit& hit, Random& random) const {
+    const auto facing = [](const std::array<glm::vec3, 3>& corners) {
+        return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    };
     const std::uint32_t met = triangle_of(hit.facet, hit.position);
     const std::uint32_t side = hit.front ? met : back_side_[met];
+    Face face{rays_.corners(triangles_[met]), glm::vec3(0.0F), !hit.front};
     if (sets_.empty() || side == PatchMesh::no_patch) {
-        return rays_.corners(triangles_[met]);
+        face.facing = facing(face.corners);
+        return face;
     }
-    const PatchSides sides(sets_, sets_.side_patch[side]);
-    std::array<glm::vec3, 3> chosen = rays_.corners(triangles_[met]);
+    const std::uint32_t patch = sets_.side_patch[side];
+    const PatchSides sides(sets_, patch);
+    face.bent = bent_[patch];
     float all = 0.0F;
     for (const std::uint32_t member : sides) {  // reservoir sampling (Chao 1982)
-        const std::uint32_t triangle = side_triangle_[member];
-        const std::array<glm::vec3, 3> corners = rays_.corners(triangles_[triangle]);
-        const float area =
-            glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-        all += area;
-        if (sides.size() == 1 || random.next() * all < area) {
-            chosen = corners;
+        const std::array<glm::vec3, 3> corners = rays_.corners(triangles_[side_triangle_[member]]);
+        const glm::vec3 own = facing(corners);
+        face.facing += own;
+        all += glm::length(own);
+        if (sides.size() == 1 || random.next() * all < glm::length(own)) {
+            face.corners = corners;
         }
     }
-    return chosen;
+    return face;
 }
 
 /// Evenly on the patch that has been met, in front of it.
 CausticRays::Start CausticRays::random_point(const SpecularRays::Hit& hit, Random& random) const {
-    bool back = false;
-    const std::array<glm::vec3, 3> corners = random_face(hit, random, back);
+    const auto [corners, facing, back, bent] = random_face(hit, random);
     const float root = std::sqrt(random.next());
     const float along = root * random.next();
-    Start start;
-    start.normal = hit.geometric;
+    Start start{glm::vec3(0.0F), hit.geometric, hit.geometric, bent};
     if (!sets_.empty()) {
-        const glm::vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        start.normal = across * ((back ? -1.0F : 1.0F) / std::max(glm::length(across), 1e-30F));
+        const auto unit_normal = [back](const glm::vec3& across) {
+            return across * ((back ? -1.0F : 1.0F) / std::max(glm::length(across), 1e-30F));
+        };
+        start.normal = unit_normal(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+        start.mean_normal = unit_normal(facing);
     }
     start.point = corners[0] + (root - along) * (corners[1] - corners[0]) +
                   along * (corners[2] - corners[0]) + rays_.offset() * start.normal;
@@ -152,21 +169,35 @@ CausticRays::Start CausticRays::random_point(const SpecularRays::Hit& hit, Rando
 }
 
 /// A mirror as bundles know it: all of a patch sends what has come in on it, each of its points
-/// about the mirrored direction to where that came from. False where the ray ends.
+/// about the mirrored direction to where that came from; alike in all directions where the patch is
+/// bent (is_bent()), or the light from below its mean plane. False where the ray ends.
 bool CausticRays::scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& random) const {
-    const auto [point, normal] = random_point(hit, random);
-    const glm::mat3 world = frame_about(normal);
-    const glm::vec3 towards = glm::normalize(ray.origin - point) * world;  // its transpose
+    const Start start = random_point(hit, random);
+    const glm::mat3 world = frame_about(start.mean_normal);
+    glm::vec3 towards = glm::normalize(ray.origin - start.point) * world;  // its transpose
     const Brdf& lobe = lobes_[facet_material_[hit.facet]];
     const glm::vec2 u(random.next(), random.next());
-    const BrdfSample drawn = sample(lobe, towards, u, random.next());
+    const float choice = random.next();
+    const bool spreads = !sets_.empty() && (start.bent || towards.z <= 0.0F);
+    if (start.bent) {
+        towards = cosine_direction(random);
+    } else if (spreads) {
+        towards.z = -towards.z;
+    }
+    const BrdfSample drawn = sample(lobe, towards, u, choice);
     if (!(drawn.pdf > 0.0F) || drawn.w_in.z <= 0.0F) {
         return false;
     }
-    // Reciprocal: what is drawn as coming in is where the light goes.
-    ray.flux *= evaluate(lobe, towards, drawn.w_in) * (drawn.w_in.z / drawn.pdf);
     ray.direction = glm::normalize(world * drawn.w_in);
-    ray.origin = point;
+    float cosine = drawn.w_in.z;
+    if (spreads) {  // what has been drawn tells the albedo
+        ray.direction = glm::normalize(frame_about(start.normal) * cosine_direction(random));
+    } else if (!sets_.empty()) {
+        cosine = std::max(glm::dot(ray.direction, start.normal), 0.0F);
+    }
+    // Reciprocal: what is drawn as coming in is where the light goes.
+    ray.flux *= evaluate(lobe, towards, drawn.w_in) * (cosine / drawn.pdf);
+    ray.origin = start.point;
     return ray.flux != glm::vec3(0.0F);
 }
 

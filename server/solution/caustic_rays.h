@@ -44,11 +44,20 @@ class CausticRays {
     void follow_as_bundles(LightRay ray, Random& random,
                            std::vector<CausticDeposit>& deposits) const;
     [[nodiscard]] bool scatter(LightRay& ray, const SpecularRays::Hit& hit, Random& random) const;
+    /// A point of a patch, the normal there, and that of all of the patch.
     struct Start {
-        glm::vec3 point{0.0F}, normal{0.0F};
+        glm::vec3 point{0.0F}, normal{0.0F}, mean_normal{0.0F};
+        bool bent = false;
     };
-    [[nodiscard]] std::array<glm::vec3, 3> random_face(const SpecularRays::Hit& hit, Random& random,
-                                                       bool& back) const;
+    /// One of a patch's triangles, and the sum of all of them times their normals (twice), which
+    /// are those of backs where `back`.
+    struct Face {
+        std::array<glm::vec3, 3> corners;
+        glm::vec3 facing{0.0F};
+        bool back = false, bent = false;
+    };
+    [[nodiscard]] Face random_face(const SpecularRays::Hit& hit, Random& random) const;
+    static glm::vec3 cosine_direction(Random& random);
     [[nodiscard]] Start random_point(const SpecularRays::Hit& hit, Random& random) const;
     [[nodiscard]] std::uint32_t triangle_of(std::uint32_t facet, const glm::vec3& position) const;
     [[nodiscard]] std::uint32_t patch_at(std::uint32_t facet, bool front,
@@ -60,6 +69,7 @@ class CausticRays {
     std::vector<std::uint32_t> facet_material_, back_side_;
     std::vector<std::uint32_t> side_triangle_;
     PatchSets sets_;
+    std::vector<bool> bent_;  // by patch, see is_bent()
     std::vector<glm::uvec3> triangles_;
     std::vector<FacetNode> facet_roots_, facet_tree_;  // empty: facets are triangles
 };

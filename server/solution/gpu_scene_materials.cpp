@@ -131,7 +131,8 @@ void GpuScene::upload_reflectors(const PatchMesh& mesh) {
     const std::vector<std::uint32_t> records = reflectance_records(mesh);
     for (std::uint32_t i = 0; i < patch_count_; ++i) {
         const std::uint32_t material = mesh.triangle_material[mesh.triangle_of(i)];
-        const std::uint32_t record = reflectance_.glossy(material) ? records[i] : NOT_GLOSSY;
+        const bool glossy = reflectance_.glossy(material) && !is_bent(mesh, i);
+        const std::uint32_t record = glossy ? records[i] : NOT_GLOSSY;
         reflectors.emplace_back(base_colour[i], std::bit_cast<float>(record));
     }
     if (reflectors_.bytes() > 0) {
