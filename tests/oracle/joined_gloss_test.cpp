@@ -114,6 +114,7 @@ double albedo_of_ball(const Material& surface, bool join) {
     Scene scene = b.loaded_scene();
     TessellationSettings tessellation;
     tessellation.patch_size = 3.0F;
+    tessellation.target_patches = 1;
     tessellation.join_triangles = join;
     const PatchMesh mesh = tessellate(scene, tessellation);
     OracleSettings settings;

@@ -77,7 +77,7 @@ struct TessellationSettings {
     /// Before patches are split further near other surfaces (scene/contact/near_field.h).
     std::size_t target_patches = 25'000;
     std::size_t max_patches = 4'000'000;  ///< a larger result is an error, not a hang
-    bool join_triangles = false;          ///< smaller than a patch of the target edge, to one patch
+    bool join_triangles = true;  ///< small ones, where there are more than target_patches / 2
 };
 
 /// Splits longest edges until none is longer than the target edge (in world space, at the objects'

@@ -148,12 +148,11 @@ void refine_near_field(const Scene& scene, const TessellationSettings& settings,
 /// Whether triangles that have so many sides are to be joined: where the file's own ones would take
 /// the goal beyond the target, and some are small.
 bool joins(const JoinPlan& plan, const TessellationSettings& settings, std::size_t sides) {
-    const bool sized = settings.patch_size > 0.0F;
-    const double edge = sized ? double{settings.patch_size}
-                              : edge_for(plan, static_cast<double>(std::min(settings.target_patches,
-                                                                            settings.max_patches)));
-    return settings.join_triangles && (sized || sides > settings.target_patches / 2) &&
-           plan.any_small(edge);
+    const double edge = settings.patch_size > 0.0F
+                            ? double{settings.patch_size}
+                            : edge_for(plan, static_cast<double>(std::min(settings.target_patches,
+                                                                          settings.max_patches)));
+    return settings.join_triangles && sides > settings.target_patches / 2 && plan.any_small(edge);
 }
 
 /// Refines the scene's triangles, those that are cut where others stand on them.
