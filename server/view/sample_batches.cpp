@@ -18,13 +18,15 @@ void SampleBatches::restart() {
     last_ = {};
     gained_ = 0.0;
     count_ = 0;
+    empty_ = true;
     correlation_ = 1.0;
 }
 
 bool SampleBatches::end(const SampleWeights& all, SampleOrder order) {
     begin_ = last_.sum;
     const float weight = all.sum - last_.sum;
-    if (!(weight > 0.0F)) {
+    empty_ = !(weight > 0.0F);
+    if (empty_) {
         return false;
     }
     squares_ += weight * weight;
@@ -36,6 +38,9 @@ bool SampleBatches::end(const SampleWeights& all, SampleOrder order) {
 }
 
 void SampleBatches::take(const Sums& sums) {
+    if (empty_) {
+        return;
+    }
     if (sums.square > 0.0 && sums.other > 0.0) {
         const double cosine = sums.product / std::sqrt(sums.square * sums.other);
         const double kept = std::min(1.0, (memory - 1.0) / std::max(cosines_, 1.0));

@@ -37,6 +37,7 @@ class SampleBatches {
     /// batches, for the shader.
     [[nodiscard]] float begin() const { return begin_; }
     [[nodiscard]] float squares() const { return squares_; }
+    /// Of the batch that end() was called for last; nothing where that was empty.
     void take(const Sums& sums);
 
     /// Variance of the mean of all samples over what their scatter says, >= 1: samples hang
@@ -58,6 +59,7 @@ class SampleBatches {
     double gained_ =
         0.0;              // squares of the samples' weights times variance_of_mean() of their batch
     unsigned count_ = 0;  // of batches
+    bool empty_ = true;   // the last batch
     double correlation_ = 1.0;
     double cosines_ = 0.0, sum_ = 0.0, squared_ = 0.0;  // their number, sum and sum of squares
 };

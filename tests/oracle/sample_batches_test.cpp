@@ -73,10 +73,17 @@ TEST(SampleBatches, SayWhereSamplesHangTogether) {
         batches.take(sums);
         EXPECT_NEAR(batches.correlation(), batch == 0 ? 1.0 : 3.0, 1e-6);
     }
+    EXPECT_FALSE(batches.end(all, order)) << "no new samples";
+    sums.variance = 0.0;
+    batches.take(sums);
+    EXPECT_NEAR(batches.correlation(), 3.0, 1e-6) << "of the last batch that had any";
+    all.samples += 8;
+    all.sum += 8.0F;
+    all.squares += 8.0F;
+    EXPECT_TRUE(batches.end(all, order));
     sums.variance = 0.3 * expected;
     batches.take(sums);
     EXPECT_EQ(batches.correlation(), 1.0);
-    EXPECT_FALSE(batches.end(all, order)) << "no new samples";
     batches.restart();
     EXPECT_EQ(batches.correlation(), 1.0);
     EXPECT_EQ(batches.begin(), 0.0F);
