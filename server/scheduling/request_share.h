@@ -16,15 +16,12 @@ namespace raybundle {
 /// inbox, which is bounded. Has no clock of its own.
 class RequestShare {
   public:
-    /// budget: of a viewer, where there are full_shares viewers at most; more have smaller shares.
-    explicit RequestShare(const BudgetSettings& budget = SchedulingSettings().requests,
-                          double full_shares = SchedulingSettings().request_shares)
-        : budget_(budget), full_shares_(full_shares) {}
+    explicit RequestShare(const RequestSettings& settings = {}) : settings_(settings) {}
 
     /// Notes the cost of a request of this viewer. viewers: how many there are.
     void charge(ViewerId viewer, double cost_ms, std::size_t viewers) {
-        const double crowd = static_cast<double>(viewers) / full_shares_;
-        budgets_.try_emplace(viewer, budget_)
+        const double crowd = static_cast<double>(viewers) / settings_.full_shares;
+        budgets_.try_emplace(viewer, settings_.of_one)
             .first->second.charge(cost_ms * (crowd > 1.0 ? crowd : 1.0));
     }
 
@@ -42,8 +39,7 @@ class RequestShare {
     void forget(ViewerId viewer) { budgets_.erase(viewer); }
 
   private:
-    BudgetSettings budget_;
-    double full_shares_;
+    RequestSettings settings_;
     std::map<ViewerId, TimeBudget> budgets_;
 };
 

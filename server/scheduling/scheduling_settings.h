@@ -80,6 +80,31 @@ struct SnapshotPaceSettings {
     double report_interval_s = 1.0;
 };
 
+/// What viewers ask for besides frames.
+struct RequestSettings {
+    BudgetSettings of_one{0.25, 250.0};  ///< of one viewer, if there are one or two
+    double full_shares = 2.0;            ///< more viewers share what so many may have
+};
+
+/// First frames while others move.
+struct GreetingSettings {
+    BudgetSettings answering{0.1, 250.0};  ///< of viewers that have answered a ping
+    BudgetSettings silent{0.03, 250.0};    ///< of connections that have answered nothing
+};
+
+/// Threads beside the render thread rest so many times as long as they have worked.
+struct RestSettings {
+    double error_check = 5.0;  ///< a sixth of one core
+    double walk_map = 1.0;     ///< half of one core
+};
+
+/// Between two messages of a kind to everybody.
+struct MessagePaceSettings {
+    double solution_s = 0.25;
+    double min_presence_s = 0.1;          ///< at least, or
+    double presence_per_viewer_s = 0.01;  ///< so much for each viewer, if that is more
+};
+
 /// All that decides who gets time: docs/scheduling.md says it in sentences.
 struct SchedulingSettings {
     /// Option `minFramesPerSecond`: a viewer is refused if the others would get fewer frames; 0:
@@ -99,21 +124,11 @@ struct SchedulingSettings {
     ViewerPaceSettings viewers;
     SnapshotPaceSettings snapshots;
 
-    /// Requests of one viewer, where there are one or two; all of more share what two may have.
-    BudgetSettings requests{0.25, 250.0};
-    double request_shares = 2.0;  ///< more viewers than so have smaller shares
-    /// First frames while others move: of viewers that answer, and of connections that do not.
-    BudgetSettings greeting{0.1, 250.0};
-    BudgetSettings silent_greeting{0.03, 250.0};
-    /// Statistics of pictures.
-    BudgetSettings statistics{0.1, 20.0};
-    /// Threads beside the render thread rest so many times as long as they have worked.
-    double error_check_rest = 5.0;  ///< a sixth of one core
-    double walk_map_rest = 1.0;     ///< half of one core
-
-    double solution_interval_s = 0.25;  ///< between two `solution` messages
-    double min_presence_interval_s = 0.1;
-    double presence_interval_per_viewer_s = 0.01;
+    RequestSettings requests;
+    GreetingSettings greeting;
+    BudgetSettings statistics{0.1, 20.0};  ///< of pictures' errors
+    RestSettings rests;
+    MessagePaceSettings messages;
 };
 
 }  // namespace raybundle

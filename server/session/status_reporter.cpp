@@ -33,7 +33,7 @@ void StatusReporter::update_metrics() {
 
 bool StatusReporter::due() {
     const TimePoint now = parts_.policy.clock().now();
-    if (seconds(now - last_solution_) < parts_.policy.settings().solution_interval_s) {
+    if (seconds(now - last_solution_) < parts_.policy.settings().messages.solution_s) {
         return false;
     }
     last_solution_ = now;

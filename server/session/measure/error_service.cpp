@@ -8,7 +8,7 @@
 namespace raybundle {
 
 ErrorService::ErrorService(const Parts& parts)
-    : parts_(parts), checker_(parts.policy.clock(), parts.policy.settings().error_check_rest) {}
+    : parts_(parts), checker_(parts.policy.clock(), parts.policy.settings().rests.error_check) {}
 
 void ErrorService::refresh_statistics() {
     const Clock& clock = parts_.policy.clock();

@@ -78,11 +78,11 @@ void PresenceService::forget(ViewerId viewer) {
 }
 
 void PresenceService::send() {
-    const SchedulingSettings& settings = parts_.policy.settings();
+    const MessagePaceSettings& pace = parts_.policy.settings().messages;
     const TimePoint now = parts_.policy.clock().now();
     const double interval_s =
-        std::max(settings.min_presence_interval_s, settings.presence_interval_per_viewer_s *
-                                                       static_cast<double>(parts_.viewers.size()));
+        std::max(pace.min_presence_s,
+                 pace.presence_per_viewer_s * static_cast<double>(parts_.viewers.size()));
     if (!changed_ || seconds(now - last_sent_) < interval_s) {
         return;
     }

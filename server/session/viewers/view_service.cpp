@@ -12,7 +12,7 @@ namespace raybundle {
 ViewService::ViewService(const Parts& parts)
     : parts_(parts),
       targets_(parts.scene.log()),
-      walk_mapper_(std::as_const(parts.scene).scene(), parts.policy.settings().walk_map_rest,
+      walk_mapper_(std::as_const(parts.scene).scene(), parts.policy.settings().rests.walk_map,
                    [this](const ClientEvent& event, const std::optional<WalkMap>& map,
                           std::uint32_t epoch) { answer_walk_map(event, map, epoch); }) {}
 
