@@ -50,6 +50,8 @@
 #define BINDING_SPECULAR_GROUPS 40    // see specular_groups.glsl
 #define BINDING_SPECULAR_FLAGS 41     // uint[]: 1: the group of pixels is in the list
 #define BINDING_SENT 42               // vec4[]: as BINDING_RADIANCE, but towards a parallel bundle's direction
+#define BINDING_CONFIDENCE 43         // vec2[]: see view_confidence.glsl
+#define BINDING_CONFIDENCE_SUMS 44    // vec4[]: two a tile
 #define BINDING_EDGE_COUNTS 43        // uint[]: see edge_counts.glsl
 #define BINDING_SMOOTHED 44           // as BINDING_FRAME, with smooth edges
 #define BINDING_CAUSTICS 45           // vec4[]: radiance that caustics make of patches, see patch_source.glsl
@@ -99,6 +101,8 @@
 #define SCATTER_PARALLEL 0u
 #define SCATTER_PERSPECTIVE 1u
 #define SCATTER_NOT_MEASURED 2u
+#define CONFIDENCE_TILE 8  // pixels along an edge
+#define CONFIDENCE_WHOLE 2  // values before those of the tiles
 #define GROUP_SIZE 8  // iterations that are planned together
 #define SCATTER_SUMS 7  // of a probe pixel, see view_scatter.glsl
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
@@ -132,6 +136,7 @@
 #define UNIT_SHADOW_EDGES 24      // r8ui array: see first_shot.glsl
 #define UNIT_SIDES 26               // rg32ui: patch and triangle of each side, in scenes with PATCH_SETS
 #define UNIT_MEMBERS 31             // rg32ui: see patch_members.glsl
+#define UNIT_CONFIDENCE 32          // rg32f: see view_confidence.glsl
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
@@ -399,11 +404,13 @@ struct ViewParameters {
     vec4 up;            // scaled by tan(fov/2)
     vec4 forward;       // unit
     uvec4 size;         // width, height, probe columns, probe rows
-    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, confidence weight, unit of the isolines
+    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, unused, unit of the isolines
     vec4 sky;           // background radiance, radiance units; w = factor of the environment's texels
     vec4 sun;           // to it, unit; w = cosine of its radius, above 1: none is drawn
     vec4 sun_radiance;  // cd/m^2
     vec4 weights;       // x: weight of all samples since the last resolve; since the scatter sums began, y: the same, z: sum of squared weights
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
+    vec4 confidence;    // tiles in a row, 0: none, and in a column; z: a tile's edge, pixels; see view_confidence.glsl
+    vec4 gain;          // of low-discrepancy samples: the variance of a mean falls faster, x: by this exponent, y: from so many on
     vec4 places[STAGGER_PERIOD * STAGGER_PERIOD / 2];  // of the pixels' samples, two each, see view_place.glsl
 };

@@ -86,10 +86,11 @@ vec4 shown_sum(uint index, PixelSurface p) {
     return kept.w > 0.0 ? own + believed_sum(patch_of_side(p.side), kept, own) : own;
 }
 
+#include "view_confidence.glsl"
+
 vec3 blended_irradiance(uint index, PixelSurface p) {
     vec4 sum = shown_sum(index, p);
-    float confidence = sum.w / (sum.w + view.display.z);
-    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence);
+    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence(index, p.side, sum.w));
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
 #endif
@@ -197,7 +198,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
     RARELY((p.facet & PIXEL_GLOSSY) != 0u) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);
-        vec3 gloss = own.rgb / max(weight, 1e-6);
+        vec3 gloss = own.rgb / max(weight, 1e-6) * confidence_of_gloss(index, p.side, shown_sum(index, p).w);
 #ifdef FIRST_SHOT
         gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
 #endif

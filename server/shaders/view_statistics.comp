@@ -20,7 +20,6 @@ layout(local_size_x = 64) in;
 #include "view_kept.glsl"
 layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer { vec4 partial[]; };
 #include "false_colour.glsl"
-layout(std430, binding = BINDING_IRRADIANCE) readonly buffer MeanBuffer { vec4 mean_irradiance[]; };
 layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 iterate[]; };
 uniform float logarithm_floor;   // radiance units
 uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
@@ -82,6 +81,20 @@ void end_batch(uint probe, float scale, float l) {
     batches.w += min(scale * scale * variance_of(vec3(sum, squares, products), weight, batch_squares).y, l * l);
 }
 
+/// Squared error of the irradiance that is shown, P + c (S - P). independent: variance of the own mean S since the sums
+/// began, were its samples independent. What noise P has is taken for common to both, and so for no part of D.
+float shown_variance(uint index, PixelSurface p, float independent, float weight) {
+    float own_weight = view.weights.y;
+    // The sums may be younger than the mean that is shown.
+    float own = independent * variance_of_mean * min(own_weight / weight, 1.0);
+    float one = independent * own_weight * own_weight / max(view.weights.z, 1e-12);
+    float patches = min(one * variance_share(mean_irradiance[patch_of_side(p.side)].w), own);
+    float c = confidence(index, p.side, weight);
+    float light = luminance(object_space_irradiance(p, false));
+    float unresolved = local_light(index).y * light * light;
+    return c * c * own + (1.0 - c * c) * patches + (1.0 - c) * (1.0 - c) * unresolved;
+}
+
 vec4 probe_statistics(uint probe) {
     uvec2 at = uvec2(probe % view.size.z, probe / view.size.z) * 4u + 1u;
     if (at.x >= view.size.x || at.y >= view.size.y) {
@@ -119,13 +132,15 @@ vec4 probe_statistics(uint probe) {
         float guess = error_before * l;  // just disoccluded, or the camera has just moved
         return vec4(guess * guess, l * l, logarithm, 1.0);
     }
-    float alone = mean_and_variance(probe, own_weight, view.weights.z).y * reflectance * reflectance;
+    float independent = mean_and_variance(probe, own_weight, view.weights.z).y;
+    float alone = independent * reflectance * reflectance;
     drift.z += min(alone, l * l);
-    float variance = alone * variance_of_mean;
+    float variance;
     if (changed) {
-        variance = variance_with_kept(kept_share(patch_id, kept, own), min(variance, l * l), l, reflectance);
+        KeptShare share_of_kept = kept_share(patch_id, kept, own);
+        variance = variance_with_kept(share_of_kept, min(alone * variance_of_mean, l * l), l, reflectance);
     } else {
-        variance *= min(own_weight / own.w, 1.0);  // the sums may be younger than the mean that is shown
+        variance = shown_variance(index, p, independent, own.w) * reflectance * reflectance;
     }
     variance += through * through * variance_of_patches;
     return vec4(min(variance, l * l), l * l, logarithm, 1.0);

@@ -38,6 +38,9 @@ class BundleReceiver {
     BundleReceiver& operator=(const BundleReceiver&) = delete;
     virtual ~BundleReceiver() = default;
 
+    /// The next iteration begins; what the last one brought is in the solution. Not in special
+    /// phases; nothing is bound yet.
+    virtual void begin_sample() {}
     virtual void receive_hemicube(const Context& context) = 0;
     virtual void receive_layers(const Context& context) = 0;
     /// Of normal iterations only.

@@ -216,6 +216,9 @@ float Solver::iterate_age() const {
 
 void Solver::run(const Planned& planned, unsigned slot,
                  std::span<BundleReceiver* const> receivers) {
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_sample();
+    }
     TransferSettings settings;
     settings.probabilities = probabilities_;
     settings.density_error = settings_.density_error;

@@ -18,6 +18,14 @@ struct ErrorInterval {
 /// sequence, or shuffled within blocks, as for glossy scenes.
 enum class SampleOrder { low_discrepancy, shuffled };
 
+/// From so many samples on the error of their mean falls like n^-exponent beside that of
+/// independent ones.
+struct SequenceGain {
+    double exponent;
+    double from_samples;
+};
+SequenceGain gain_of(SampleOrder order);
+
 /// Variance of the mean of so many samples over what it would be were they independent. Every
 /// iteration is a sample of its own: where 8 batches have 7 degrees of freedom times those of the
 /// picture (about 5), so that their variance is known to +-25 % whatever the number of samples, n

@@ -71,6 +71,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
       scatter_refine({"view_scatter_refine.comp"}),
+      confidence({ShaderProgram({"view_confidence_look.comp"}, with_all(scene.defines(), variant)),
+                  ShaderProgram({"view_confidence.comp"})}),
       depths({"view_depths.comp"}),
       crowded({"view_crowded.comp"}),
       hemicube_pixels(make_receive_hemicube(scene, variant)),

@@ -9,6 +9,7 @@
 #include "gpu/shader_program.h"
 #include "solution/gpu_scene.h"
 #include "view/affected_tiles.h"
+#include "view/confidence.h"
 #include "view/edge_filter.h"
 
 namespace raybundle {
@@ -32,6 +33,7 @@ struct ViewPrograms {
     ShaderProgram keep;                                    ///< what pixels have over a change
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
     ShaderProgram scatter_refine;
+    ConfidencePrograms confidence;
     ShaderProgram depths;
     ShaderProgram crowded;
     ShaderProgram first_shot;  ///< only where the scene has punctual lights

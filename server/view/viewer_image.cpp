@@ -75,6 +75,7 @@ void ViewerImage::allocate() {
     scatter_.clear();
     create_pixel_textures();
     edges_.emplace(size_);
+    renew_confidence();
     affected_.emplace(size_);
     crowded_.emplace(pixels);
     if (scene_.reflectance().specular()) {
@@ -143,6 +144,7 @@ void ViewerImage::restart(const Camera& camera, glm::uvec2 size) {
     camera_ = camera;
     statistics_ = {};
     light_before_ = 0.0;
+    confidence_->forget();
     refresh_geometry(0.0F);
 }
 
@@ -165,6 +167,8 @@ void ViewerImage::refine(unsigned factor) {
     Texture2D pixel_texture = std::move(pixel_texture_);
     Texture2D irradiance_texture = std::move(irradiance_texture_);
     Texture2D gloss_texture = std::move(gloss_texture_);
+    const Confidence confidence = std::move(*confidence_);
+    confidence_.reset();
     grid_ *= factor;
     full_size_ *= factor;
     size_ = full_size_;
@@ -181,6 +185,8 @@ void ViewerImage::refine(unsigned factor) {
     parameters_.weights.y = weights.y;
     parameters_.weights.z = weights.z;
     scatter_samples_ = scatter_samples;
+    confidence_->inherit_tiles(confidence, factor);
+    tell_confidence();
     old_pixels_ = std::move(pixels);
     old_irradiance_ = std::move(irradiance);
     old_gloss_ = std::move(gloss);
@@ -228,6 +234,7 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
     parameters_.size = picture_size(size_);
     parameters_.display = display;
     set_places(parameters_, staggered_places(grid_));
+    tell_confidence();
     scene_.set_background(parameters_);
     if (continued_) {
         continued_->refresh(parameters_, camera_, kept_weight);
@@ -311,6 +318,7 @@ void ViewerImage::bind_pixels() const {
     glBindTextureUnit(UNIT_PIXEL_IRRADIANCE, irradiance_texture_.get());
     glBindTextureUnit(UNIT_PIXEL_KEPT, kept_texture_.get());
     glBindTextureUnit(UNIT_VERTEX_IRRADIANCE, vertex_irradiance_texture_.get());
+    confidence_->bind();
     if (specular_) {
         specular_->bind();
     }
@@ -335,18 +343,6 @@ void ViewerImage::refresh_continued(const Buffer& ends, const Camera& camera, fl
     camera_ = camera;
     refresh_geometry(kept_weight);
     clear_increments();
-}
-
-std::size_t ViewerImage::bytes() const {
-    std::size_t sum = pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() +
-                      crowded_->bytes() + (continued_ ? continued_->bytes() : 0) +
-                      (depth_grid_ ? depth_grid_->bytes() : 0);
-    for (const Buffer* buffer :
-         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &kept_, &scatter_,
-          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
-        sum += buffer->bytes();
-    }
-    return sum;
 }
 
 }  // namespace raybundle

@@ -18,6 +18,7 @@
 #include "transport/bundle_receiver.h"
 #include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
+#include "view/confidence.h"
 #include "view/crowded_pixels.h"
 #include "view/depth_grid.h"
 #include "view/edge_filter.h"
@@ -134,6 +135,7 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] bool smoothed() const { return edges_->complete(); }
 
     // BundleReceiver
+    void begin_sample() override;
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
@@ -207,8 +209,6 @@ class ViewerImage : public BundleReceiver {
 
   private:
     static constexpr std::size_t statistics_groups = 64;  // of 64 invocations
-    /// Samples that a pixel needs to outweigh the object-space value.
-    static constexpr float confidence_weight = 6.0F;
     static constexpr float mid_grey = 0.18F;
     static constexpr float near_share = 1e-4F;  // of the scene's diameter
 
@@ -248,6 +248,8 @@ class ViewerImage : public BundleReceiver {
     void receive_special(const ViewPrograms::Receive& programs, const Context& context);
     void clear_increments() const;
     void restart_scatter();
+    void renew_confidence();
+    void tell_confidence();
     void refine_scatter(const Buffer& coarse, glm::uvec2 coarse_size);
     void begin_change();
     void keep_light(bool apart);
@@ -302,6 +304,7 @@ class ViewerImage : public BundleReceiver {
     bool keeping_ = false;  // some of them have any
     Texture2D kept_texture_;
     Buffer vertex_irradiance_, statistics_buffer_, frame_;
+    std::optional<Confidence> confidence_;      // always
     std::optional<EdgeFilter> edges_;           // always
     std::optional<CrowdedPixels> crowded_;      // always
     std::optional<DepthGrid> depth_grid_;       // only for who asks for depths

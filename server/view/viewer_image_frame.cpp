@@ -36,7 +36,7 @@ void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_siz
     const float factor = mode == DisplayMode::photo
                              ? display_factor(exposure) * scene_.radiance_unit()
                              : scale.maximum;
-    parameters_.display = {scene_.radiance_unit(), factor, confidence_weight, scale.isolines};
+    parameters_.display = {scene_.radiance_unit(), factor, 0.0F, scale.isolines};
     upload_view();
     frame_size = glm::clamp(frame_size, glm::uvec2(1), size_);
     const auto index = static_cast<std::size_t>(mode);
@@ -73,7 +73,7 @@ void ViewerImage::request_depths(std::uint32_t columns) {
 
 void ViewerImage::shade_continued(const Buffer& radiance) {
     interpolate_vertices();
-    parameters_.display = {1.0F, 1.0F, confidence_weight, 0.0F};
+    parameters_.display = {1.0F, 1.0F, 0.0F, 0.0F};
     upload_view();
     radiance.bind_storage(BINDING_FRAME);
     programs_.compose_linear.set("triangle_count", scene_.triangle_count());

@@ -2,13 +2,14 @@
 // What is read from a viewer's picture: its light, and single pixels.
 #include <bit>
 
+#include "view/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
 
 std::vector<glm::vec4> ViewerImage::read_radiance() {
     interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    parameters_.display = {scene_.radiance_unit(), 1.0F, 0.0F, 0.0F};
     upload_view();
     Buffer linear("linear frame", pixel_count(size_) * sizeof(glm::vec4));
     linear.bind_storage(BINDING_FRAME);
@@ -36,7 +37,7 @@ std::vector<std::optional<PixelProbe>> ViewerImage::probe(std::span<const glm::u
         picks[i].position.x = std::bit_cast<float>((size_.y - 1 - pixel.y) * size_.x + pixel.x);
     }
     interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    parameters_.display = {scene_.radiance_unit(), 1.0F, 0.0F, 0.0F};
     upload_view();
     auto buffer = Buffer::from<layout::PickResult>("probes", picks);
     buffer.bind_storage(BINDING_PICK);
@@ -83,6 +84,19 @@ std::vector<glm::vec4> ViewerImage::read_irradiance() const {
         result[i] = glm::vec4(glm::vec3(sum + parameters_.constant) * scale, sum.w);
     }
     return result;
+}
+
+std::size_t ViewerImage::bytes() const {
+    std::size_t sum = pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() +
+                      confidence_->bytes() + crowded_->bytes() +
+                      (continued_ ? continued_->bytes() : 0) +
+                      (depth_grid_ ? depth_grid_->bytes() : 0);
+    for (const Buffer* buffer :
+         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &kept_, &scatter_,
+          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
+        sum += buffer->bytes();
+    }
+    return sum;
 }
 
 }  // namespace raybundle

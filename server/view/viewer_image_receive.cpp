@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A viewer's pixels as receivers of bundles.
 #include <algorithm>
+#include <utility>
 
 #include "view/continued_view.h"
 #include "view/viewer_image.h"
@@ -47,6 +48,40 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
     parameters_.weights.y += context.sample_weight;
     parameters_.weights.z += context.sample_weight * context.sample_weight;
     parameters_.constant += glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
+}
+
+/// How the own light counts beside that of the patches is looked at while nothing is under way.
+void ViewerImage::begin_sample() {
+    if (continued() != nullptr) {
+        continued()->begin_sample();
+    }
+    if (!confidence_->due(scatter_samples_)) {
+        return;
+    }
+    store_.bind();
+    bind_pixels();
+    programs_.vertex_irradiance.set("vertex_count", scene_.vertex_count());
+    programs_.vertex_irradiance.dispatch(scene_.vertex_count());
+    upload_view();
+    confidence_->look(programs_.confidence, size_, scene_.triangle_count(), scatter_samples_);
+    tell_confidence();
+}
+
+/// Of a picture of another size what is known of all of it goes on.
+void ViewerImage::renew_confidence() {
+    Confidence confidence(size_);
+    if (confidence_) {
+        confidence.inherit(*confidence_);
+    }
+    confidence_.emplace(std::move(confidence));
+}
+
+void ViewerImage::tell_confidence() {
+    // The ends behind mirrors have no neighbours.
+    const bool tiles = ends_ == nullptr;
+    parameters_.confidence = glm::vec4(tiles ? confidence_->tiles() : glm::vec3(0.0F), 0.0F);
+    const SequenceGain gain = gain_of(sample_order());
+    parameters_.gain = glm::vec4(2.0 * gain.exponent, gain.from_samples, 0.0, 0.0);
 }
 
 void ViewerImage::receive_hemicube(const Context& context) {

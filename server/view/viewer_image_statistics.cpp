@@ -58,6 +58,8 @@ void ViewerImage::restart_scatter() {
     parameters_.weights.z = 0.0F;
     scatter_samples_ = 0;
     batches_.restart();
+    confidence_->restart();
+    tell_confidence();
     detail_samples_ = 0;
     requested_samples_ = 0;
     statistics_.samples = 0;
@@ -84,7 +86,7 @@ void ViewerImage::request_statistics() {
         continued()->request_statistics();
     }
     interpolate_vertices();
-    parameters_.display = {scene_.radiance_unit(), 1.0F, confidence_weight, 0.0F};
+    parameters_.display = {scene_.radiance_unit(), 1.0F, 0.0F, 0.0F};
     upload_view();
     programs_.statistics.set("triangle_count", scene_.triangle_count());
     programs_.statistics.set("logarithm_floor", 1e-4F / scene_.radiance_unit());
