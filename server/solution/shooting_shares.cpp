@@ -17,12 +17,14 @@ std::vector<float> shooting_factors(std::span<const ZoneFlux> zones,
         power.push_back(std::max(luminance_of(z.emitted + levels[zone].scale * z.reflected +
                                               z.area * z.albedo * levels[zone].offset),
                                  0.0));
-        all_power += power.back();
-        all_area += z.area;
+        if (!z.loose) {
+            all_power += power.back();
+            all_area += z.area;
+        }
     }
     std::vector<float> factors(zones.size(), 1.0F);
     for (std::size_t zone = 0; zone < zones.size(); ++zone) {
-        if (power[zone] > darkest * all_power) {
+        if (!zones[zone].loose && power[zone] > darkest * all_power) {
             const double by_area = zones[zone].area / all_area * (all_power / power[zone]);
             factors[zone] = static_cast<float>(by_power + (1.0 - by_power) * by_area);
         }

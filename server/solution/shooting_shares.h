@@ -12,6 +12,7 @@ namespace raybundle {
 /// the patches of a dim room beside a bright one would hardly ever shoot. So half of all shooters
 /// are chosen by power, and half by the areas of zones, within a zone by power. No zone has less
 /// than half as many as either alone would give it, and a scene of one zone is as it is without.
+/// What belongs to no room, as facades and what is hidden below furniture, shoots by its power.
 /// zones: with `scale` applied to what they reflect when `levels` say so.
 std::vector<float> shooting_factors(std::span<const ZoneFlux> zones,
                                     std::span<const ZoneLevel> levels);

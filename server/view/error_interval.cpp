@@ -14,7 +14,7 @@ namespace {
 /// with that. The rest is the estimate's own, which fades like independent samples: see
 /// few_samples() for what it was fitted to.
 double noise_half_width(double noise, std::uint64_t samples, SampleOrder order, double luck) {
-    constexpr double of_estimate = 1.37;
+    constexpr double of_estimate = 1.25;
     constexpr double most = 0.6;
     const double independent = noise / std::sqrt(variance_of_mean(samples, order));
     return std::hypot(luck, of_estimate * std::min(independent, most));

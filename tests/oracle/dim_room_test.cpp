@@ -34,6 +34,15 @@ TEST(ShootingFactors, ShareHalfOfAllShootersByArea) {
     EXPECT_EQ(shooting_factors(single, std::vector<ZoneLevel>(1)).front(), 1.0F);
 }
 
+/// A terrain at night, or what is hidden below furniture, takes nothing from the room beside it.
+TEST(ShootingFactors, LeaveOutWhatBelongsToNoRoom) {
+    std::vector<ZoneFlux> zones = {zone(10.0, 1.0, 1.0), zone(1e6, 0.0, 1e-3)};
+    zones[1].loose = true;
+    const std::vector<float> factors = shooting_factors(zones, std::vector<ZoneLevel>(2));
+    EXPECT_EQ(factors[0], 1.0F);
+    EXPECT_EQ(factors[1], 1.0F);
+}
+
 TEST(ShootingFactors, FollowTheNewLevels) {
     const std::vector<ZoneFlux> zones = {zone(1.0, 0.0, 4.0), zone(1.0, 0.0, 4.0)};
     std::vector<ZoneLevel> levels(2);

@@ -126,7 +126,7 @@ TEST(SettledDrag, RisesAfterWallsArePaintedAndPaintedBack) {
     EXPECT_LT(solver.statistics().settled, 0.6);
     iterate(solver, 96);
     paint(before);
-    EXPECT_LT(solver.statistics().settled, 0.7);
+    EXPECT_LT(solver.statistics().settled, 0.6);
     iterate(solver, 384);
     EXPECT_GT(solver.statistics().settled, 0.85);
 }
