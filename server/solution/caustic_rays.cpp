@@ -157,8 +157,9 @@ CausticRays::Start CausticRays::random_point(const SpecularRays::Hit& hit, Rando
     const float along = root * random.next();
     Start start{glm::vec3(0.0F), hit.geometric, hit.geometric, bent};
     if (!sets_.empty()) {
-        const auto unit_normal = [back](const glm::vec3& across) {
-            return across * ((back ? -1.0F : 1.0F) / std::max(glm::length(across), 1e-30F));
+        const float sign = back ? -1.0F : 1.0F;
+        const auto unit_normal = [sign](const glm::vec3& across) {
+            return across * (sign / std::max(glm::length(across), 1e-30F));
         };
         start.normal = unit_normal(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
         start.mean_normal = unit_normal(facing);

@@ -133,6 +133,21 @@ describe('plans and sections', () => {
     });
 });
 
+/// Where an element is once it stays there: handles follow the picture of a new view.
+async function restingBox(locator) {
+    let last = await locator.boundingBox();
+    for (;;) {
+        await locator.evaluate(() => new Promise((done) => {
+            requestAnimationFrame(() => requestAnimationFrame(done));
+        }));
+        const now = await locator.boundingBox();
+        if (last && now && now.x === last.x && now.y === last.y) {
+            return now;
+        }
+        last = now;
+    }
+}
+
 describe('parts of a building', () => {
     it('are found by words, listed by storey, hidden, isolated, and all shown again', async () => {
         const {page, sent} = await opened(house());
@@ -190,7 +205,7 @@ describe('parts of a building', () => {
             window.raybundle.select(3);
         });
         await page.click('[data-gizmo="turn"]');
-        const handle = await page.locator('.gizmo .grip.pivot').boundingBox();
+        const handle = await restingBox(page.locator('.gizmo .grip.pivot'));
         const at = [handle.x + handle.width / 2, handle.y + handle.height / 2];
         await page.mouse.move(...at);
         await page.mouse.down();
