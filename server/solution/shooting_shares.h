@@ -13,7 +13,7 @@ namespace raybundle {
 /// are chosen by power, and half by the areas of zones, within a zone by power. No zone has less
 /// than half as many as either alone would give it, and a scene of one zone is as it is without.
 /// What belongs to no room, as facades and what is hidden below furniture, shoots by its power.
-/// zones: with `scale` applied to what they reflect when `levels` say so.
+/// zones: before `levels` are applied to the irradiance of their patches.
 std::vector<float> shooting_factors(std::span<const ZoneFlux> zones,
                                     std::span<const ZoneLevel> levels);
 

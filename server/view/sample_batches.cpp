@@ -9,7 +9,7 @@ namespace {
 
 constexpr double deviations_of_95 = 1.96;  // standard deviations, 95 %
 constexpr double memory = 64.0;            // batches: views change
-constexpr double usual_counts = 3.0;
+constexpr double usual_counts = 3.0;       // batches as which usual_luck() counts
 
 }  // namespace
 

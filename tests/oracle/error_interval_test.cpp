@@ -165,6 +165,27 @@ TEST(AfterChange, IsWiderWhileItIsNew) {
     EXPECT_GT(soon.high, said.high);
     EXPECT_LT(soon.low, said.low);
     EXPECT_NEAR(after_change(said, 1'000'000).high, said.high, 1e-4);
+    EXPECT_GT(said.error / soon.low, soon.high / said.error) << "kept light is rather better";
+}
+
+/// More is missing the fewer samples matter, and never more than e^0.6.
+TEST(FewSamples, RaiseWhatTheirScatterSays) {
+    EXPECT_EQ(few_samples(0.0), 1.0);
+    EXPECT_LT(few_samples(0.1), few_samples(0.5));
+    EXPECT_NEAR(few_samples(0.5), std::exp(0.3), 1e-12);
+    EXPECT_EQ(few_samples(7.0), few_samples(1.0));
+}
+
+/// Where chance has more to say the interval is wider.
+TEST(ErrorIntervalOf, IsAsWideAsLuckAndFewSamplesMakeIt) {
+    const auto order = SampleOrder::low_discrepancy;
+    const auto width = [&](double noise, double luck) {
+        const ErrorInterval interval = error_interval(noise, 0.0, 64, order, luck);
+        return interval.high / interval.error;
+    };
+    EXPECT_LT(width(0.05, 0.3), width(0.05, 0.6));
+    EXPECT_LT(width(0.05, 0.3), width(0.2, 0.3));
+    EXPECT_DOUBLE_EQ(width(0.9, 0.3), width(0.95, 0.3));
 }
 
 ImageStatistics picture_of(double rms, double error_high) {
