@@ -279,7 +279,7 @@ class SceneBench {
         }
         Object object = *found;
         float step = 0.1F;
-        report_["move"] = measure(12, [&] {
+        const auto move = [&] {
             object.transform.translation.x += step;
             step = -step;
             solver.move_object(index, object.world_from_object(), receivers);
@@ -288,8 +288,10 @@ class SceneBench {
             }
             image.compose(DisplayMode::photo, -6.0F);
             image.take();
-        });
+        };
+        report_["move"] = measure(12, move);
         print("move of '" + object.name + "' to corrected frame", report_["move"]);
+        report_["profile"]["move to corrected frame"] = profile(12, move);
     }
 
     /// Error of a 512x512 picture against a longer run of another seed.
