@@ -52,7 +52,8 @@ vec2 local_light(uint index) {
     return mix(below, above, f.y);
 }
 
-/// Weight of a pixel's own mean. Before anything is known the light of patches that have seen more is shown.
+/// Weight of a pixel's own mean. Before the first look the light of patches that have seen more is shown. A picture too small for
+/// probes looks in vain: its samples speak for themselves.
 float confidence(uint index, uint side, float weight) {
     float own = weight / (weight + samples_of_patches);
     float ahead = weight > 0.0 ? patches_ahead(weight, side) : 0.0;
@@ -61,7 +62,7 @@ float confidence(uint index, uint side, float weight) {
     }
     vec2 light = local_light(index);
     float bias = max(light.y, invisible);
-    float known = texelFetch(confidence_texels, 1).y > 0.0 ? bias / (bias + light.x * ahead) : 0.0;
+    float known = texelFetch(confidence_texels, 1).y > 0.0 ? bias / (bias + light.x * ahead) : view.confidence.w;
     // Samples that outweigh the patches: n (1 - c) / c of each reason.
     return known > 0.0 ? 1.0 / (1.0 / own + 1.0 / known - 1.0) : 0.0;
 }

@@ -22,7 +22,7 @@ vec3 own_irradiance(uint index, PixelSurface p, vec4 sum) {
 }
 
 bool looked_at(PixelSurface p) {
-    bool shown = p.side != NO_PATCH && (p.facet & (PIXEL_EMITTER | PIXEL_UNLIT)) == 0u;
+    bool shown = p.side != NO_PATCH && (p.facet & PIXEL_UNLIT) == 0u;  // what emits may reflect, too
 #if defined(MIRRORS) && !defined(CONTINUED)
     shown = shown && (p.facet & PIXEL_CONTINUED) == 0u;
 #endif

@@ -40,6 +40,8 @@ class Confidence {
     /// Tiles along both edges, 0 while nothing is known of them, and the pixels along a tile's
     /// edge.
     [[nodiscard]] glm::vec3 tiles() const { return {tiles_, tile_}; }
+    /// Since the pixels were new.
+    [[nodiscard]] bool has_looked() const { return tiles_.x > 0; }
     [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + light_.bytes(); }
 
   private:

@@ -79,7 +79,8 @@ void ViewerImage::renew_confidence() {
 void ViewerImage::tell_confidence() {
     // The ends behind mirrors have no neighbours.
     const bool tiles = ends_ == nullptr;
-    parameters_.confidence = glm::vec4(tiles ? confidence_->tiles() : glm::vec3(0.0F), 0.0F);
+    parameters_.confidence = glm::vec4(tiles ? confidence_->tiles() : glm::vec3(0.0F),
+                                       confidence_->has_looked() ? 1.0F : 0.0F);
     const SequenceGain gain = gain_of(sample_order());
     parameters_.gain = glm::vec4(2.0 * gain.exponent, gain.from_samples, 0.0, 0.0);
 }

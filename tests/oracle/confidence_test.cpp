@@ -187,6 +187,45 @@ TEST(Confidence, APictureOfOnePixelHasLight) {
     EXPECT_GT(picture[0].g, 0.0F);
 }
 
+/// Of what a viewer's pixels show who comes when patches have seen `before` bundles: the largest
+/// difference from their own means, relative.
+double difference_from_own(const Room& room, glm::uvec2 pixels, int before, int samples) {
+    Viewer viewer(room, 1);
+    for (int i = 0; i < before; ++i) {
+        viewer.solver.step({});
+    }
+    viewer.image.set_view(room.camera, pixels);
+    viewer.iterate(samples);
+    const auto own = viewer.image.read_irradiance();
+    double largest = 0.0;
+    for (unsigned i = 0; i < pixels.x * pixels.y; ++i) {
+        const auto probe = viewer.image.probe({i % pixels.x, pixels.y - 1 - i / pixels.x});
+        if (probe) {
+            const double mean = green(own[i]);
+            largest = std::max(largest, std::abs(green({probe->irradiance, 0}) - mean) / mean);
+        }
+    }
+    return largest;
+}
+
+/// There is no probe in a picture of one column, so that nothing is ever known of its noise.
+/// Whoever came late was shown the light of patches for ever.
+TEST(Confidence, APictureWithoutProbesShowsItsOwnSamples) {
+    EXPECT_LT(difference_from_own(Room(), {1, 12}, 64, 400), 0.05);
+}
+
+/// What emits also reflects. Where everything emits nothing was looked at, and whoever came late
+/// was shown the light of patches for ever: half of it at the foot of a box, in a probe that stated
+/// 2 %.
+TEST(Confidence, WhatEmitsShowsItsOwnSamples) {
+    Room room;
+    for (Material& material : room.builder.scene.materials) {
+        material.emission = glm::vec3(100.0F);
+    }
+    room.builder.mesh.emission.assign(room.builder.mesh.emission.size(), glm::vec3(100.0F));
+    EXPECT_LT(difference_from_own(room, {32, 24}, 64, 400), 0.05);
+}
+
 /// Nothing receives light: there is nothing to learn, and nothing that is not a number.
 TEST(Confidence, APictureOfNothingButSkyStaysAsItIs) {
     const Room room;
