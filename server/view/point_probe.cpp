@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/point_probe.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace raybundle {
@@ -21,7 +22,26 @@ glm::vec3 normal_of(const Scene& scene, const PatchMesh& mesh, std::uint32_t pat
     return patch >= mesh.triangles.size() ? -normal : normal;
 }
 
+/// Upwards, but not along the line of sight. direction: unit.
+glm::vec3 up_for(const glm::vec3& direction) {
+    return std::abs(direction.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+}
+
 }  // namespace
+
+std::optional<PixelProbe> probe_ray(const GpuScene& gpu_scene, const RadianceStore& store,
+                                    const ViewPrograms& programs, const glm::vec3& origin,
+                                    const glm::vec3& direction) {
+    const glm::vec3 towards = glm::normalize(direction);
+    Camera camera;
+    camera.eye = origin;
+    // Far, so that the direction keeps its digits at coordinates of a map.
+    camera.target = origin + std::max(gpu_scene.diameter(), glm::length(origin)) * towards;
+    camera.up = up_for(towards);
+    ViewerImage image(gpu_scene, store, programs, glm::uvec2(1));
+    image.set_camera(camera);
+    return image.probe(glm::uvec2(0));
+}
 
 std::optional<PixelProbe> probe_point(const GpuScene& gpu_scene, const RadianceStore& store,
                                       const ViewPrograms& programs, const Scene& scene,
@@ -31,7 +51,7 @@ std::optional<PixelProbe> probe_point(const GpuScene& gpu_scene, const RadianceS
     Camera camera;
     camera.target = point;
     camera.eye = point + distance_share * gpu_scene.diameter() * normal;
-    camera.up = std::abs(normal.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    camera.up = up_for(normal);
     ViewerImage image(gpu_scene, store, programs, glm::uvec2(1));
     image.set_camera(camera);
     const std::optional<PixelProbe> probe = image.probe(glm::uvec2(0));

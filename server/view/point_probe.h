@@ -19,4 +19,11 @@ std::optional<PixelProbe> probe_point(const GpuScene& gpu_scene, const RadianceS
                                       const PatchMesh& mesh, std::uint32_t patch,
                                       const glm::vec3& point);
 
+/// The same of the first surface that a ray meets, seen from the ray's origin: a picture of one
+/// pixel. What is nearer than a ten-thousandth of the scene's diameter is not met. origin: world,
+/// m; direction: any length but 0. Nothing where the ray meets no patch. Throws GpuError.
+std::optional<PixelProbe> probe_ray(const GpuScene& gpu_scene, const RadianceStore& store,
+                                    const ViewPrograms& programs, const glm::vec3& origin,
+                                    const glm::vec3& direction);
+
 }  // namespace raybundle

@@ -169,6 +169,11 @@ class CasesPins : public testing::Test {
         viewer_.request({{"setTarget", {{"relativeError", 0.05}}}});
     }
 
+    Json along(const Json& origin, const Json& direction) {
+        return viewer_
+            .request({{"probe", {{"ray", {{"origin", origin}, {"direction", direction}}}}}})
+            .at("probeResult");
+    }
     void look_at(const Json& target) {
         viewer_.request(
             {{"setCamera", {{"eye", {{"x", 2.5}, {"y", 1.6}, {"z", 1.5}}}, {"target", target}}}});
@@ -209,6 +214,19 @@ TEST_F(CasesPins, OutOfSightSaysWhatAProbeThereSays) {
     look_at(floor_);
     const Json pin = pin_at(probed);
     EXPECT_NEAR(pin.at("illuminance").get<double>(), exact, 0.05 * exact);
+
+    // So does a line to the point; one that leaves the room ends nowhere.
+    const Json& end = probed.at("position");
+    const Json met = along({{"x", end.at("x")}, {"y", end.at("y")}, {"z", 0.4}}, {{"z", -0.01}});
+    ASSERT_EQ(met.at("hit"), true);
+    EXPECT_EQ(met.at("object"), probed.at("object"));
+    EXPECT_NEAR(met.at("position").at("x").get<double>(), end.at("x").get<double>(), 2e-3);
+    EXPECT_NEAR(met.at("position").at("z").get<double>(), 0.0, 2e-3);
+    for (const char* quantity : {"illuminance", "luminance"}) {
+        const auto shown = probed.at(quantity).get<double>();
+        EXPECT_NEAR(met.at(quantity).get<double>(), shown, 0.05 * shown) << quantity;
+    }
+    EXPECT_EQ(along({{"x", 2.5}, {"y", 500.0}, {"z", 0.0}}, {{"y", 3.0}}).at("hit"), false);
 }
 
 TEST_F(CasesPins, ChangeHoldsTheLampsOwnLight) {

@@ -8,6 +8,7 @@
 #include "session/measure/probed_pixel.h"
 #include "session/scene_messages.h"
 #include "view/camera_matrices.h"
+#include "view/point_probe.h"
 
 namespace raybundle {
 
@@ -72,9 +73,11 @@ std::optional<glm::uvec2> pixel_of(const Camera& camera, glm::uvec2 size, const 
 
 HandlerResult ProbeService::probe(ViewerSession& session, const ClientEvent& event) {
     const v1::Probe& probe = event.message.probe();
-    if (!probe.has_pixel()) {
-        parts_.server.reply_error(event, v1::Error::UNIMPLEMENTED,
-                                  "probe.ray: only pixels can be probed");
+    if (probe.has_ray()) {
+        const LiveScene& live = parts_.scene;
+        answer(event, probe_ray(live.solver().scene(), live.solver().store(), live.programs(),
+                                from_message(probe.ray().origin()),
+                                from_message(probe.ray().direction())));
         return HandlerResult::answered;
     }
     const glm::uvec2 size = session.size();
@@ -86,7 +89,11 @@ HandlerResult ProbeService::probe(ViewerSession& session, const ClientEvent& eve
         return HandlerResult::answered;
     }
     parts_.pictures.prepare(session);
-    const std::optional<PixelProbe> hit = session.probe(glm::uvec2(pixel));
+    answer(event, session.probe(glm::uvec2(pixel)));
+    return HandlerResult::answered;
+}
+
+void ProbeService::answer(const ClientEvent& event, const std::optional<PixelProbe>& hit) {
     v1::ServerMessage message;
     v1::ProbeResult* result = message.mutable_probe_result();
     result->set_hit(hit.has_value());
@@ -95,7 +102,6 @@ HandlerResult ProbeService::probe(ViewerSession& session, const ClientEvent& eve
         fill_result(*hit, result);
     }
     parts_.server.reply(event, message);
-    return HandlerResult::answered;
 }
 
 void ProbeService::fill_result(const PixelProbe& hit, v1::ProbeResult* result) const {

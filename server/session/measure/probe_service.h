@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "net/server.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
@@ -8,7 +10,7 @@
 
 namespace raybundle {
 
-/// Measures light for viewers: at a pixel, or at the points of a grid.
+/// Measures light for viewers: at a pixel, where a ray ends, or at the points of a grid.
 class ProbeService {
   public:
     struct Parts {
@@ -24,6 +26,7 @@ class ProbeService {
     HandlerResult probe_grid(ViewerSession& session, const ClientEvent& event);
 
   private:
+    void answer(const ClientEvent& event, const std::optional<PixelProbe>& hit);
     void fill_result(const PixelProbe& hit, v1::ProbeResult* result) const;
 
     Parts parts_;
