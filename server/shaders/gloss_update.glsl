@@ -10,6 +10,11 @@
 #include "rarely.glsl"
 #ifdef FIRST_SHOT
 #include "first_shot.glsl"
+#ifdef MANY_LAMPS
+/// Cell of each patch; of each cell lamps drawn, and the inverse of how many of them it is (bits).
+layout(std430, binding = BINDING_LAMP_CELLS) readonly buffer LampCellBuffer { uint lamp_cells[]; };
+layout(std430, binding = BINDING_LAMP_PROPOSALS) readonly buffer LampProposalBuffer { uvec2 lamp_proposals[]; };
+#endif
 #endif
 layout(std430, binding = BINDING_GLOSS) buffer GlossBuffer { uvec4 gloss[]; };
 layout(std430, binding = BINDING_CHAIN) buffer ChainBuffer { vec2 chain[]; };
@@ -39,15 +44,22 @@ vec3 propose_punctual(uint patch_id, vec3 normal, out LightSource source) {
     float root = sqrt(share);
     vec3 point = world_position(t.x) * (1.0 - root) + world_position(t.y) * (root * (1.0 - u.y)) +
                  world_position(t.z) * (root * u.y);
-    uint k = min(uint(u.z * float(punctual_count)), punctual_count - 1u);
     vec3 w_in;
-    vec3 arriving = punctual_irradiance(k, point, normal, normal, NO_HIT, w_in);
+#ifdef MANY_LAMPS  // those that reach no patch of the cell are not among the drawn ones
+    uvec2 drawn = lamp_proposals[lamp_cells[patch_id] * LAMP_SLOTS + min(uint(u.z * float(LAMP_SLOTS)), LAMP_SLOTS - 1u)];
+    uint k = drawn.x;
+    vec3 arriving = facing_illuminance(punctual[k], point, w_in) * uintBitsToFloat(drawn.y);
+    arriving *= max(dot(normal, normalize(w_in)), 0.0);
+#else
+    uint k = min(uint(u.z * float(punctual_count)), punctual_count - 1u);
+    vec3 arriving = punctual_irradiance(k, point, normal, normal, NO_HIT, w_in) * float(punctual_count);
+#endif
     source = LightSource(punctual[k].axis_z.xyz, 0.0);
     if (punctual[k].map.z != PUNCTUAL_DIRECTIONAL) {
         uvec3 largest = load_triangle(floatBitsToUint(patch_attributes(patch_id).w)).xyz;
         source = source_at(punctual[k].position.xyz, centroid_of(largest, 0u));
     }
-    return arriving * float(punctual_count);
+    return arriving;
 }
 #endif
 

@@ -84,6 +84,16 @@
 #define BINDING_MEMBERS 60            // uvec2[]: see patch_members.glsl
 #define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
+#define BINDING_LAMP_CELLS 47         // uint[patches]: see lamps.glsl; with the other first shots
+#define BINDING_LAMP_PROPOSALS 48     // uvec2[LAMP_SLOTS * cells]: lamps drawn, and their weights; likewise
+#define BINDING_LAMP_POINTS 46        // LampPoint[]: see lamps.glsl, as the next ones
+#define BINDING_LAMP_MASKS 63         // uint[]: lamps of the slots that reach a point, bit by bit
+#define BINDING_LAMP_SLOTS 29         // uint[LAMP_SLOTS * cells]
+#define BINDING_LAMP_ORDER 60         // uint[patches]
+#define BINDING_LAMP_SUMS 61          // vec4[3 * patches]: see lamps_patches.comp
+#define BINDING_LAMP_CHANCES 59       // uvec2[]: see lamps_patches.comp
+#define BINDING_LAMP_LEVELS 44        // vec4[(levels + 1) * patches]: irradiance by the lamps of a level; last gloss, see lamps_publish.comp
+#define BINDING_LAMP_PIXELS 43        // vec4[]: see view_lamps.comp
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
 #define TIE_SHARE 4e-6  // of it: closer surfaces coincide
@@ -103,6 +113,9 @@
 #define SCATTER_NOT_MEASURED 2u
 #define CONFIDENCE_TILE 8  // pixels along an edge
 #define CONFIDENCE_WHOLE 2  // values before those of the tiles
+#define LAMP_SLOTS 16  // lamps that are looked at at once, see solution/many_lamps.h
+#define LAMP_POINT_MOVED 0x80000000u  // flag of LampPoint::cell
+#define LAMP_CHANCES 16  // drawn from those that have not been looked at yet
 #define GROUP_SIZE 8  // iterations that are planned together
 #define SCATTER_SUMS 7  // of a probe pixel, see view_scatter.glsl
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four

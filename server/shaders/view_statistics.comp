@@ -143,6 +143,9 @@ vec4 probe_statistics(uint probe) {
         variance = shown_variance(index, p, independent, own.w) * reflectance * reflectance;
     }
     variance += through * through * variance_of_patches;
+#ifdef MANY_LAMPS
+    variance += texelFetch(pixel_first_shot_texels, int(index)).w * reflectance * reflectance;
+#endif
     return vec4(min(variance, l * l), l * l, logarithm, 1.0);
 }
 

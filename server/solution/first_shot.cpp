@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
+#include "solution/many_lamps.h"
 
 namespace raybundle {
 
@@ -40,19 +42,28 @@ void append_table(const IesProfile& profile, std::vector<float>& values) {
 
 FirstShot::FirstShot(const GpuScene& scene)
     : scene_(scene),
-      maps_(scene),
+      ies_(profiles_of(scene.punctual_lights())),
       lights_("punctual lights", scene.punctual_lights().size() * sizeof(layout::PunctualData)),
-      patches_("first shot", 2 * std::size_t{scene.patch_count()} * sizeof(glm::vec4)),
-      shoot_({"solution_first_shot.comp"}, scene.defines()) {
+      patches_("first shot", 2 * std::size_t{scene.patch_count()} * sizeof(glm::vec4)) {
     patches_.clear();
     std::vector<float> tables;
-    for (const auto& profile : maps_.profiles()) {
+    for (const auto& profile : ies_) {
         append_table(*profile, tables);
     }
     if (!tables.empty()) {
+        check_storage("ies profiles", tables.size() * sizeof(float));
         profiles_ = Buffer::from<float>("ies profiles", tables);
     }
+    if (scene.many_lamps()) {
+        many_ = std::make_unique<ManyLamps>(scene);
+    } else {
+        maps_.emplace(scene);
+        shoot_ = ShaderProgram({"solution_first_shot.comp"}, scene.defines());
+    }
 }
+
+FirstShot::~FirstShot() = default;
+FirstShot::FirstShot(FirstShot&&) noexcept = default;
 
 void FirstShot::remember(const FirstShot& other) {
     if (remembered_.bytes() == 0) {
@@ -63,7 +74,12 @@ void FirstShot::remember(const FirstShot& other) {
 }
 
 void FirstShot::update(bool radiance_follows) {
-    lights_.write(maps_.draw(), 0);
+    if (many_) {
+        bind();
+        many_->update(lights_, ies_, radiance_follows);
+        return;
+    }
+    lights_.write(maps_->draw(), 0);
     const GlScope scope("first shot");
     bind();
     set_uniforms(shoot_);
@@ -89,7 +105,11 @@ void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads,
 }
 
 void FirstShot::bind() const {
-    maps_.bind();
+    if (maps_) {
+        maps_->bind();
+    } else {
+        many_->bind();
+    }
     lights_.bind_storage(BINDING_PUNCTUAL);
     patches_.bind_storage(BINDING_FIRST_SHOT);
     if (profiles_.bytes() > 0) {
@@ -131,8 +151,8 @@ std::vector<glm::vec4> FirstShot::read_reflected() const {
 }
 
 std::size_t FirstShot::bytes() const {
-    return maps_.bytes() + lights_.bytes() + patches_.bytes() + profiles_.bytes() +
-           remembered_.bytes();
+    return (maps_ ? maps_->bytes() : many_->bytes()) + lights_.bytes() + patches_.bytes() +
+           profiles_.bytes() + remembered_.bytes();
 }
 
 }  // namespace raybundle

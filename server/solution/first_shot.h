@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/gl_objects.h"
@@ -12,6 +14,8 @@
 
 namespace raybundle {
 
+class ManyLamps;
+
 /// The incoming first shot (ch. 4.3.1) of punctual lights, which no random line can hit: their
 /// irradiance per patch, found once and kept apart from the random iteration, whose source is its
 /// first reflection. Deterministic. Exists only where a scene has such lights; viewers find the
@@ -19,6 +23,8 @@ namespace raybundle {
 class FirstShot {
   public:
     explicit FirstShot(const GpuScene& scene);
+    ~FirstShot();
+    FirstShot(FirstShot&&) noexcept;
 
     /// Anew for the present lights and the present place of the objects. The patches' radiance
     /// takes on the change, unless ChangeStore::set_source() shall do that (`radiance_follows`).
@@ -31,6 +37,13 @@ class FirstShot {
     void bind() const;
     /// Sets the uniforms of shaders/first_shot.glsl.
     void set_uniforms(const ShaderProgram& program) const;
+    /// Where there are more lights than shadow maps, else null. The light of those is found little
+    /// by little, see ManyLamps.
+    [[nodiscard]] ManyLamps* many() const { return many_.get(); }
+    /// Binds the lamps, or others in their place.
+    void bind_lights(const Buffer& lights) const { lights.bind_storage(BINDING_PUNCTUAL); }
+    [[nodiscard]] const Buffer& lights() const { return lights_; }
+    [[nodiscard]] unsigned patch_count() const { return scene_.patch_count(); }
     /// Runs a program of one invocation a thread that adds the light of some of the lights.
     void dispatch(const ShaderProgram& program, std::size_t threads) const;
     /// Irradiance per patch, radiance units. Synchronous.
@@ -44,11 +57,13 @@ class FirstShot {
     void dispatch(const ShaderProgram& program, std::size_t threads, unsigned most_lights) const;
 
     const GpuScene& scene_;
-    ShadowMaps maps_;
+    IesProfiles ies_;
+    std::optional<ShadowMaps> maps_;   // of few lights
+    std::unique_ptr<ManyLamps> many_;  // else
     Buffer lights_, patches_;
-    Buffer profiles_;    // only where some light has one
-    Buffer remembered_;  // once the scene has changed
-    ShaderProgram shoot_;
+    Buffer profiles_;      // only where some light has one
+    Buffer remembered_;    // once the scene has changed
+    ShaderProgram shoot_;  // by maps
 };
 
 }  // namespace raybundle

@@ -197,6 +197,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
               "NORMAL_MAPS");
     define_if(any_material([](const Material& m) { return m.unlit; }), "UNLIT");
     define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
+    define_if(many_lamps(), "MANY_LAMPS");
     define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                           [](const PunctualLight& light) { return light.profile != nullptr; }),
               "IES");

@@ -79,7 +79,7 @@ class GpuScene {
     void draw(Place place, const glm::mat4& clip_from_world, bool nearest_only,
               const ShaderProgram& program, std::span<const std::uint32_t> hidden = {}) const;
 
-    /// What finds by rays what draw() draws; null where the rasteriser alone does.
+    /// What finds by rays what draw() draws, and the lamps where they are many; else null.
     [[nodiscard]] FacetTracer* tracer() const { return tracer_.get(); }
     /// Whether rays find the surfaces of so many pixels. That depends on numbers alone, never on a
     /// clock, so that results are the same each time.
@@ -92,11 +92,11 @@ class GpuScene {
     /// SMOOTH, VERTEX_COLOURS, ALPHA_MASK, DETAILS (materials have textures beside the base colour,
     /// or are unlit), NORMAL_MAPS, UNLIT, SKY, THIN_WALLS, FOLDS (the rasteriser may turn facets
     /// over in ways that matter), SPECULAR (some albedo depends on the angle), GLOSSY (some
-    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), IES (some with
-    /// profiles), TRANSMISSION (some patches send light that arrives on their other side),
-    /// ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays go on
-    /// from some surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such surfaces).
-    /// What is absent is not even compiled.
+    /// radiance depends on direction), MAX_PHONG, FIRST_SHOT (punctual lights), MANY_LAMPS, IES
+    /// (some with profiles), TRANSMISSION (some patches send light that arrives on their other
+    /// side), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays
+    /// go on from some surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such
+    /// surfaces). What is absent is not even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     /// PATCH_SETS, where some patches are several triangles, for what needs no other macro.
     [[nodiscard]] const std::vector<std::string>& set_defines() const { return members_.defines(); }
@@ -134,6 +134,10 @@ class GpuScene {
     /// A light with a disc is several without.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return punctual_lights_;
+    }
+    /// There are more of them than shadow maps: rays look for them, see ManyLamps.
+    [[nodiscard]] bool many_lamps() const {
+        return punctual_lights_.size() > PunctualLight::most_mapped;
     }
     /// A punctual light in the shifted world, its object at its present place.
     [[nodiscard]] PlacedLight placed_light(std::size_t light) const;
@@ -214,6 +218,7 @@ class GpuScene {
     std::unique_ptr<SpecularRays> specular_rays_;
     std::unique_ptr<FacetTracer> tracer_;
     bool always_traces_ = false;
+    bool traces_bundles_ = false;
     Buffer world_positions_;
     FacetRaster facets_;
     FacetBoxes facet_boxes_;

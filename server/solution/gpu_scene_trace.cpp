@@ -12,8 +12,9 @@ GpuScene::GpuScene(GpuScene&&) noexcept = default;
 
 void GpuScene::make_tracer(const Scene& scene, const PatchMesh& mesh) {
     always_traces_ = bundle_builder() == BundleBuilder::trace;
-    if (always_traces_ ||
-        (bundle_builder() == BundleBuilder::automatic && is_software_renderer())) {
+    traces_bundles_ =
+        always_traces_ || (bundle_builder() == BundleBuilder::automatic && is_software_renderer());
+    if (traces_bundles_ || many_lamps()) {
         tracer_ = std::make_unique<FacetTracer>(scene, mesh,
                                                 std::span(world_from_object_).first(object_count_));
     }
@@ -30,8 +31,8 @@ std::size_t GpuScene::tracer_bytes() const {
 }
 
 bool GpuScene::traces(SeenAs kind, std::size_t pixels) const {
-    if (tracer_ == nullptr || always_traces_) {
-        return tracer_ != nullptr;
+    if (!traces_bundles_ || always_traces_) {
+        return traces_bundles_;
     }
     // Rasterising costs so much a facet, tracing so much more a pixel.
     const double share = kind == SeenAs::layers || kind == SeenAs::planes ? 0.0 : 0.08;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solution/many_lamps.h"
+
 namespace raybundle {
 
 namespace {
@@ -129,6 +131,20 @@ void RadianceStore::renew_first_shot() {
     if (first_shot_) {
         bind();
         first_shot_->update(false);
+    }
+}
+
+void RadianceStore::look_at_lamps() const {
+    constexpr std::size_t points = 4096;  // some 10 ms on a core
+    if (first_shot_ && first_shot_->many() != nullptr && first_shot_->many()->advance(points)) {
+        bind();
+    }
+}
+
+void RadianceStore::take_lamps(std::uint32_t group) {
+    if (first_shot_ && first_shot_->many() != nullptr) {
+        first_shot_->many()->publish_found();
+        first_shot_->many()->draw_proposals(group);
     }
 }
 

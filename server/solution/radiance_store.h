@@ -72,6 +72,10 @@ class RadianceStore {
     [[nodiscard]] float kept_share(float weight) const {
         return 1.0F / (1.0F + weight * forgetting_);
     }
+    /// Many lamps: looks at some of those that have not been looked at. Between iterations.
+    void look_at_lamps() const;
+    /// What has been found of them takes effect. Between groups of iterations; bind() comes next.
+    void take_lamps(std::uint32_t group);
     /// Of punctual lights, or nothing where the scene has none.
     [[nodiscard]] const FirstShot* first_shot() const {
         return first_shot_ ? &*first_shot_ : nullptr;

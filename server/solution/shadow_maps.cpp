@@ -16,7 +16,6 @@ constexpr int smallest_map = 128;
 constexpr std::size_t most_bytes = 96U << 20U;  // of all maps
 constexpr float near_share = 1e-6F;             // of the scene's diameter
 constexpr float widest_face = 1.8F;             // tangent; wider spots take a cube
-constexpr float margin = 1.01F;                 // round what a map has to show
 
 unsigned layers_of(const PunctualLight& light) {
     if (light.kind == PunctualKind::directional) {
@@ -74,15 +73,12 @@ glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
 
 ShadowMaps::ShadowMaps(const GpuScene& scene)
     : scene_(scene),
+      profiles_(profiles_of(scene.punctual_lights())),
       raster_({"bundle_raster.vert", "bundle_nearest.frag"},
               with(scene.defines(), "CLEAR_GLASS 1")),
       edge_raster_({"bundle_raster.vert", "shadow_edges.frag"}) {
     for (const PunctualLight& light : scene.punctual_lights()) {
         layers_ += layers_of(light);
-        if (light.profile &&
-            std::find(profiles_.begin(), profiles_.end(), light.profile) == profiles_.end()) {
-            profiles_.push_back(light.profile);
-        }
     }
     size_ = map_size(layers_);
     maps_ = create_layers(GL_R32UI, size_, layers_);
@@ -108,36 +104,15 @@ void ShadowMaps::bind() const {
     glBindTextureUnit(UNIT_SHADOW_EDGES, edges_.get());
 }
 
-/// Number of a light's profile among all that are different.
-unsigned ShadowMaps::profile_of(std::size_t light) const {
-    const auto& profile = scene_.punctual_lights()[light].profile;
-    const auto found = std::find(profiles_.begin(), profiles_.end(), profile);
-    return profile ? static_cast<unsigned>(found - profiles_.begin()) : NO_PROFILE;
-}
-
 void ShadowMaps::place_lights() {
-    lights_.clear();
+    lights_ = placed_lights(scene_, profiles_);
     unsigned layer = 0;
-    const Bounds bounds = scene_.bounds();
-    const float radius = 0.5F * margin * std::max(glm::length(bounds.extent()), 1e-6F);
-    for (std::size_t i = 0; i < scene_.punctual_lights().size(); ++i) {
-        const PunctualLight& light = scene_.punctual_lights()[i];
-        const PlacedLight placed = scene_.placed_light(i);
-        const bool directional = light.kind == PunctualKind::directional;
-        const float cosine = light.outer_cosine;
-        const float tangent = std::sqrt(std::max(1.0F - cosine * cosine, 0.0F)) / cosine;
-        layout::PunctualData data{};
-        data.position = directional ? glm::vec4(bounds.centre(), radius)
-                                    : glm::vec4(glm::vec3(placed.position), margin * tangent);
-        data.axis_x = glm::vec4(glm::vec3(placed.axes[0]), light.inner_cosine);
-        data.axis_y = glm::vec4(glm::vec3(placed.axes[1]), light.outer_cosine);
-        data.axis_z = glm::vec4(glm::vec3(placed.axes[2]), 0.0F);
-        data.intensity = glm::vec4(light.intensity / scene_.radiance_unit(), 0.0F);
-        data.map = {layer, layers_of(light), static_cast<unsigned>(light.kind),
-                    static_cast<unsigned>(size_)};
-        data.profile = {profile_of(i), light.of_sky ? 1U : 0U, 0U, 0U};
-        layer += data.map.y;
-        lights_.push_back(data);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const unsigned layers = layers_of(scene_.punctual_lights()[i]);
+        lights_[i].map.x = layer;
+        lights_[i].map.y = layers;
+        lights_[i].map.w = static_cast<unsigned>(size_);
+        layer += layers;
     }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "solution/gpu_scene.h"
+#include "solution/placed_lights.h"
 
 namespace raybundle {
 
@@ -24,22 +24,17 @@ class ShadowMaps {
     /// them; valid until the next call.
     std::span<const layout::PunctualData> draw();
     void bind() const;
-    /// The lights' profiles, each once, in the order of PunctualData::profile.
-    [[nodiscard]] const std::vector<std::shared_ptr<const IesProfile>>& profiles() const {
-        return profiles_;
-    }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     void place_lights();
-    [[nodiscard]] unsigned profile_of(std::size_t light) const;
     void draw_layer(unsigned layer, const glm::mat4& clip_from_world);
     void mark_edges(unsigned layer, const glm::mat4& clip_from_world);
     [[nodiscard]] glm::mat4 clip_from_world(const layout::PunctualData& light, unsigned face) const;
 
     const GpuScene& scene_;
     std::vector<layout::PunctualData> lights_;
-    std::vector<std::shared_ptr<const IesProfile>> profiles_;
+    IesProfiles profiles_;
     unsigned layers_ = 0;
     int size_ = 0;  // texels along an edge
     Texture2D maps_, depths_, edges_;

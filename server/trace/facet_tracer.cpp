@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trace/lamp_packet.h"
 #include "trace/ray_packet.h"
 #include "trace/trace_query.h"
 
@@ -269,6 +270,18 @@ std::uint32_t FacetTracer::all(const RayGrid& grid, const TraceRules& rules, con
         }
     });
     return static_cast<std::uint32_t>(longest.load());
+}
+
+void FacetTracer::reach(std::span<const LampPoint> points, const LampQuestion& question,
+                        std::span<std::uint32_t> lit) {
+    constexpr std::size_t grain = 64;
+    const Query query = impl_->query(question.rules);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              lit[i] = lamps_that_reach(points[i], query, question);
+                          }
+                      });
 }
 
 std::size_t FacetTracer::bytes() const {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "scene/mesh/patch_mesh.h"
+#include "trace/lamp_rays.h"
 #include "trace/line_order.h"
 #include "trace/ray_grid.h"
 
@@ -52,6 +53,10 @@ class FacetTracer {
     /// capacity are cut off.
     std::uint32_t all(const RayGrid& grid, const TraceRules& rules, const LineOrder& order,
                       const Lists& result);
+    /// Which of the lamps that a point is asked for reach it, bit by slot. Alpha cuts holes, and
+    /// what `rules` say of glass holds.
+    void reach(std::span<const LampPoint> points, const LampQuestion& question,
+               std::span<std::uint32_t> lit);
     [[nodiscard]] std::size_t bytes() const;
 
   private:

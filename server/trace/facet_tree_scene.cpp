@@ -107,6 +107,7 @@ void FacetTreeScene::make_geometry(Part& part, std::size_t vertices) {
 void FacetTreeScene::attach(Part& part) {
     const bool filtered = part.may_pass || part.in_motion;
     rtcSetGeometryIntersectFilterFunction(part.geometry.get(), filtered ? filter_ : nullptr);
+    rtcSetGeometryOccludedFilterFunction(part.geometry.get(), filtered ? filter_ : nullptr);
     rtcCommitGeometry(part.geometry.get());
     if (part.id == RTC_INVALID_GEOMETRY_ID) {
         part.id = rtcAttachGeometry(scene_.get(), part.geometry.get());

@@ -116,4 +116,21 @@ void filter_lines(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+void filter_shadow(const RTCFilterFunctionNArguments* arguments) {
+    const auto& query = *reinterpret_cast<const Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] == 0) {
+            continue;
+        }
+        const Filtered ray{arguments, i};
+        const glm::vec3 normal = ray.normal();
+        const float height = std::abs(glm::dot(normal, ray.direction())) * ray.way();
+        const bool own =
+            query.tree->part(ray.geometry()).facets[ray.primitive()] == query.own_facet;
+        if (own || height <= query.tie * glm::length(normal)) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
 }  // namespace raybundle

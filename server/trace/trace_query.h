@@ -29,6 +29,8 @@ struct Query {
     std::span<const std::uint32_t> hidden;
     bool fronts_only = false;
     PacketLines* lines = nullptr;
+    std::uint32_t own_facet = 0xffffffffU;  ///< of filter_shadow()
+    float tie = 0.0F;                       ///< m, likewise
 };
 
 /// Filter of parts that rays may pass, or that are in motion.
@@ -37,5 +39,8 @@ void filter_part(const RTCFilterFunctionNArguments* arguments);
 void filter_query(const RTCFilterFunctionNArguments* arguments);
 /// Keeps all that lines meet in the query's lines.
 void filter_lines(const RTCFilterFunctionNArguments* arguments);
+
+/// Takes out what belongs to the surface that rays to lamps begin on.
+void filter_shadow(const RTCFilterFunctionNArguments* arguments);
 
 }  // namespace raybundle

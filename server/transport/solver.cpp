@@ -138,6 +138,8 @@ void Solver::plan_group() {
         numbers.emplace_back(0.0F);  // brings the constant
     }
     store_.bind();
+    store_.take_lamps(static_cast<std::uint32_t>(iterations_ / group_size));
+    store_.bind();
     if (caustics_) {
         caustics_->refine(store_.sent());
         store_.bind();
@@ -295,6 +297,7 @@ void Solver::finish_group(std::span<BundleReceiver* const> receivers) {
 }
 
 void Solver::after_iteration() {
+    store_.look_at_lamps();
     ++iterations_;
     ++since_change_;
     ++iterate_age_;

@@ -94,7 +94,12 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }
     if (!scene.punctual_lights().empty()) {
-        first_shot = ShaderProgram({"view_first_shot.comp"}, with_all(scene.defines(), variant));
+        const auto defines = with_all(scene.defines(), variant);
+        first_shot = ShaderProgram(
+            {scene.many_lamps() ? "view_lamps.comp" : "view_first_shot.comp"}, defines);
+        if (scene.many_lamps()) {
+            lamp_points = ShaderProgram({"lamps_pixel_points.comp"}, defines);
+        }
     }
 }
 

@@ -36,7 +36,8 @@ struct ViewPrograms {
     ConfidencePrograms confidence;
     ShaderProgram depths;
     ShaderProgram crowded;
-    ShaderProgram first_shot;  ///< only where the scene has punctual lights
+    ShaderProgram first_shot;   ///< only where the scene has punctual lights
+    ShaderProgram lamp_points;  ///< only where these are many
     /// Transfers to pixels; `glossy` goes over the glossy ones, `all` over the others.
     struct Receive {
         ShaderProgram all, glossy;

@@ -104,16 +104,46 @@ void ViewerImage::allocate_first_shot() {
     const std::size_t values = scene_.reflectance().any_glossy() ? 2 : 1;
     first_shot_ = Buffer("pixel first shot", values * pixel_count(size_) * sizeof(glm::vec4));
     first_shot_texture_ = create_buffer_texture("pixel first shot", GL_RGBA32F, first_shot_);
+    lamps_.reset();
+    if (store_.first_shot()->many() != nullptr) {
+        lamps_.emplace(pixel_count(size_), values == 2);
+    }
 }
 
-/// Light of punctual lights at the pixels.
-void ViewerImage::shoot_first() const {
+/// Light of punctual lights at the pixels. same_pixels: only lights have changed.
+void ViewerImage::shoot_first(bool same_pixels) {
     if (store_.first_shot() == nullptr) {
         return;
     }
     const GlScope scope("pixel first shot");
+    if (lamps_) {
+        if (same_pixels) {
+            lamps_->change(programs_, *store_.first_shot());
+        } else {
+            lamps_->begin(programs_, *store_.first_shot(), pixel_count(size_));
+        }
+        store_.bind();
+        bind_pixels();
+        return;
+    }
     store_.first_shot()->set_uniforms(programs_.first_shot);
     store_.first_shot()->dispatch(programs_.first_shot, pixel_count(size_));
+}
+
+/// Of many lamps some more at the pixels: a picture whose camera may move on soon waits until it
+/// rests, and does a part at a time.
+void ViewerImage::look_at_lamps() {
+    constexpr std::uint64_t resting_samples = 8;
+    constexpr std::size_t points = 4096;  // some 10 ms on a core
+    constexpr std::size_t points_at_rest = 16 * points;
+    if (!lamps_ || (!rests_ && samples_ < resting_samples)) {
+        return;
+    }
+    store_.bind();
+    bind_pixels();
+    lamps_->advance(programs_, *store_.first_shot(), rests_ ? points_at_rest : points);
+    store_.bind();
+    bind_pixels();
 }
 
 void ViewerImage::create_pixel_textures() {

@@ -23,6 +23,7 @@
 #include "view/depth_grid.h"
 #include "view/edge_filter.h"
 #include "view/error_interval.h"
+#include "view/pixel_lamps.h"
 #include "view/sample_batches.h"
 #include "view/specular_groups.h"
 #include "view/view_programs.h"
@@ -123,6 +124,9 @@ class ViewerImage : public BundleReceiver {
     [[nodiscard]] const Camera& camera() const { return camera_; }
     /// Samples taken since the camera last moved.
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
+
+    /// Whether pixels have the exact light of many lamps; true where there are none.
+    [[nodiscard]] bool lamps_exact() const { return !lamps_ || lamps_->exact(); }
 
     /// Antialiasing of a picture whose camera rests, in slices of one raster each. Frames of full
     /// size and radiance have smooth edges once it is complete, until camera, size or an object
@@ -226,7 +230,8 @@ class ViewerImage : public BundleReceiver {
     void refresh_moved();
     void allocate_gloss();
     void allocate_first_shot();
-    void shoot_first() const;
+    void shoot_first(bool same_pixels = false);
+    void look_at_lamps();
     void begin_raster(const PixelRectangle& rectangle) const;
     static void end_raster();
     void raster_shifted(const ShaderProgram& program, const glm::vec2& place,
@@ -315,6 +320,7 @@ class ViewerImage : public BundleReceiver {
     Buffer gloss_, old_gloss_, gloss_delta_;    // only where it is glossy
     Buffer first_shot_;                         // only where it has punctual lights
     Texture2D first_shot_texture_;
+    std::optional<PixelLamps> lamps_;  // only where these are many
     Texture2D gloss_texture_, old_gloss_texture_;
     std::optional<TracedPicture> traced_;  // only where rays find what pixels see
     Texture2D surface_ids_, depths_;

@@ -164,7 +164,7 @@ void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::ui
         programs_.scale.dispatch(std::size_t{size_.x} * size_.y);
     };
     if (!redraw) {
-        shoot_first();
+        shoot_first(true);
     }
     parameters_.constant *= glm::vec4(scale, 0.0F);
     if (scale != glm::vec3(1.0F)) {

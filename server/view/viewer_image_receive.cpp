@@ -55,6 +55,7 @@ void ViewerImage::begin_sample() {
     if (continued() != nullptr) {
         continued()->begin_sample();
     }
+    look_at_lamps();
     if (!confidence_->due(scatter_samples_)) {
         return;
     }

@@ -206,20 +206,19 @@ TEST(CasesLamp, LampsThatAreOffInTheFileCanBeSwitchedOn) {
     EXPECT_GE(scene.materials[0].emission_texture.texture, 0);
 }
 
-/// The limit is for those that shine.
-TEST(CasesLamp, DarkLampsTakeNoRoomFromOthers) {
+/// There may be any number of them, dark or not.
+TEST(CasesLamp, AnyNumberOfThemIsRead) {
     GltfBuilder builder = one_triangle();
     Json& lights = builder.json["extensions"]["KHR_lights_punctual"]["lights"];
     for (int i = 0; i < 300; ++i) {
-        lights.push_back({{"type", "point"}, {"intensity", i < 200 ? 0 : 1}});
+        lights.push_back({{"type", "point"}, {"intensity", i < 20 ? 0 : 1}});
         builder.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
     }
     const Scene scene = builder.load();
-    EXPECT_EQ(scene.punctual_lights.size(), 256U);
+    EXPECT_EQ(scene.punctual_lights.size(), 300U);
     EXPECT_EQ(std::count_if(scene.punctual_lights.begin(), scene.punctual_lights.end(),
                             [](const PunctualLight& l) { return l.intensity.g > 0.0F; }),
-              100);
-    EXPECT_TRUE(has_notice(scene, "some that are switched off are left out"));
+              280);
 }
 
 /// --ies gives a lamp of 0 cd the intensity of the file.

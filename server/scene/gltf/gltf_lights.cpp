@@ -19,7 +19,6 @@ namespace {
 constexpr const char* extension_name = "KHR_lights_punctual";
 constexpr const char* ies_extension = "EXT_lights_ies";
 constexpr std::uint64_t max_profile_bytes = 16ULL << 20U;
-constexpr std::size_t max_lights = 256;  // each keeps shadow maps on the GPU
 
 PunctualKind kind_of(const std::string& type) {
     if (type == "spot") {
@@ -88,10 +87,11 @@ class LightReader {
             read_cone(source, definition, light);
         }
         if (find_member(source, "range") != nullptr) {
-            document_.note("the range of lights is ignored: light reaches as far as it does");
+            light.range = value_or(source, "range", 0.0F);
+            document_.note("the range of lights cuts nothing off: light reaches as far as it does");
         }
         place(node, light);
-        keep(path, std::move(light));
+        scene_.punctual_lights.push_back(std::move(light));
     }
 
     /// One that is dark in the file can be switched on, in its colour.
@@ -110,7 +110,7 @@ class LightReader {
                       glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F), light);
         light.profile = profile(index);
         place(node, light);
-        keep(path, std::move(light));
+        scene_.punctual_lights.push_back(std::move(light));
     }
 
     std::shared_ptr<const IesProfile> profile(std::size_t index) {
@@ -156,24 +156,6 @@ class LightReader {
             name = value_or<std::string>(source, "name", "");
         }
         return name.empty() ? fmt::format("light {}", scene_.punctual_lights.size() + 1) : name;
-    }
-
-    void keep(const std::string& path, PunctualLight light) {
-        scene_.punctual_lights.push_back(std::move(light));
-        if (scene_.punctual_lights.size() <= max_lights) {
-            return;
-        }
-        const auto dark = std::find_if(
-            scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
-            [](const PunctualLight& other) { return other.intensity == glm::vec3(0.0F); });
-        if (dark == scene_.punctual_lights.end()) {
-            document_.fail(path, fmt::format("more than {} punctual lights", max_lights));
-        }
-        scene_.punctual_lights.erase(dark);
-        document_.note(
-            fmt::format("there are more than {} punctual lights: some that are switched "
-                        "off are left out",
-                        max_lights));
     }
 
     void read_cone(const Json& source, std::size_t definition, PunctualLight& light) {

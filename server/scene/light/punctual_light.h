@@ -23,8 +23,11 @@ struct PunctualSetting {
 };
 
 /// A light without extent (glTF's KHR_lights_punctual): no ray can hit it. It shines along -z of
-/// its axes. Photometric, without a cut-off: glTF's `range` is not physical.
+/// its axes. Photometric, without a cut-off: glTF's `range` is not physical, and tells of many
+/// lights only which to look at first.
 struct PunctualLight {
+    /// Each of so many keeps shadow maps; where there are more, rays look for all of them.
+    static constexpr std::size_t most_mapped = 256;
     static constexpr int no_object = -1;
 
     std::string name;
@@ -37,7 +40,8 @@ struct PunctualLight {
     /// spot along its axis.
     glm::vec3 intensity{0.0F};
     glm::vec3 dark_colour{
-        1.0F};  ///< of luminance 1: its colour where the file gives it intensity 0
+        1.0F};           ///< of luminance 1: its colour where the file gives it intensity 0
+    float range = 0.0F;  ///< m, as the file has it; 0: not given
     float angular_radius = 0.0F;  ///< directional: half of the diameter of its disc, radians
     bool of_sky = false;          ///< part of Scene::environment
     float inner_cosine = 1.0F;    ///< spot: full intensity within this cone
