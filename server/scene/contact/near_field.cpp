@@ -138,6 +138,13 @@ NearField::NearField(const Scene& scene)
     for (const PunctualLight& light : scene.punctual_lights) {
         punctual_.push_back(place_light(scene, light));
     }
+    if (punctual_.size() > NearLamps::most) {
+        std::vector<float> ranges;
+        for (const PunctualLight& light : scene.punctual_lights) {
+            ranges.push_back(light.range);
+        }
+        near_lamps_ = NearLamps(punctual_, ranges, scene.bounds);
+    }
 }
 
 NearField::~NearField() = default;
@@ -247,23 +254,34 @@ double NearField::from_emitters(const Place& place, bool shadows) const {
     return sum;
 }
 
+/// lx, by one light without extent.
+double NearField::from_light(const PlacedLight& light, const Place& place, bool shadows) const {
+    const bool far = light.kind == PunctualKind::directional;
+    const glm::dvec3 way = far ? -light.direction() : light.position - place.position;
+    const double squared = glm::dot(way, way);
+    const double cosine = glm::dot(place.normal, way) / std::sqrt(squared);
+    if (!(cosine > 0.0)) {
+        return 0.0;
+    }
+    const glm::dvec3 towards = light.towards(-way / std::sqrt(squared));
+    const double value = double{luminance(glm::vec3(towards))} * cosine / squared;
+    const double reach = far ? std::numeric_limits<double>::infinity() : 1.0 - 1e-4;
+    const bool lit =
+        value > 0.0 &&
+        (!shadows || !hierarchy_->occluded(place.position + offset_ * place.normal, way, reach));
+    return lit ? value : 0.0;
+}
+
 double NearField::from_punctual(const Place& place, bool shadows) const {
     double sum = 0.0;
+    if (punctual_.size() > NearLamps::most) {
+        for (const std::uint32_t k : near_lamps_.at(place.position)) {
+            sum += from_light(punctual_[k], place, shadows);
+        }
+        return sum;
+    }
     for (const PlacedLight& light : punctual_) {
-        const bool far = light.kind == PunctualKind::directional;
-        const glm::dvec3 way = far ? -light.direction() : light.position - place.position;
-        const double squared = glm::dot(way, way);
-        const double cosine = glm::dot(place.normal, way) / std::sqrt(squared);
-        if (!(cosine > 0.0)) {
-            continue;
-        }
-        const glm::dvec3 towards = light.towards(-way / std::sqrt(squared));
-        const double value = double{luminance(glm::vec3(towards))} * cosine / squared;
-        const double reach = far ? std::numeric_limits<double>::infinity() : 1.0 - 1e-4;
-        if (value > 0.0 && (!shadows || !hierarchy_->occluded(
-                                            place.position + offset_ * place.normal, way, reach))) {
-            sum += value;
-        }
+        sum += from_light(light, place, shadows);
     }
     return sum;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/light/lamp_reach.h"
 #include "scene/scene.h"
 
 namespace raybundle {
@@ -65,6 +66,8 @@ class NearField {
     [[nodiscard]] double from_emitter(const Emitter& emitter, const Place& place,
                                       bool shadows) const;
     [[nodiscard]] double from_emitters(const Place& place, bool shadows) const;
+    [[nodiscard]] double from_light(const PlacedLight& light, const Place& place,
+                                    bool shadows) const;
     [[nodiscard]] double from_punctual(const Place& place, bool shadows) const;
     [[nodiscard]] double from_sky(const Place& place, bool shadows) const;
     /// Direct illuminance, lx.
@@ -76,6 +79,7 @@ class NearField {
     const Scene& scene_;
     std::vector<Emitter> emitters_;
     std::vector<PlacedLight> punctual_;
+    NearLamps near_lamps_;        // of many: the others bring light that changes slowly
     std::vector<double> albedo_;  // by material, luminance
     bool sky_;
     double offset_;  // m, of rays from surfaces
