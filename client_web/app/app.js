@@ -256,12 +256,13 @@ export class RaybundleApp extends EventTarget {
     /** Draws what lies over the picture, and puts the picture where the camera has it. */
     drawOverlay() {
         const {shown} = this.link;
+        // Between a plan and the eyes of somebody nothing is alike: what lies over the picture stays
+        // with it until the other one is there.
+        const alike = !shown || !this.frame || (shown.near ?? 0) > 0 === (this.view.near ?? 0) > 0;
         if (shown && this.frame) {
-            // Between a plan and the eyes of somebody nothing is alike.
-            const alike = (shown.near ?? 0) > 0 === (this.view.near ?? 0) > 0;
             this.picture.warp(alike ? shown : this.view, this.view);
         }
-        this.overlay.draw(this.view, this.picture.aspect);
+        this.overlay.draw(alike ? this.view : shown, this.picture.aspect);
     }
 
     #listenToServer() {

@@ -46,15 +46,16 @@ export class ObjectList {
     #fixed = byId('fixed-objects', HTMLUListElement);
     #search = byId('object-search', HTMLInputElement);
     #all = byId('show-all', HTMLButtonElement);
+    #hide = byId('hide', HTMLButtonElement);
 
     /** @param {RaybundleApp} app */
     constructor(app) {
         this.app = app;
         this.#search.addEventListener('input', () => this.#show());
         this.#all.addEventListener('click', () => this.#setHidden([]));
-        byId('hide', HTMLButtonElement).addEventListener('click', () => {
+        this.#hide.addEventListener('click', () => {
             if (app.selected) {
-                this.#setHidden([...this.hidden, app.selected.id]);
+                this.#toggle(app.selected.id);
             }
         });
         byId('isolate', HTMLButtonElement).addEventListener('click', () => {
@@ -95,6 +96,12 @@ export class ObjectList {
         }
     }
 
+    /** @param {number} id  hidden from now on, or shown again */
+    #toggle(id) {
+        const others = [...this.hidden].filter((other) => other !== id);
+        return this.#setHidden(this.hidden.has(id) ? others : [...others, id]);
+    }
+
     /** @param {PlacedObject} object */
     #row(object) {
         const {id, name} = object;
@@ -102,7 +109,7 @@ export class ObjectList {
         const row = listRow(name, () => this.app.select(id), hidden ? 'hidden' : '');
         row.dataset.object = String(id);
         if (hidden) {
-            row.append(smallButton('Show', `Show ${name}`, () => this.#setHidden([...this.hidden].filter((other) => other !== id))));
+            row.append(smallButton('Show', `Show ${name}`, () => this.#toggle(id)));
         }
         return row;
     }
@@ -146,7 +153,7 @@ export class ObjectList {
         byId('object-search-field', HTMLElement).hidden = objects.length <= SEARCHED;
         const words = this.#search.value.trim();
         const found = words ? objects.filter((object) => matches(object, words)) : objects;
-        const none = words ? 'Nothing is called so.' : 'Nothing here can be moved.';
+        const none = words ? 'No object has such a name.' : 'Nothing here can be moved.';
         this.#fill(this.#objects, found.filter(({loose}) => loose), none);
         const fixed = found.filter(({loose}) => !loose);
         this.#fill(this.#fixed, fixed, '');
@@ -160,6 +167,7 @@ export class ObjectList {
     }
 
     #markSelected() {
+        this.#hide.textContent = this.hidden.has(this.app.selected?.id ?? 0) ? 'Show' : 'Hide';
         for (const list of [this.#objects, this.#fixed]) {
             for (const row of list.querySelectorAll('li')) {
                 const selected = row.dataset.object === String(this.app.selected?.id);

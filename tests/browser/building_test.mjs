@@ -131,6 +131,33 @@ describe('plans and sections', () => {
         assert.deepEqual(await eye(page), before);
         assert.ok(await page.isHidden('#leave-plan'));
     });
+
+    it('leave what lies over the picture where it was, until their own picture is there', async () => {
+        const {page} = await opened(house());
+        await page.click('#objects button:has-text("Sofa")');
+        const outline = () => page.evaluate(async () => {
+            await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+            return document.querySelector('#overlay .selected .stroke').getAttribute('d');
+        });
+        const arrived = () => page.evaluate(() => {
+            const app = window.raybundle;
+            app.frame = {cameraId: 1};
+            app.link.shown = app.view;
+            app.drawOverlay();
+        });
+        await arrived();
+        const inside = await outline();
+        assert.ok(inside.length > 0);
+        await page.click('#plans-details summary');
+        await page.click('#plans button:has-text("Plan of EG")');
+        await page.waitForFunction(() => window.raybundle.view.near > 100);
+        assert.equal(await outline(), inside);
+        await arrived();
+        const above = await outline();
+        assert.notEqual(above, inside);
+        await page.click('#leave-plan');
+        assert.equal(await outline(), above);
+    });
 });
 
 /// Where an element is once it stays there: handles follow the picture of a new view.
@@ -159,6 +186,9 @@ describe('parts of a building', () => {
         await page.click('#hide');
         await page.waitForSelector('#objects li[data-object="7"] .tag:has-text("hidden")');
         assert.deepEqual(messages(sent, 'setHidden').at(-1), {objects: [7]});
+        await page.click('#hide:has-text("Show")');  // it is the one that is selected
+        await page.waitForSelector('#hide:has-text("Hide")');
+        assert.deepEqual(messages(sent, 'setHidden').at(-1), {objects: []});
         await page.fill('#object-search', '');
         await page.click('#objects .group button[aria-label="Show only EG"]');
         await page.waitForFunction(() => document.getElementById('show-all').textContent === 'Show all 9 hidden ones');
