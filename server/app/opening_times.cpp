@@ -17,11 +17,12 @@ double bytes_of(const std::string& file) {
 
 }  // namespace
 
-void OpeningTimes::note(const std::string& file, double seconds) {
+void OpeningTimes::note(const std::string& file, double seconds, double light_seconds) {
     const double bytes = std::max(bytes_of(file), 1.0);
     const std::lock_guard lock(mutex_);
     seconds_[file] = seconds;
-    seconds_per_byte_ = seconds / bytes;
+    seconds_per_byte_ = std::max(seconds - light_seconds, 0.0) / bytes;
+    light_seconds_ = light_seconds;
 }
 
 std::optional<double> OpeningTimes::expected(const std::string& file) const {
@@ -31,7 +32,8 @@ std::optional<double> OpeningTimes::expected(const std::string& file) const {
     if (known != seconds_.end()) {
         return known->second;
     }
-    return seconds_per_byte_ > 0.0 ? std::optional(seconds_per_byte_ * bytes) : std::nullopt;
+    return seconds_.empty() ? std::nullopt
+                            : std::optional(seconds_per_byte_ * bytes + light_seconds_);
 }
 
 }  // namespace raybundle

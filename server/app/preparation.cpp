@@ -65,6 +65,7 @@ void Preparation::begin(const std::string& file, std::optional<Clock::time_point
     const std::lock_guard lock(mutex_);
     file_ = file;
     asked_for_ = asked_for;
+    light_since_.reset();
     message_.emplace();
     message_->mutable_scene_opening()->set_name(std::filesystem::path(file).filename().string());
     message_->mutable_scene_opening()->set_stage(v1::SceneOpening::READING);
@@ -78,6 +79,9 @@ void Preparation::reach(v1::SceneOpening::Stage stage) {
     const std::lock_guard lock(mutex_);
     if (message_) {
         message_->mutable_scene_opening()->set_stage(stage);
+        if (stage == v1::SceneOpening::COMPILING) {
+            light_since_ = Clock::now();
+        }
         tell_all();
     }
 }
@@ -88,7 +92,8 @@ void Preparation::end() {
         spdlog::info("{} is ready", message_->scene_opening().name());
     }
     if (message_ && asked_for_) {
-        times_.note(file_, seconds_since(*asked_for_));
+        times_.note(file_, seconds_since(*asked_for_),
+                    light_since_ ? seconds_since(*light_since_) : 0.0);
     }
     message_.reset();
     waiting_.clear();

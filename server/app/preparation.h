@@ -48,6 +48,7 @@ class Preparation {
     std::optional<v1::ServerMessage> message_;  // nothing: no scene is being made ready
     std::string file_;
     std::optional<Clock::time_point> asked_for_;
+    std::optional<Clock::time_point> light_since_;  // at COMPILING
     std::vector<ViewerId> waiting_;
     std::jthread repeater_;
 };
