@@ -48,6 +48,7 @@ RadianceStore::RadianceStore(const GpuScene& scene, ZoneBalance& zones, Caustics
       power_scan_({"solution_power_scan.comp"}),
       power_density_({"solution_power_density.comp"}, scene.defines()),
       choose_({"solution_shooters.comp"}, scene.defines()),
+      complete_({"solution_complete.comp"}, scene.defines()),
       flux_sum_({"solution_flux_sum.comp"}, scene.defines()),
       balance_flux_({"solution_balance.comp"}),
       gather_at_vertices_({"solution_vertex_light.comp"}, scene.set_defines()),

@@ -95,6 +95,10 @@ class RadianceStore {
     enum class Levels { found, kept };
     /// New selection probabilities from the present solution.
     void refresh_power(Levels levels = Levels::found) const;
+    /// After the first group of iterations: what its bundles could not carry yet, reflected light,
+    /// is added to the mean irradiance and the iterate. Receivers add the same to their samples:
+    /// the result, at BINDING_COMPLETION.
+    [[nodiscard]] Buffer complete_start() const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
     /// solution_shooters.comp; at most 16.
     std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
@@ -174,7 +178,7 @@ class RadianceStore {
     mutable Readback statistics_readback_, counters_readback_;
     std::optional<ShaderProgram> level_;  // only where patches transmit light
     ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
-    ShaderProgram flux_sum_, balance_flux_, gather_at_vertices_, find_slopes_;
+    ShaderProgram complete_, flux_sum_, balance_flux_, gather_at_vertices_, find_slopes_;
     ShaderProgram checkpoint_, statistics_, measure_scatter_, turn_gloss_, send_, forget_;
 };
 

@@ -27,4 +27,12 @@ void RadianceStore::serve() const {
     serve_.dispatch(patch_count_);
 }
 
+Buffer RadianceStore::complete_start() const {
+    Buffer completion = Buffer::from<glm::vec4>("completion of the start", zones_.complete_start());
+    completion.bind_storage(BINDING_COMPLETION);
+    complete_.set("patch_count", patch_count_);
+    complete_.dispatch(patch_count_);
+    return completion;
+}
+
 }  // namespace raybundle

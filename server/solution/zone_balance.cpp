@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <numeric>
+#include <utility>
 
 #include "scene/mesh/patch_means.h"
 #include "solution/shooting_shares.h"
@@ -90,6 +91,8 @@ void ZoneBalance::refresh() {
             sky.squares += l * l;
         }
     }
+    reflection_ = started_ ? FirstReflection()  // of a start that is over
+                           : FirstReflection(partition_, traced, base_colour_);
     sort_patches();
     sort_rays(std::move(traced));
     sums_ = Buffer("zone sums",
@@ -245,8 +248,13 @@ void ZoneBalance::balance(const Means& means) {
         s.flux /= unit;
         s.squares /= unit * unit;
     }
-    std::vector<ZoneLevel> levels =
-        levels_.solve(zones, read_exchange(sums.subspan(first_pair)), sky);
+    const std::vector<ZoneExchange> exchange = read_exchange(sums.subspan(first_pair));
+    std::vector<ZoneLevel> levels = levels_.solve(zones, exchange, sky);
+    completion_.clear();
+    if (completing_) {
+        completion_ = reflection_.irradiance(partition_, direct_light(zones, exchange, sky),
+                                             levels_.incident(), rays_.areas());
+    }
     std::vector<KeptLevel> kept(partition_.count);
     if (means.kept != nullptr) {
         std::vector<ZoneMeans> light;
@@ -274,6 +282,14 @@ void ZoneBalance::balance(const Means& means) {
     }
     shooting_ = shooting_factors(zones, levels);
     upload(levels, kept);
+}
+
+std::vector<glm::vec4> ZoneBalance::complete_start() {
+    completing_ = true;
+    balance({});
+    completing_ = false;
+    reflection_ = {};
+    return std::exchange(completion_, {});
 }
 
 void ZoneBalance::keep() {

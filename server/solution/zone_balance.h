@@ -13,6 +13,7 @@
 #include "gpu/shader_program.h"
 #include "solution/gpu_scene.h"
 #include "zones/exchange_rays.h"
+#include "zones/first_reflection.h"
 #include "zones/kept_light.h"
 #include "zones/zone_levels.h"
 #include "zones/zone_partition.h"
@@ -53,6 +54,11 @@ class ZoneBalance {
     /// Finds the levels of the iterate as it is, and judges what has been kept over the last
     /// change, where there is any. The store's buffers are bound; BINDING_ZONES is from now on.
     void balance(const Means& means);
+    /// After the first group of iterations, whose bundles carried nothing but emission: irradiance
+    /// of each patch that will be reflected light, radiance units.
+    [[nodiscard]] std::vector<glm::vec4> complete_start();
+    /// Whether complete_start() is worth while, until then.
+    [[nodiscard]] bool start_lacks_light() const { return reflection_.matters(); }
     /// The iterate and what is kept shall stay as they are; BINDING_ZONES is bound.
     void keep();
     void bind() const { zones_buffer_.bind_storage(BINDING_ZONES); }
@@ -97,7 +103,10 @@ class ZoneBalance {
     double iterate_age_ = 0.0;     // of those others
     std::vector<float> shooting_;  // of zones, see shooting_factors()
     bool stale_ = true;
-    bool started_ = false;  // some bundle has come in
+    bool started_ = false;               // some bundle has come in
+    FirstReflection reflection_;         // until complete_start()
+    std::vector<glm::vec4> completion_;  // found by balance() where `completing_`
+    bool completing_ = false;
     Buffer zones_buffer_, order_, blocks_, block_sums_, ray_buffer_, segment_buffer_, sums_;
     std::unique_ptr<Readback> readback_;
     ShaderProgram flux_, flux_sum_, exchange_, means_;

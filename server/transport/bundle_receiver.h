@@ -47,6 +47,9 @@ class BundleReceiver {
     virtual void receive_planes(const Context& context) = 0;
     /// A sample was not taken after all: its bundle had no room for all hits.
     virtual void discard_sample(const Context& context) = 0;
+    /// The samples so far are of bundles that carried nothing but emission. BINDING_COMPLETION has
+    /// what they lack, RadianceStore::complete_start().
+    virtual void complete_start() {}
     /// Objects have moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special() = 0;
     /// The next pairs of bundles before and after the move, at most MOST_DIFFERENCES: receivers

@@ -16,7 +16,10 @@ namespace {
 
 constexpr std::size_t group_size = GROUP_SIZE;  // iterations planned together
 constexpr float transient_iterations =
-    64.0F;                                  // times 1/(1 - albedo): over which sample weights rise
+    64.0F;  // times 1/(1 - albedo): over which sample weights rise
+// Samples of a completed start lack no light, only where it is: those of the first block within
+// which shooters are stratified weigh alike. EarlyPicture.* guards it.
+constexpr auto completed_start = static_cast<float>(IterationSchedule::shooter_block);
 constexpr float fine_sample_weight = 2.0F;  // of fine bundles against coarse ones
 constexpr std::uint64_t statistics_interval = 16;
 constexpr float least_iterate_age = 3.0F;  // after a change, in samples
@@ -63,6 +66,7 @@ Solver::Solver(const Scene& scene, const PatchMesh& mesh, const SolverSettings& 
                                   : nullptr),
       zones_(scene, mesh, scene_, settings.seed),
       store_(scene_, zones_, caustics_.get()),
+      lacks_reflection_(settings.main_part && zones_.start_lacks_light()),
       schedule_(settings_.seed, probabilities_, scene_.reflectance().any_glossy(),
                 settings_.planes_per_direction),
       coarse_(std::make_unique<Transfer>(scene_, store_, settings_.coarse)),
@@ -189,15 +193,37 @@ void Solver::step(std::span<BundleReceiver* const> receivers) {
     ++group_next_;
     if (group_next_ == group_.size()) {
         finish_group(receivers);
+        complete_start(receivers);
         store_.serve();
     }
 }
 
-/// Weight of a sample in the mean since the last change, or since the start: rises at first, so
-/// that what the iterate had before fades like 1/n^2.
+/// The first group of bundles carries what lights send. What surfaces will reflect of it is known
+/// of each room as a whole, so that nobody has to see a room whose shadows are black.
+void Solver::complete_start(std::span<BundleReceiver* const> receivers) {
+    if (iterations_ != group_size || !start_is_completed()) {
+        return;
+    }
+    store_.bind();
+    const Buffer completion = store_.complete_start();
+    for (BundleReceiver* receiver : receivers) {
+        receiver->complete_start();
+    }
+}
+
+/// Whether the first group of bundles carries, or has carried, nothing but emission, and lacks what
+/// surfaces reflect.
+bool Solver::start_is_completed() const {
+    return lacks_reflection_ && changes_ == 0 && constant_ == glm::vec3(0.0F);
+}
+
+/// Weight of a sample in the mean since the last change, or since the start: rises, so that what
+/// the iterate had before fades like 1/n^2.
 float Solver::sample_weight() const {
     const auto since = static_cast<float>((changes_ > 0 ? since_change_ : iterations_) + 1);
-    return std::min(since / transient_, 1.0F) * (is_fine() ? fine_sample_weight : 1.0F);
+    const float least = start_is_completed() ? completed_start : 0.0F;
+    return std::min(std::max(since, least) / transient_, 1.0F) *
+           (is_fine() ? fine_sample_weight : 1.0F);
 }
 
 /// A change has left the iterate as good as so many samples, at most.

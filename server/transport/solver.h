@@ -132,6 +132,8 @@ class Solver {
     void plan_group();
     void refine();
     void refresh_slopes();
+    void complete_start(std::span<BundleReceiver* const> receivers);
+    [[nodiscard]] bool start_is_completed() const;
     void restart_caustics();
     [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
@@ -171,6 +173,7 @@ class Solver {
     std::unique_ptr<Caustics> caustics_;  // only where the scene has any
     ZoneBalance zones_;
     RadianceStore store_;
+    bool lacks_reflection_;  // of the first bundles
     IterationSchedule schedule_;
     std::unique_ptr<Transfer> coarse_, fine_;  // fine_ exists from the switch-over on
     bool fine_fits_ = true;                    // there is memory for it, as far as is known

@@ -63,6 +63,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       resolve_moved(make_resolve(scene, with_all(variant, {"REPROJECT 1", "MOVED 1"}))),
       compose_linear({"view_compose.comp"}, with_all(scene.defines(), with(variant, "LINEAR 1"))),
       keep({"view_keep.comp"}, scene.defines()),
+      complete({"view_complete.comp"}, scene.set_defines()),
       correct({"view_correct.comp"}, scene.defines()),
       scale({"view_scale.comp"}, scene.defines()),
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),

@@ -31,6 +31,7 @@ struct ViewPrograms {
     ShaderProgram compose_linear;
     std::array<ShaderProgram, 3> compose, compose_scaled;  ///< by DisplayMode
     ShaderProgram keep;                                    ///< what pixels have over a change
+    ShaderProgram complete;                                ///< what the start could not carry
     ShaderProgram correct, scale, scale_delta, vertex_irradiance, statistics, detail, probe;
     ShaderProgram scatter_refine;
     ConfidencePrograms confidence;

@@ -144,6 +144,7 @@ class ViewerImage : public BundleReceiver {
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
     void discard_sample(const Context& context) override;
+    void complete_start() override;
     void begin_special() override;
     void plan_differences(std::span<const BundleRays> bundles,
                           std::span<const Bounds> boxes) override;

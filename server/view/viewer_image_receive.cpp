@@ -139,4 +139,13 @@ void ViewerImage::discard_sample(const Context& context) {
     parameters_.constant -= glm::vec4(context.sample_weight * context.constant_irradiance, 0.0F);
 }
 
+void ViewerImage::complete_start() {
+    if (continued() != nullptr) {
+        continued()->complete_start();
+    }
+    upload_view();
+    bind_pixels();
+    programs_.complete.dispatch(pixel_count(size_));
+}
+
 }  // namespace raybundle

@@ -171,6 +171,8 @@ ZonePartition find_zones(const ExchangeRays& rays, std::span<const ExchangeRay> 
     const auto [zones, zone] = join_clusters(count, cluster_rays, max_zones - 1);
     result.count = zones + 1;
     result.loose = zones;
+    result.cluster = std::move(leaf_of);
+    result.clusters = static_cast<unsigned>(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         for (const std::uint32_t patch : leaves[i]) {
             result.zone[patch] = inner[i] == outside ? zones : zone[inner[i]];

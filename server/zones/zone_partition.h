@@ -19,6 +19,9 @@ struct ZonePartition {
     /// Has patches that belong to none: facades, what is hardly lit by anything, what too few rays
     /// tell apart. Its light has no level of its own.
     std::optional<unsigned> loose;
+    /// Of each patch, below clusters: patches near each other that see the same things.
+    std::vector<std::uint32_t> cluster;
+    unsigned clusters = 0;
 };
 
 /// Small clusters of patches (by place, side and object) are merged, those first that exchange the

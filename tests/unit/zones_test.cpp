@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zones/exchange_rays.h"
+#include "zones/first_reflection.h"
 #include "zones/kept_light.h"
 #include "zones/zone_levels.h"
 #include "zones/zone_partition.h"
@@ -291,6 +292,83 @@ TEST(KeptLight, IsBelievedAsFarAsTheLevelsBearItOut) {
     EXPECT_NEAR(level.scale.g, 0.1, 0.01);
     EXPECT_LT(level.limit, 0.01);
     EXPECT_EQ(wrong.doubt(), 1.0);  // nothing is known of the new light yet
+}
+
+/// Two clusters of a zone: one sees its grey surface, the other black ones and the sky.
+TEST(FirstReflection, ReachesWhatSeesSurfacesThatReflect) {
+    ZonePartition partition;
+    partition.count = 1;
+    partition.zone = {0, 0, 0, 0};
+    partition.cluster = {0, 1, 2, 3};
+    partition.clusters = 4;
+    const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.5F), glm::vec3(0.0F),
+                                           glm::vec3(0.5F)};
+    const std::vector<ExchangeRay> rays = {
+        {0, 1, 1.0F, {}}, {3, 2, 1.0F, {}}, {3, ExchangeRay::lost, 1.0F, {}}};
+    const std::vector<float> areas = {1.0F, 3.0F, 1.0F, 1.0F};
+    std::vector<ZoneFlux> zones(1);
+    zones[0].area = 6.0;
+    zones[0].incident = glm::dvec3(10.0);
+    const std::vector<glm::dvec3> incident = {glm::dvec3(18.0)};
+    const FirstReflection reflection(partition, rays, colour);
+    EXPECT_TRUE(reflection.matters());
+    const std::vector<glm::vec4> light = reflection.irradiance(partition, zones, incident, areas);
+    EXPECT_EQ(light[3].g, 0.0F);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        sum += static_cast<double>(light[i].g * areas[i]);
+    }
+    EXPECT_NEAR(sum, 8.0, 1e-5) << "what the zone lacks";
+    EXPECT_FLOAT_EQ(light[0].g, light[1].g);
+    EXPECT_GT(light[2].g, 0.0F) << "black, but lit by what it sees";
+}
+
+/// What belongs to no zone has no level of its own, but gets what zones send to it.
+TEST(FirstReflection, ComesToWhatBelongsToNoZone) {
+    ZonePartition partition;
+    partition.count = 2;
+    partition.zone = {0, 1, 1};
+    partition.loose = 1;
+    partition.cluster = {0, 1, 2};
+    partition.clusters = 3;
+    const std::vector<ExchangeRay> rays = {
+        {1, 0, 1.0F, {}}, {1, ExchangeRay::lost, 3.0F, {}}, {2, ExchangeRay::lost, 1.0F, {}}};
+    const std::vector<float> areas = {2.0F, 1.0F, 1.0F};
+    std::vector<ZoneFlux> zones(2);
+    zones[0].area = 2.0;
+    zones[1].area = 2.0;
+    zones[1].loose = true;
+    const std::vector<glm::dvec3> incident = {glm::dvec3(20.0), glm::dvec3(100.0)};
+    const FirstReflection reflection(partition, rays, std::vector<glm::vec3>(3, glm::vec3(0.5F)));
+    const std::vector<glm::vec4> light = reflection.irradiance(partition, zones, incident, areas);
+    EXPECT_FLOAT_EQ(light[1].g, 0.25F * 0.5F * 10.0F);
+    EXPECT_EQ(light[2].g, 0.0F);
+    EXPECT_EQ(light[0].g, 0.0F) << "nothing of a zone is known to come from where none is";
+}
+
+/// A floor below a black screen lacks nothing, and its samples weigh as if there were no
+/// completion.
+TEST(FirstReflection, DoesNotMatterWhereWhatReflectsSeesBlackSurfaces) {
+    ZonePartition partition;
+    partition.count = 1;
+    partition.zone = {0, 0};
+    partition.cluster = {0, 1};
+    partition.clusters = 2;
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {0, ExchangeRay::lost, 1.0F, {}}};
+    const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.0F)};
+    EXPECT_FALSE(FirstReflection(partition, rays, colour).matters());
+    EXPECT_FALSE(FirstReflection().matters());
+}
+
+TEST(FirstReflection, IsNothingWhereNoRaysAreKnown) {
+    ZonePartition partition;
+    partition.count = 1;
+    partition.zone = {0};
+    const std::vector<ZoneFlux> zones(1);
+    const std::vector<glm::dvec3> incident = {glm::dvec3(1.0)};
+    const std::vector<float> areas = {1.0F};
+    EXPECT_EQ(FirstReflection().irradiance(partition, zones, incident, areas).at(0),
+              glm::vec4(0.0F));
 }
 
 }  // namespace
