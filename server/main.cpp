@@ -41,7 +41,7 @@ int run(const Options& options, const CLI::App& app) {
     if (options.command != Options::Command::serve) {
         raybundle::release_hangup();
     }
-    if (options.list_gpus) {
+    if (options.device.list_gpus) {
         return list_gpus();
     }
     switch (options.command) {
@@ -87,7 +87,7 @@ int parse_and_run(int argc, char** argv) {
     }
     try {
         raybundle::set_log(options);
-        raybundle::set_bundle_builder(raybundle::bundle_builder_named(options.bundles)
+        raybundle::set_bundle_builder(raybundle::bundle_builder_named(options.device.bundles)
                                           .value_or(raybundle::BundleBuilder::automatic));
         return run(options, app);
     } catch (const raybundle::UsageError& error) {

@@ -17,8 +17,8 @@ void warn(const JournalError& error) {
 }  // namespace
 
 JournalChoice::JournalChoice(const Options& options)
-    : file_(options.journal == none ? "" : options.journal) {
-    if (options.journal.empty()) {
+    : file_(options.serve.journal == none ? "" : options.serve.journal) {
+    if (options.serve.journal.empty()) {
         try {
             folder_ = StateFolder::of_user();
         } catch (const JournalError& error) {

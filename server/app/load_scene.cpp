@@ -17,24 +17,24 @@ constexpr std::uint64_t max_environment_bytes = 512ULL << 20U;
 
 Daylight daylight_of(const Options& options) {
     Daylight daylight;
-    if (!options.sky.text.empty() && !options.sky.luminance()) {
-        daylight.sky = options.sky.text;
+    if (!options.daylight.sky.text.empty() && !options.daylight.sky.luminance()) {
+        daylight.sky = options.daylight.sky.text;
     }
-    daylight.zenith_luminance = options.sky_zenith;
-    daylight.sun_elevation = options.sun_elevation;
-    daylight.sun_azimuth = options.sun_azimuth;
-    daylight.sun_illuminance = options.sun_illuminance;
-    daylight.sun_diameter = options.sun_diameter;
-    daylight.ground_albedo = options.ground_albedo;
-    daylight.environment_rotation = options.environment_rotation;
-    daylight.environment_scale = options.environment_scale;
-    if (!options.environment.empty()) {
-        if (!options.sky.text.empty()) {
+    daylight.zenith_luminance = options.daylight.sky_zenith;
+    daylight.sun_elevation = options.daylight.sun_elevation;
+    daylight.sun_azimuth = options.daylight.sun_azimuth;
+    daylight.sun_illuminance = options.daylight.sun_illuminance;
+    daylight.sun_diameter = options.daylight.sun_diameter;
+    daylight.ground_albedo = options.daylight.ground_albedo;
+    daylight.environment_rotation = options.daylight.environment_rotation;
+    daylight.environment_scale = options.daylight.environment_scale;
+    if (!options.daylight.environment.empty()) {
+        if (!options.daylight.sky.text.empty()) {
             throw UsageError("--environment: cannot be combined with --sky");
         }
-        daylight.environment = options.environment;
-        daylight.environment_bytes =
-            read_file_bounded(options.environment, max_environment_bytes, options.environment, "");
+        daylight.environment = options.daylight.environment;
+        daylight.environment_bytes = read_file_bounded(
+            options.daylight.environment, max_environment_bytes, options.daylight.environment, "");
     }
     return daylight;
 }
@@ -47,18 +47,18 @@ LoadedScene load_scene(const Options& options) {
 
 LoadedScene load_scene(const Options& options, const std::function<void()>& accepted) {
     const auto start = std::chrono::steady_clock::now();
-    spdlog::info("reading {}", options.scene);
+    spdlog::info("reading {}", options.scene.file);
     SceneSettings settings;
-    settings.metres_per_unit = metres_per_unit(options.unit);
-    settings.sky_luminance = options.sky.luminance();
+    settings.metres_per_unit = metres_per_unit(options.scene.unit);
+    settings.sky_luminance = options.daylight.sky.luminance();
     settings.daylight = daylight_of(options);
-    settings.ies = options.ies;
+    settings.ies = options.scene.ies;
     LoadedScene loaded;
-    loaded.scene = load_gltf(options.scene, settings);
-    loaded.digest = file_digest(options.scene).value_or("");
+    loaded.scene = load_gltf(options.scene.file, settings);
+    loaded.digest = file_digest(options.scene.file).value_or("");
     accepted();
     TessellationSettings tessellation;
-    tessellation.patch_size = options.patch_size;
+    tessellation.patch_size = options.scene.patch_size;
     loaded.mesh = tessellate(loaded.scene, tessellation);
     loaded.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -14,16 +14,16 @@ namespace {
 
 /// The camera of --eye and --target; nothing where they are not given.
 std::optional<Camera> free_camera(const Options& options) {
-    if (options.eye.empty() && options.target.empty()) {
+    if (options.camera.eye.empty() && options.camera.target.empty()) {
         return std::nullopt;
     }
-    if (options.eye.empty() || options.target.empty()) {
+    if (options.camera.eye.empty() || options.camera.target.empty()) {
         throw UsageError("--eye and --target belong together");
     }
     Camera camera;
-    camera.eye = parse_vector("--eye", options.eye);
-    camera.target = parse_vector("--target", options.target);
-    camera.vertical_fov = glm::radians(options.fov);
+    camera.eye = parse_vector("--eye", options.camera.eye);
+    camera.target = parse_vector("--target", options.camera.target);
+    camera.vertical_fov = glm::radians(options.camera.fov);
     if (camera.eye == camera.target) {
         throw UsageError("--target: is the eye itself");
     }
@@ -40,20 +40,21 @@ Camera choose_camera(const Scene& scene, const Options& options) {
     if (const std::optional<Camera> camera = free_camera(options)) {
         return *camera;
     }
-    if (options.camera.empty()) {
+    if (options.camera.name.empty()) {
         return scene.cameras.front();
     }
     std::string names;
     for (const Camera& camera : scene.cameras) {
-        if (camera.name == options.camera) {
+        if (camera.name == options.camera.name) {
             return camera;
         }
         names += (names.empty() ? "" : ", ") + camera.name;
     }
     std::size_t index = scene.cameras.size();
-    std::from_chars(options.camera.data(), options.camera.data() + options.camera.size(), index);
+    std::from_chars(options.camera.name.data(),
+                    options.camera.name.data() + options.camera.name.size(), index);
     if (index >= scene.cameras.size()) {
-        throw UsageError("--camera: no camera '" + options.camera + "'; there are: " + names);
+        throw UsageError("--camera: no camera '" + options.camera.name + "'; there are: " + names);
     }
     return scene.cameras[index];
 }
@@ -83,7 +84,9 @@ void show_progress(Progress& bar, double elapsed, double left, std::uint64_t ite
 }
 
 StopRule::StopRule(const Options& options)
-    : seconds_(options.seconds), iterations_(options.iterations), error_(options.error) {
+    : seconds_(options.stop.seconds),
+      iterations_(options.stop.iterations),
+      error_(options.stop.error) {
     if (!seconds_ && !iterations_ && !error_) {
         seconds_ = 10.0;
     }

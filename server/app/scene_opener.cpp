@@ -54,9 +54,9 @@ SceneOpener::SceneOpener(const Options& options, Server& server, const OpeningTi
     : options_(options),
       server_(server),
       times_(times),
-      library_(options.scenes),
+      library_(options.serve.scenes),
       opened_(std::move(opened)),
-      shown_(options.scene) {
+      shown_(options.scene.file) {
     server_.set_upload_factory([this](const std::string& name) -> std::unique_ptr<Upload> {
         std::unique_ptr<NewSceneFile> file = library_.create();
         return file ? std::make_unique<SceneUpload>(*this, name, std::move(file)) : nullptr;
@@ -102,7 +102,7 @@ void SceneOpener::handle(const ClientEvent& request, const std::string& viewer_n
     v1::ServerMessage answer;
     library_.list(shown, answer.mutable_scene_list());
     answer.mutable_scene_list()->set_max_upload_bytes(
-        static_cast<std::uint32_t>(options_.max_upload_megabytes) * 1'000'000U);
+        static_cast<std::uint32_t>(options_.serve.max_upload_megabytes) * 1'000'000U);
     server_.reply(request, answer);
 }
 
@@ -139,7 +139,7 @@ void SceneOpener::open(OpenedScene& scene) {
     announce(scene, v1::SceneOpening::READING);
     try {
         Options options = options_;
-        options.scene = scene.file;
+        options.scene.file = scene.file;
         check_confined(scene.file);
         scene.loaded = load_scene(options, [&] { announce(scene, v1::SceneOpening::PREPARING); });
         {
@@ -199,8 +199,8 @@ void SceneOpener::set_shown(const std::string& file) {
 UploadResult SceneOpener::check(NewSceneFile& file, const std::string& name) {
     try {
         Options options = options_;
-        options.scene = file.path();
-        check_confined(options.scene);
+        options.scene.file = file.path();
+        check_confined(options.scene.file);
         load_scene(options);
         const bool replaced = file.keep_as(name);
         spdlog::info("{} has been uploaded", name);

@@ -32,7 +32,7 @@ struct OpenedScene {
 class SceneOpener {
   public:
     /// `opened` is called when take() has something. Throws UsageError where the folder of
-    /// options.scenes is none.
+    /// options.serve.scenes is none.
     SceneOpener(const Options& options, Server& server, const OpeningTimes& times,
                 std::function<void()> opened);
     ~SceneOpener();

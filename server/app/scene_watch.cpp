@@ -69,7 +69,7 @@ std::optional<LoadedScene> SceneWatch::take() {
 }
 
 void SceneWatch::watch(const std::stop_token& token) {
-    std::vector<std::string> files = files_to_watch(options_.scene);
+    std::vector<std::string> files = files_to_watch(options_.scene.file);
     FileStates known = states_of(files);
     FileStates before = known;
     while (!token.stop_requested()) {
@@ -77,7 +77,7 @@ void SceneWatch::watch(const std::stop_token& token) {
         FileStates now = states_of(files);
         const bool settled = now == before && now.front() != FileState{};
         if (settled && now != known) {
-            files = files_to_watch(options_.scene);
+            files = files_to_watch(options_.scene.file);
             known = now = states_of(files);
             load();
         }

@@ -61,22 +61,22 @@ void create_folder(const std::string& path) {
 }  // namespace
 
 int run_accuracy(const Options& options) {
-    if (options.early) {
+    if (options.accuracy.early) {
         return run_accuracy_early(options);
     }
     const AccuracyJob job = plan_accuracy(options);
     std::optional<EglContext> context;
     if (job.needs_gl()) {
-        context.emplace(create_egl_context({options.gpu, false}));
+        context.emplace(create_egl_context({options.device.gpu, false}));
     }
     const LoadedScene loaded = load_scene(options);
     AccuracyMeasurement measurement(options, job, loaded);
-    create_folder(options.output);
+    create_folder(options.output.file);
     measurement.run();
     const AccuracyReport report = measurement.report(context ? context->renderer() : "");
-    write_report(report, options.output);
+    write_report(report, options.output.file);
     print_table(report);
-    fmt::print("{}\n", (fs::path(options.output) / "index.html").string());
+    fmt::print("{}\n", (fs::path(options.output.file) / "index.html").string());
     return exit_done;
 }
 

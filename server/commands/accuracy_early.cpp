@@ -78,7 +78,7 @@ class EarlyPictures {
   public:
     EarlyPictures(const Options& options, const LoadedScene& loaded)
         : options_(options),
-          size_(parse_size(options.accuracy_size)),
+          size_(parse_size(options.accuracy.size)),
           loaded_(loaded),
           camera_(choose_camera(loaded_.scene, options)),
           rays_(loaded_.scene, loaded_.mesh),
@@ -89,14 +89,15 @@ class EarlyPictures {
         if (std::find(measured_.begin(), measured_.end(), true) == measured_.end()) {
             throw std::runtime_error("every pixel sees a lamp or the sky: nothing to measure");
         }
-        for (std::uint64_t seed = options_.seed; seed < options_.seed + options_.repeats; ++seed) {
+        for (std::uint64_t seed = options_.scene.seed;
+             seed < options_.scene.seed + options_.accuracy.repeats; ++seed) {
             since_nothing_.push_back(run_once(seed, false));
             since_turn_.push_back(run_once(seed, true));
         }
         make_reference();
         Json report = {{"scene", loaded_.scene.name},
                        {"size", {size_.x, size_.y}},
-                       {"seeds", options_.repeats},
+                       {"seeds", options_.accuracy.repeats},
                        {"referenceNoise", noise()}};
         LinePlot plot = empty_plot();
         write("since nothing", "nothing", since_nothing_, report["sinceNothing"], plot);
@@ -107,7 +108,7 @@ class EarlyPictures {
     }
 
   private:
-    [[nodiscard]] fs::path folder() const { return options_.output; }
+    [[nodiscard]] fs::path folder() const { return options_.output.file; }
 
     /// A viewer that looks from the first iteration on, or turns to the view after a while.
     [[nodiscard]] std::vector<Look> run_once(std::uint64_t seed, bool turns) const {
@@ -142,14 +143,14 @@ class EarlyPictures {
     }
 
     void make_reference() {
-        const ReferenceKey key{scene_fingerprint(options_.scene, RAYBUNDLE_VERSION), camera_, size_,
-                               PixelFilter::centre};
+        const ReferenceKey key{scene_fingerprint(options_.scene.file, RAYBUNDLE_VERSION), camera_,
+                               size_, PixelFilter::centre};
         const LightSampling lights(rays_);
         Progress progress;
         reference_ = raybundle::make_reference(
             {rays_, lights, view_, measured_, key, (folder() / "reference_centre.exr").string(),
-             mixed_bits(options_.seed ^ 0x7265666572656e63ULL),
-             options_.reference_seconds.value_or(120.0),
+             mixed_bits(options_.scene.seed ^ 0x7265666572656e63ULL),
+             options_.accuracy.reference_seconds.value_or(120.0),
              [this](const ReferencePicture& r) { return best_error(r); }},
             progress);
         factor_ = automatic_display_factor(reference_.radiance, measured_);
@@ -268,11 +269,11 @@ class EarlyPictures {
 }  // namespace
 
 int run_accuracy_early(const Options& options) {
-    const EglContext context = create_egl_context({options.gpu, false});
+    const EglContext context = create_egl_context({options.device.gpu, false});
     std::error_code error;
-    fs::create_directories(options.output, error);
-    if (error || !fs::is_directory(options.output)) {
-        throw std::runtime_error(options.output + ": this folder cannot be made");
+    fs::create_directories(options.output.file, error);
+    if (error || !fs::is_directory(options.output.file)) {
+        throw std::runtime_error(options.output.file + ": this folder cannot be made");
     }
     const LoadedScene loaded = load_scene(options);
     EarlyPictures(options, loaded).run();

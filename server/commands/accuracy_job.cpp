@@ -26,13 +26,13 @@ std::vector<std::string> split(const std::string& list) {
 
 /// All that solve the whole transport but the reference's own, unless the user names some.
 std::vector<std::string> chosen_methods(const Options& options) {
-    if (options.methods.empty()) {
+    if (options.accuracy.methods.empty()) {
         std::vector<std::string> names = method_names();
         std::erase(names, "ray-cast");
         std::erase(names, "path-reuse");
         return names;
     }
-    std::vector<std::string> names = split(options.methods);
+    std::vector<std::string> names = split(options.accuracy.methods);
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
             names.begin() + static_cast<std::ptrdiff_t>(i)) {
@@ -47,7 +47,7 @@ std::vector<std::string> chosen_methods(const Options& options) {
 
 PlannedCurve planned(const std::string& method, const Options& options) {
     PlannedCurve curve{method, method, "", parse_method(method), {}, 1.0, PixelGrid::adaptive, ""};
-    curve.solver.seed = options.seed;
+    curve.solver.seed = options.scene.seed;
     if (const auto* probabilities = std::get_if<StrategyProbabilities>(&curve.how)) {
         curve.solver.probabilities = *probabilities;
     }
@@ -159,13 +159,14 @@ AccuracyJob plan_accuracy(const Options& options) {
     for (const std::string& method : chosen_methods(options)) {
         job.curves.push_back(planned(method, options));
     }
-    if (options.knobs) {
+    if (options.accuracy.knobs) {
         add_knobs(job.curves);
     }
-    job.size = parse_size(options.accuracy_size);
-    job.seconds = options.seconds.value_or(default_seconds);
-    job.repeats = options.repeats;
-    job.reference_seconds = options.reference_seconds.value_or(reference_factor * job.seconds);
+    job.size = parse_size(options.accuracy.size);
+    job.seconds = options.stop.seconds.value_or(default_seconds);
+    job.repeats = options.accuracy.repeats;
+    job.reference_seconds =
+        options.accuracy.reference_seconds.value_or(reference_factor * job.seconds);
     return job;
 }
 

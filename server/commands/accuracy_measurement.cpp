@@ -42,7 +42,7 @@ std::string processor_name() {
 PatchMesh mesh_with_edges(const Scene& scene, const Options& options, double scale) {
     Scene copy = scene;
     TessellationSettings settings;
-    settings.patch_size = options.patch_size * static_cast<float>(scale);
+    settings.patch_size = options.scene.patch_size * static_cast<float>(scale);
     settings.target_patches =
         static_cast<std::size_t>(static_cast<double>(settings.target_patches) / (scale * scale));
     return tessellate(copy, settings);
@@ -50,20 +50,23 @@ PatchMesh mesh_with_edges(const Scene& scene, const Options& options, double sca
 
 /// All options of daylight; an image by its content.
 std::string daylight_text(const Options& options) {
-    std::string text = options.sky.text.empty() ? "own sky" : options.sky.text;
-    for (const auto& number : {options.sky_zenith, options.sun_elevation, options.sun_azimuth,
-                               options.sun_illuminance, options.sun_diameter, options.ground_albedo,
-                               options.environment_rotation, options.environment_scale}) {
+    std::string text = options.daylight.sky.text.empty() ? "own sky" : options.daylight.sky.text;
+    for (const auto& number :
+         {options.daylight.sky_zenith, options.daylight.sun_elevation, options.daylight.sun_azimuth,
+          options.daylight.sun_illuminance, options.daylight.sun_diameter,
+          options.daylight.ground_albedo, options.daylight.environment_rotation,
+          options.daylight.environment_scale}) {
         text += number ? fmt::format(" {}", *number) : " -";
     }
-    return options.environment.empty() ? text
-                                       : text + " " + file_digest(options.environment).value_or("");
+    return options.daylight.environment.empty()
+               ? text
+               : text + " " + file_digest(options.daylight.environment).value_or("");
 }
 
 /// What decides how a scene's files are read, for the cache's key.
 std::string reading_options(const Options& options) {
-    return fmt::format("{} {} {} {}", RAYBUNDLE_VERSION, options.unit, daylight_text(options),
-                       fmt::join(options.ies, " "));
+    return fmt::format("{} {} {} {}", RAYBUNDLE_VERSION, options.scene.unit, daylight_text(options),
+                       fmt::join(options.scene.ies, " "));
 }
 
 }  // namespace
@@ -97,7 +100,7 @@ void AccuracyMeasurement::leave_out_unable() {
         if (!kind) {
             return false;
         }
-        const bool named = !options_.methods.empty();
+        const bool named = !options_.accuracy.methods.empty();
         const std::string reason = reason_against(*kind, ray_scene_);
         if (!reason.empty() && named) {
             throw std::runtime_error("--methods: " + curve.method + ": " + reason);
@@ -114,7 +117,7 @@ void AccuracyMeasurement::leave_out_unable() {
         return left_out;
     });
     const std::string missed = light_missed(ReferenceKind::path, ray_scene_, camera_, job_.size);
-    if (!missed.empty() && options_.reference.empty()) {
+    if (!missed.empty() && options_.accuracy.reference.empty()) {
         spdlog::warn(
             "the reference is path traced: {}. Methods that find that light look wrong "
             "beside it.",
@@ -136,7 +139,7 @@ void AccuracyMeasurement::run_methods() {
             left -= job_.seconds;
             progress_.begin(fmt::format("{} ({} of {})", plan.name, ++count,
                                         job_.curves.size() * job_.repeats));
-            curves_.back().runs.push_back(run_once(plan, options_.seed + repeat, left));
+            curves_.back().runs.push_back(run_once(plan, options_.scene.seed + repeat, left));
         }
     }
 }
@@ -160,28 +163,28 @@ MethodRun AccuracyMeasurement::run_once(const PlannedCurve& plan, std::uint64_t 
 
 /// All pictures are means over the pixels' areas, and so is what they are compared with.
 ReferenceKey AccuracyMeasurement::key() const {
-    return {scene_fingerprint(options_.scene, reading_options(options_)), camera_, job_.size,
+    return {scene_fingerprint(options_.scene.file, reading_options(options_)), camera_, job_.size,
             PixelFilter::box};
 }
 
 std::string AccuracyMeasurement::own_reference_file() const {
-    return (fs::path(options_.output) / "reference_area.exr").string();
+    return (fs::path(options_.output.file) / "reference_area.exr").string();
 }
 
 void AccuracyMeasurement::take_named_reference() {
-    reference_ = load_named_reference(options_.reference, key());
-    reference_file_ = options_.reference;
+    reference_ = load_named_reference(options_.accuracy.reference, key());
+    reference_file_ = options_.accuracy.reference;
     if (!reference_.noise) {
         spdlog::warn("{}: has no .json file of ours beside it, so its own noise is taken for 0",
-                     options_.reference);
+                     options_.accuracy.reference);
     } else if (reference_.filter != PixelFilter::box) {
-        throw std::runtime_error(options_.reference +
+        throw std::runtime_error(options_.accuracy.reference +
                                  ": shows pixel centres, but pictures show means over pixels");
     }
 }
 
 void AccuracyMeasurement::make_reference() {
-    if (!options_.reference.empty()) {
+    if (!options_.accuracy.reference.empty()) {
         take_named_reference();
         return;
     }
@@ -192,7 +195,7 @@ void AccuracyMeasurement::make_reference() {
                            measured_,
                            key(),
                            reference_file_,
-                           mixed_bits(options_.seed ^ 0x7265666572656e63ULL),
+                           mixed_bits(options_.scene.seed ^ 0x7265666572656e63ULL),
                            job_.reference_seconds,
                            [this](const ReferencePicture& r) { return best_error(r); }};
     reference_ = raybundle::make_reference(job, progress_);
@@ -281,13 +284,15 @@ void AccuracyMeasurement::add_pictures(AccuracyReport& report) const {
 AccuracyReport AccuracyMeasurement::report(const std::string& device) const {
     AccuracyReport report;
     report.scene = loaded_.scene.name;
-    report.camera = options_.eye.empty() ? camera_.name : options_.eye + " to " + options_.target;
+    report.camera = options_.camera.eye.empty()
+                        ? camera_.name
+                        : options_.camera.eye + " to " + options_.camera.target;
     report.device = device;
     report.processor = processor_name();
     report.size = job_.size;
     report.patches = loaded_.mesh.patch_count();
     report.seconds = job_.seconds;
-    report.seed = options_.seed;
+    report.seed = options_.scene.seed;
     report.repeats = job_.repeats;
     // In the report's own folder a name is enough, and stays right where that is moved.
     const fs::path file = reference_file_;

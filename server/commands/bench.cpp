@@ -82,9 +82,9 @@ class SceneBench {
   public:
     SceneBench(const Options& options, Json& report)
         : report_(report),
-          seed_(options.seed),
-          seconds_(options.seconds),
-          json_file_(options.json_file),
+          seed_(options.scene.seed),
+          seconds_(options.stop.seconds),
+          json_file_(options.output.json_file),
           loaded_(load_scene(options)) {
         report_["scene"] = loaded_.scene.name;
         report_["patches"] = loaded_.mesh.patch_count();
@@ -363,19 +363,19 @@ class SceneBench {
 }  // namespace
 
 int run_bench(const Options& options) {
-    if (!options.json_file.empty()) {
-        require_writable(options.json_file);
+    if (!options.output.json_file.empty()) {
+        require_writable(options.output.json_file);
     }
-    const EglContext context = create_egl_context({options.gpu, false});
+    const EglContext context = create_egl_context({options.device.gpu, false});
     Json report = {{"device", context.renderer()}};
     fmt::print("device: {}\n", context.renderer());
     Options chosen = options;
-    if (chosen.scene.empty()) {
-        chosen.scene = "scenes/cornell_box.gltf";
+    if (chosen.scene.file.empty()) {
+        chosen.scene.file = "scenes/cornell_box.gltf";
     }
     SceneBench(chosen, report).run();
-    if (!options.json_file.empty()) {
-        write_file(options.json_file, report.dump(2) + "\n");
+    if (!options.output.json_file.empty()) {
+        write_file(options.output.json_file, report.dump(2) + "\n");
     }
     return exit_done;
 }

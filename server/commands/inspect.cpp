@@ -37,16 +37,16 @@ int inspect_effect(const Options& options, const LoadedScene& loaded) {
     const EffectCost cost = write_contact_sheet(options, loaded);
     constexpr double megabyte = 1e-6;
     const nlohmann::json json = {
-        {"effect", options.effect},
+        {"effect", options.inspect.effect},
         {"msPerIteration", {{"with", cost.ms_with}, {"without", cost.ms_without}}},
         {"megabytes",
          {{"with", megabyte * static_cast<double>(cost.bytes_with)},
           {"without", megabyte * static_cast<double>(cost.bytes_without)}}}};
-    std::cout << (options.json_to_stdout
+    std::cout << (options.inspect.json_to_stdout
                       ? json.dump(2)
                       : fmt::format(
                             "{}: {:.2f} ms an iteration (without: {:.2f}), {:.1f} MB ({:.1f})",
-                            options.effect, cost.ms_with, cost.ms_without,
+                            options.inspect.effect, cost.ms_with, cost.ms_without,
                             megabyte * static_cast<double>(cost.bytes_with),
                             megabyte * static_cast<double>(cost.bytes_without)))
               << "\n";
@@ -56,24 +56,24 @@ int inspect_effect(const Options& options, const LoadedScene& loaded) {
 }  // namespace
 
 int run_inspect(const Options& options) {
-    if (!options.contact_sheet.empty()) {
-        require_writable(options.contact_sheet);
+    if (!options.inspect.contact_sheet.empty()) {
+        require_writable(options.inspect.contact_sheet);
     }
     const LoadedScene loaded = load_scene(options);
-    if (!options.contact_sheet.empty()) {
+    if (!options.inspect.contact_sheet.empty()) {
         return inspect_effect(options, loaded);
     }
     const SceneReport report = make_scene_report(loaded.scene, loaded.mesh);
     EffectsPlan plan =
-        plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
-    if (options.costs) {
+        plan_effects(loaded.scene, loaded.mesh.patch_count(), options.stop.error.value_or(0.0));
+    if (options.inspect.costs) {
         try {
             measure_effects(options, loaded.scene, loaded.mesh, plan);
         } catch (const GpuError& error) {
             spdlog::warn("the costs of the effects are not measured: {}", error.what());
         }
     }
-    if (options.json_to_stdout) {
+    if (options.inspect.json_to_stdout) {
         nlohmann::json json = scene_report_json(loaded.scene, report);
         json.update(effects_plan_json(plan));
         std::cout << json.dump(2) << "\n";

@@ -29,7 +29,7 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
     const StopRule rule(options);
     BundleReceiver* const receivers[] = {&picture.receiver()};
     Progress bar;
-    bar.begin(options.output, {});
+    bar.begin(options.output.file, {});
     Outcome outcome;
     const Stopwatch stopwatch;
     constexpr std::uint64_t statistics_interval = 16;  // iterations, at least
@@ -51,8 +51,8 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
             found.samples < believed_samples ? unknown : rule.estimate_of(picture);
         const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
         if (bar.due()) {
-            const double factor = found.known && options.error
-                                      ? picture.samples_factor_to(*options.error)
+            const double factor = found.known && options.stop.error
+                                      ? picture.samples_factor_to(*options.stop.error)
                                       : std::numeric_limits<double>::infinity();
             const double left = rule.seconds_left(outcome.seconds, solver.iterations(), factor);
             show_progress(bar, outcome.seconds, left, solver.iterations(), found.relative_error);
@@ -62,9 +62,9 @@ Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
         }
     }
     outcome.statistics = picture.measure();
-    if (options.error && outcome.statistics.error_high > *options.error) {
+    if (options.stop.error && outcome.statistics.error_high > *options.stop.error) {
         spdlog::warn("--error {}: not reached; {:.2f} % come from what more time does not mend",
-                     *options.error, 100.0 * outcome.statistics.discretisation);
+                     *options.stop.error, 100.0 * outcome.statistics.discretisation);
     }
     return outcome;
 }
@@ -80,7 +80,7 @@ void write_picture(FinalPicture& picture, const std::string& path) {
 }
 
 EffectsPlan effects_plan(const Options& options, const LoadedScene& loaded) {
-    return plan_effects(loaded.scene, loaded.mesh.patch_count(), options.error.value_or(0.0));
+    return plan_effects(loaded.scene, loaded.mesh.patch_count(), options.stop.error.value_or(0.0));
 }
 
 /// What path tracing of some pixels measured of the error; null where it did not.
@@ -103,8 +103,8 @@ void write_statistics(const Options& options, const EglContext& context, const S
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", context.renderer()},
-        {"method", options.method},
-        {"seed", options.seed},
+        {"method", options.render.method},
+        {"seed", options.scene.seed},
         {"size", {picture.size().x, picture.size().y}},
         {"pixelGrid", picture.pixel_grid()},
         {"seconds", outcome.seconds},
@@ -121,7 +121,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"errorMeasured", measured_json(picture)},
         {"errorNoise", outcome.statistics.noise},
         {"errorDiscretisation", outcome.statistics.discretisation},
-        {"biased", options.bias_for_noise > 0},
+        {"biased", options.render.bias_for_noise > 0},
         {"constantRadiance", solver.scene().constant_radiance()},
         {"perspectiveBundles", solver.shots().all},
         {"fromEmitters", solver.shots().from_emitters},
@@ -129,30 +129,31 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"nonFinite", solver.non_finite()},
         {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};
-    write_file(options.stats, json.dump(2) + "\n");
+    write_file(options.render.stats, json.dump(2) + "\n");
 }
 
 }  // namespace
 
 int run_render(const Options& options) {
-    require_picture_format(options.output);
-    require_writable(options.output);
-    if (!options.stats.empty()) {
-        require_writable(options.stats);
+    require_picture_format(options.output.file);
+    require_writable(options.output.file);
+    if (!options.render.stats.empty()) {
+        require_writable(options.render.stats);
     }
     check_camera(options);
-    const glm::uvec2 size = parse_size(options.size);
-    const RenderMethod method = parse_method(options.method);
-    const bool variant =
-        options.bias_for_noise > 0 || options.constant_radiance || options.random_faces;
-    if (variant && (!options.script.empty() || std::holds_alternative<ReferenceKind>(method))) {
+    const glm::uvec2 size = parse_size(options.render.size);
+    const RenderMethod method = parse_method(options.render.method);
+    const bool variant = options.render.bias_for_noise > 0 || options.render.constant_radiance ||
+                         options.render.random_faces;
+    if (variant &&
+        (!options.render.script.empty() || std::holds_alternative<ReferenceKind>(method))) {
         throw UsageError(
             "--bias-for-noise, --constant-radiance and --random-faces: only for single pictures by "
             "ray bundles");
     }
-    if (!options.script.empty()) {
+    if (!options.render.script.empty()) {
         if (!std::holds_alternative<StrategyProbabilities>(method)) {
-            throw UsageError("--script: --method " + options.method +
+            throw UsageError("--script: --method " + options.render.method +
                              " renders single pictures only");
         }
         return run_render_script(std::get<StrategyProbabilities>(method), size, options);
@@ -161,25 +162,26 @@ int run_render(const Options& options) {
         return run_render_reference(*kind, size, options);
     }
     SolverSettings settings;
-    settings.seed = options.seed;
+    settings.seed = options.scene.seed;
     settings.probabilities = std::get<StrategyProbabilities>(method);
-    settings.noise_horizon = options.bias_for_noise;
-    settings.constant_radiance = options.constant_radiance;
-    settings.random_faces = options.random_faces;
-    const EglContext context = create_egl_context({options.gpu, false});
+    settings.noise_horizon = options.render.bias_for_noise;
+    settings.constant_radiance = options.render.constant_radiance;
+    settings.random_faces = options.render.random_faces;
+    const EglContext context = create_egl_context({options.device.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
     settings.caustics = is_active(effects_plan(options, loaded), "caustics");
     Solver solver(loaded.scene, loaded.mesh, settings);
-    if (options.constant_radiance && !solver.scene().constant_radiance()) {
-        spdlog::warn("--constant-radiance: left out, since {} has glossy surfaces", options.scene);
+    if (options.render.constant_radiance && !solver.scene().constant_radiance()) {
+        spdlog::warn("--constant-radiance: left out, since {} has glossy surfaces",
+                     options.scene.file);
     }
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, camera, size);
-    picture.check_by(spot_check(loaded.scene, loaded.mesh, camera, size, options.seed));
+    picture.check_by(spot_check(loaded.scene, loaded.mesh, camera, size, options.scene.seed));
     const Outcome outcome = solve(solver, picture, options);
-    write_picture(picture, options.output);
-    if (!options.stats.empty()) {
+    write_picture(picture, options.output.file);
+    if (!options.render.stats.empty()) {
         write_statistics(options, context, solver, loaded, picture, outcome);
     }
     const ImageStatistics& found = outcome.statistics;
@@ -188,7 +190,7 @@ int run_render(const Options& options) {
                                                 100.0 * found.relative_error,
                                                 100.0 * found.error_low, 100.0 * found.error_high)
                                   : "error not known";
-    spdlog::info("{}: {} iterations in {:.2f} s, {}", options.output, solver.iterations(),
+    spdlog::info("{}: {} iterations in {:.2f} s, {}", options.output.file, solver.iterations(),
                  outcome.seconds, error);
     return exit_done;
 }

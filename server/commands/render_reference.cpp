@@ -29,7 +29,7 @@ constexpr std::uint64_t error_interval = 8;
 ReferenceOutcome solve(ReferenceMethod& method, const Options& options) {
     const StopRule rule(options);
     Progress bar;
-    bar.begin(options.output, {});
+    bar.begin(options.output.file, {});
     ReferenceOutcome outcome;
     const Stopwatch stopwatch;
     double progress = 0.0;
@@ -43,7 +43,7 @@ ReferenceOutcome solve(ReferenceMethod& method, const Options& options) {
         progress = rule.progress(outcome.seconds, method.iterations(), outcome.error.high);
         if (looks && bar.due()) {
             // Paths are independent: the error falls like 1/sqrt(n).
-            const double ratio = outcome.error.high / options.error.value_or(1.0);
+            const double ratio = outcome.error.high / options.stop.error.value_or(1.0);
             const double left = rule.seconds_left(outcome.seconds, method.iterations(),
                                                   outcome.error.high > 0.0
                                                       ? std::max(ratio * ratio, 1.0)
@@ -77,8 +77,8 @@ void write_statistics(const Options& options, glm::uvec2 size, const LoadedScene
     const nlohmann::ordered_json json = {
         {"scene", loaded.scene.name},
         {"device", fmt::format("CPU, {} threads", std::thread::hardware_concurrency())},
-        {"method", options.method},
-        {"seed", options.seed},
+        {"method", options.render.method},
+        {"seed", options.scene.seed},
         {"size", {size.x, size.y}},
         {"seconds", outcome.seconds},
         {"loadSeconds", loaded.seconds},
@@ -90,7 +90,7 @@ void write_statistics(const Options& options, glm::uvec2 size, const LoadedScene
         {"errorHigh", outcome.error.high},
         {"nonFinite", method.non_finite()},
         {"notices", loaded.scene.notices}};
-    write_file(options.stats, json.dump(2) + "\n");
+    write_file(options.render.stats, json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -99,18 +99,18 @@ int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& opt
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
     const RayScene scene(loaded.scene, loaded.mesh);
-    const auto method = make_reference_method(kind, scene, camera, size, options.seed);
+    const auto method = make_reference_method(kind, scene, camera, size, options.scene.seed);
     if (const std::string missed = light_missed(kind, scene, camera, size); !missed.empty()) {
         spdlog::warn("{}", missed);
     }
     const ReferenceOutcome outcome = solve(*method, options);
-    write_picture(options.output, method->picture(), size,
+    write_picture(options.output.file, method->picture(), size,
                   reflecting_pixels(scene, CameraRays(scene, camera, size)));
-    if (!options.stats.empty()) {
+    if (!options.render.stats.empty()) {
         write_statistics(options, size, loaded, *method, outcome);
     }
     spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} % ({:.2f} to {:.2f} %)",
-                 options.output, method->iterations(), outcome.seconds,
+                 options.output.file, method->iterations(), outcome.seconds,
                  100.0 * outcome.error.relative, 100.0 * outcome.error.low,
                  100.0 * outcome.error.high);
     return exit_done;

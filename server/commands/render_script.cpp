@@ -179,9 +179,9 @@ namespace {
 /// The script's text, as far as it can be right without a scene.
 std::string script_text(const Options& options) {
     try {
-        numbered_file(options.output, 0);
-        std::string text = read_text(options.script);
-        AnimationScript::require_json(text, options.script);
+        numbered_file(options.output.file, 0);
+        std::string text = read_text(options.render.script);
+        AnimationScript::require_json(text, options.render.script);
         return text;
     } catch (const ScriptError& error) {
         throw UsageError(error.what());
@@ -190,7 +190,7 @@ std::string script_text(const Options& options) {
 
 AnimationScript read_script(const std::string& text, const Options& options, const Scene& scene) {
     try {
-        return {text, options.script, scene, choose_camera(scene, options)};
+        return {text, options.render.script, scene, choose_camera(scene, options)};
     } catch (const ScriptError& error) {
         throw UsageError(error.what());
     }
@@ -204,13 +204,13 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
     LoadedScene loaded = load_scene(options);
     const AnimationScript script = read_script(text, options, loaded.scene);
     const StopRule rule(options);
-    const EglContext context = create_egl_context({options.gpu, false});
+    const EglContext context = create_egl_context({options.device.gpu, false});
     SolverSettings settings;
-    settings.seed = options.seed;
+    settings.seed = options.scene.seed;
     settings.probabilities = probabilities;
     nlohmann::ordered_json report = {{"scene", loaded.scene.name},
                                      {"device", context.renderer()},
-                                     {"script", options.script},
+                                     {"script", options.render.script},
                                      {"frames", nlohmann::ordered_json::array()}};
     Sequence sequence(std::move(loaded), script, settings, size);
     double before = -1.0;
@@ -219,7 +219,7 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
         sequence.go_to(before, time);
         before = time;
         nlohmann::ordered_json figures = sequence.solve(rule);
-        const std::string path = numbered_file(options.output, frame);
+        const std::string path = numbered_file(options.output.file, frame);
         sequence.write(path);
         spdlog::info("{}: {} iterations in {:.2f} s, estimated error {:.2f} %", path,
                      figures["iterations"].get<std::uint64_t>(), figures["seconds"].get<double>(),
@@ -228,8 +228,8 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
         figures["time"] = time;
         report["frames"].push_back(std::move(figures));
     }
-    if (!options.stats.empty()) {
-        write_file(options.stats, report.dump(2) + "\n");
+    if (!options.render.stats.empty()) {
+        write_file(options.render.stats, report.dump(2) + "\n");
     }
     return exit_done;
 }

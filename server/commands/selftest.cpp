@@ -13,10 +13,10 @@
 namespace raybundle {
 
 int run_selftest(const Options& options) {
-    if (!options.json_file.empty()) {
-        require_writable(options.json_file);
+    if (!options.output.json_file.empty()) {
+        require_writable(options.output.json_file);
     }
-    const EglContext context = create_egl_context({options.gpu, false});
+    const EglContext context = create_egl_context({options.device.gpu, false});
     nlohmann::ordered_json report = {{"device", context.renderer()},
                                      {"tests", nlohmann::ordered_json::array()}};
     int failed = 0;
@@ -37,8 +37,8 @@ int run_selftest(const Options& options) {
                                    {"bound", result.bound},
                                    {"seconds", seconds}});
     }
-    if (!options.json_file.empty()) {
-        write_file(options.json_file, report.dump(2) + "\n");
+    if (!options.output.json_file.empty()) {
+        write_file(options.output.json_file, report.dump(2) + "\n");
     }
     fmt::print("selftest on {}: {} passed, {} failed\n", context.renderer(),
                report["tests"].size() - static_cast<std::size_t>(failed), failed);

@@ -127,12 +127,12 @@ class SceneServer {
           server_(server),
           control_(control),
           journals_(options),
-          context_(create_egl_context({options.gpu, false})),
+          context_(create_egl_context({options.device.gpu, false})),
           effect_bench_(options, server) {
-        settings_.solver.seed = options.seed;
+        settings_.solver.seed = options.scene.seed;
         settings_.solver.special = interactive_special();
         settings_.rehearse = true;
-        settings_.scheduling.min_frames_per_second = options.min_frames_per_second;
+        settings_.scheduling.min_frames_per_second = options.serve.min_frames_per_second;
         settings_.renderer = context_->renderer();
         settings_.software_rendering = context_->is_software();
         settings_.lost_after_change = injected_fault();
@@ -148,7 +148,7 @@ class SceneServer {
     }
 
     void run() {
-        control_.preparation.begin(options_.scene, std::nullopt);
+        control_.preparation.begin(options_.scene.file, std::nullopt);
         {
             const std::lock_guard lock(control_.serving_mutex);
             server_.start();
@@ -210,37 +210,37 @@ class SceneServer {
     /// The scene that was shown last time, where the journal knows one; else that of the options.
     std::pair<std::string, LoadedScene> first_scene() {
         const std::string name =
-            control_.opener ? journals_.remembered_scene(options_.scene) : std::string();
+            control_.opener ? journals_.remembered_scene(options_.scene.file) : std::string();
         const std::optional<std::string> file =
             name.empty() ? std::nullopt : control_.opener->library().find(name);
         if (file) {
             try {
                 Options options = options_;
-                options.scene = *file;
+                options.scene.file = *file;
                 check_confined(*file);
                 LoadedScene loaded = load(options);
                 control_.opener->set_shown(*file);
                 spdlog::info("{} was open last, so it is shown instead of {}", name,
-                             options_.scene);
+                             options_.scene.file);
                 return {*file, std::move(loaded)};
             } catch (const std::exception& error) {
                 spdlog::error("could not reopen the previous scene {}: {}", name, error.what());
             }
         }
-        return {options_.scene, load(options_)};
+        return {options_.scene.file, load(options_)};
     }
 
     /// Viewers that wait hear of it.
     LoadedScene load(const Options& options) {
-        control_.preparation.begin(options.scene, Preparation::Clock::now());
+        control_.preparation.begin(options.scene.file, Preparation::Clock::now());
         return load_scene(options,
                           [this] { control_.preparation.reach(v1::SceneOpening::PREPARING); });
     }
 
     void watch(const std::string& file) {
-        if (options_.watch) {
+        if (options_.serve.watch) {
             Options options = options_;
-            options.scene = file;
+            options.scene.file = file;
             control_.watch.reset();
             control_.watch.emplace(options, [this] {
                 control_.leave = true;
@@ -267,7 +267,7 @@ class SceneServer {
         control_.preparation.begin(scene.file, scene.begun);
         // On disk before anybody is told.
         const auto shown = [&](ChangeLog& log) {
-            journals_.remember_scene(log, options_.scene, scene.progress.name());
+            journals_.remember_scene(log, options_.scene.file, scene.progress.name());
             control_.opener->accept(scene);
         };
         const std::string problem = replace(std::move(scene.loaded), shown);
@@ -297,13 +297,13 @@ class SceneServer {
         server_.close_all(CloseCode::service_restart, "the graphics processor has failed");
         served_.reset();
         context_.reset();
-        context_.emplace(create_egl_context({options_.gpu, false}));
+        context_.emplace(create_egl_context({options_.device.gpu, false}));
         for (BundleResolution* bundles : {&settings_.solver.coarse, &settings_.solver.fine}) {
             bundles->hemicube /= 2;
             bundles->window /= 2;
         }
         Options options = options_;
-        options.scene = shown_file_;
+        options.scene.file = shown_file_;
         LoadedScene loaded = load(options);
         control_.preparation.reach(v1::SceneOpening::COMPILING);
         served_ = std::make_unique<ServedScene>(journals_, std::move(loaded), settings_, server_);
@@ -362,7 +362,7 @@ void end_unless_serving(Control& control, Server& server) {
 }  // namespace
 
 int run_serve(const Options& options) {
-    if (options.print_config) {
+    if (options.config.print) {
         fmt::print("{}", print_config(options));
         return exit_done;
     }
@@ -379,7 +379,7 @@ int run_serve(const Options& options) {
             end_unless_serving(control, server);
         },
         [&] { reload_settings(options, server); });
-    if (!options.scenes.empty()) {
+    if (!options.serve.scenes.empty()) {
         control.opener.emplace(options, server, control.times, leave);
     }
     const NetworkEnd network_end(control, server);  // before the opener, which uploads use

@@ -9,14 +9,14 @@
 namespace raybundle {
 
 int run_token(const Options& options) {
-    if (!parse_role(options.token_role)) {
-        throw UsageError("--role: '" + options.token_role +
+    if (!parse_role(options.token.role)) {
+        throw UsageError("--role: '" + options.token.role +
                          "' is none of VIEWER, REVIEWER, EDITOR");
     }
     const std::string token = random_token();
     nlohmann::ordered_json entry;
-    entry["name"] = options.token_name;
-    entry["role"] = options.token_role;
+    entry["name"] = options.token.name;
+    entry["role"] = options.token.role;
     entry["sha256"] = to_hex(token_digest(token));
     fmt::print("token, for the client:     {}\n", token);
     fmt::print("entry, for \"tokens\": [...]: {}\n", entry.dump());

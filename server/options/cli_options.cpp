@@ -79,21 +79,23 @@ CLI::Validator relative_error() {
 }
 
 /// Adds a row of the table of `serve`.
-void add_row(CLI::App& app, Options& o, const ServeOption& row) {
-    const auto add = [&](const auto member) {
-        if constexpr (std::is_same_v<decltype(member), bool Options::*const>) {
-            app.add_flag(flag_of(row.key), o.*member, row.help);
-        } else if constexpr (std::is_same_v<decltype(member), SkyChoice Options::*const>) {
-            app.add_option(flag_of(row.key), (o.*member).text, row.help);
+void add_row(CLI::App& app, Options& o, const OptionRow& row) {
+    const auto add = [&](const auto& field) {
+        auto& value = field(o);
+        using Value = std::remove_reference_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, bool>) {
+            app.add_flag(flag_of(row.key), value, row.help);
+        } else if constexpr (std::is_same_v<Value, SkyChoice>) {
+            app.add_option(flag_of(row.key), value.text, row.help);
         } else {
-            app.add_option(flag_of(row.key), o.*member, row.help)->capture_default_str();
+            app.add_option(flag_of(row.key), value, row.help)->capture_default_str();
         }
     };
-    std::visit(add, row.member);
+    std::visit(add, row.field);
 }
 
 void add_common(CLI::App& app, Options& o) {
-    for (const ServeOption& row : serve_options()) {
+    for (const OptionRow& row : option_table()) {
         if (row.common) {
             add_row(app, o, row);
         }
@@ -102,7 +104,7 @@ void add_common(CLI::App& app, Options& o) {
 
 /// Throws UsageError where a value of the command line is out of range.
 void check_rows(const CLI::App& app, const Options& o) {
-    for (const ServeOption& row : serve_options()) {
+    for (const OptionRow& row : option_table()) {
         const CLI::Option* const option = app.get_option_no_throw(flag_of(row.key));
         const bool given = option != nullptr && option->count() > 0;
         if (const std::string problem = given ? problem_of(row, o) : ""; !problem.empty()) {
@@ -112,23 +114,23 @@ void check_rows(const CLI::App& app, const Options& o) {
 }
 
 void add_scene(CLI::App& app, Options& o, bool required) {
-    auto* scene = app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
+    auto* scene = app.add_option("SCENE", o.scene.file, "glTF 2.0 file, .gltf or .glb");
     if (required) {
         scene->required();
     }
     app.add_option(
-           "--patch-size", o.patch_size,
+           "--patch-size", o.scene.patch_size,
            "Target edge of the patches, m; smaller where light changes beside other surfaces "
            "(default: about 25 000 patches)")
         ->check(positive());
-    app.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();
+    app.add_option("--seed", o.scene.seed, "Of all random numbers")->capture_default_str();
 }
 
 void add_serve(CLI::App& app, Options& o) {
-    app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
-    app.add_option("--config", o.config, "JSON file with these options; those given here win");
-    app.add_flag("--print-config", o.print_config, "Print the configuration in effect and exit");
-    for (const ServeOption& row : serve_options()) {
+    app.add_option("SCENE", o.scene.file, "glTF 2.0 file, .gltf or .glb");
+    app.add_option("--config", o.config.file, "JSON file with these options; those given here win");
+    app.add_flag("--print-config", o.config.print, "Print the configuration in effect and exit");
+    for (const OptionRow& row : option_table()) {
         if (!row.common) {
             add_row(app, o, row);
         }
@@ -137,100 +139,102 @@ void add_serve(CLI::App& app, Options& o) {
 
 /// Completes the options of `serve` from the configuration file.
 void finish_serve(const CLI::App& app, Options& o) {
-    for (const ServeOption& row : serve_options()) {
+    for (const OptionRow& row : option_table()) {
         if (app.get_option(flag_of(row.key))->count() > 0) {
-            o.on_command_line.insert(row.key);
+            o.config.on_command_line.insert(row.key);
         }
     }
-    if (!o.scene.empty()) {
-        o.on_command_line.insert("scene");
+    if (!o.scene.file.empty()) {
+        o.config.on_command_line.insert("scene");
     }
-    if (!o.config.empty()) {
-        apply_config_file(o.config, o);
+    if (!o.config.file.empty()) {
+        apply_config_file(o.config.file, o);
     }
-    if (o.scene.empty() && !o.print_config) {
+    if (o.scene.file.empty() && !o.config.print) {
         throw UsageError("serve: needs a SCENE, on the command line or in the --config file");
     }
 }
 
 void add_token(CLI::App& app, Options& o) {
-    app.add_option("--name", o.token_name, "Whom it is for; appears in the log");
-    app.add_option("--role", o.token_role, "VIEWER, REVIEWER or EDITOR")->capture_default_str();
+    app.add_option("--name", o.token.name, "Whom it is for; appears in the log");
+    app.add_option("--role", o.token.role, "VIEWER, REVIEWER or EDITOR")->capture_default_str();
 }
 
 void add_camera(CLI::App& app, Options& o) {
-    app.add_option("--camera", o.camera, "Camera of the scene, by name or index from 0");
-    app.add_option("--eye", o.eye, "Eye, x,y,z in metres (with --target)");
-    app.add_option("--target", o.target, "Point looked at, x,y,z in metres");
-    app.add_option("--fov", o.fov, "Vertical field of view, degrees")
+    app.add_option("--camera", o.camera.name, "Camera of the scene, by name or index from 0");
+    app.add_option("--eye", o.camera.eye, "Eye, x,y,z in metres (with --target)");
+    app.add_option("--target", o.camera.target, "Point looked at, x,y,z in metres");
+    app.add_option("--fov", o.camera.fov, "Vertical field of view, degrees")
         ->capture_default_str()
         ->check(number_that([](double value) { return value >= 0.1 && value <= 179.0; },
                             "an angle of 0.1 to 179 degrees"));
 }
 
 void add_render(CLI::App& app, Options& o) {
-    app.add_option("-o,--output", o.output, "Picture to write: .exr (linear, cd/m²) or .png")
+    app.add_option("-o,--output", o.output.file, "Picture to write: .exr (linear, cd/m²) or .png")
         ->required();
     add_camera(app, o);
-    app.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--seconds", o.seconds,
+    app.add_option("--size", o.render.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--seconds", o.stop.seconds,
                    "Solving time (default: 10, without --iterations and --error)")
         ->check(positive());
-    app.add_option("--iterations", o.iterations, "Number of iterations; no clock decides anything")
+    app.add_option("--iterations", o.stop.iterations,
+                   "Number of iterations; no clock decides anything")
         ->check(positive());
-    app.add_option("--error", o.error,
+    app.add_option("--error", o.stop.error,
                    "Stop when the estimated relative error is below, e.g. 0.02; "
                    "caustics that cannot be a tenth of it are skipped (not with --script, where "
                    "things move)")
         ->check(relative_error());
-    app.add_option("--method", o.method,
+    app.add_option("--method", o.render.method,
                    "On the GPU combined, parallel-layered, parallel-plane, perspective; on the "
                    "CPU, as references, "
                    "path, path-reuse (path tracing, shared by neighbouring pixels), single-ray, "
                    "ray-cast (direct light alone), light, bidirectional, metropolis, photon-map")
         ->capture_default_str();
     app.add_option(
-           "--bias-for-noise", o.bias_for_noise,
+           "--bias-for-noise", o.render.bias_for_noise,
            "Cut off rare bright contributions as fits so many planned iterations; the result "
            "is then biased (0: never)")
         ->check(number_that([](double value) { return value >= 0.0 && value <= 1e9; },
                             "a number of 0 to 1e9"));
-    app.add_flag("--constant-radiance", o.constant_radiance,
+    app.add_flag("--constant-radiance", o.render.constant_radiance,
                  "Transfer only what radiance is beyond its mean; for matt, closed, evenly lit "
                  "rooms");
-    app.add_flag("--random-faces", o.random_faces,
+    app.add_flag("--random-faces", o.render.random_faces,
                  "Glossy surfaces send through the faces of their hemicubes that matter most, and "
                  "now and then through the others");
-    app.add_option("--stats", o.stats, "Write statistics as JSON");
-    app.add_option("--script", o.script,
+    app.add_option("--stats", o.render.stats, "Write statistics as JSON");
+    app.add_option("--script", o.render.script,
                    "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "
                    "iterations and error are those of each frame")
         ->check(CLI::ExistingFile);
 }
 
 void add_accuracy(CLI::App& app, Options& o) {
-    app.add_option("-o,--output", o.output, "Folder to write index.html, accuracy.json, plots to")
+    app.add_option("-o,--output", o.output.file,
+                   "Folder to write index.html, accuracy.json, plots to")
         ->required();
     add_camera(app, o);
-    app.add_option("--size", o.accuracy_size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--seconds", o.seconds, "Solving time of each run (default: 10)")
+    app.add_option("--size", o.accuracy.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--seconds", o.stop.seconds, "Solving time of each run (default: 10)")
         ->check(number_that([](double value) { return value >= 0.1 && value <= 86400.0; },
                             "a number of 0.1 to 86400"));
-    app.add_option("--methods", o.methods,
+    app.add_option("--methods", o.accuracy.methods,
                    "Methods of render, between commas (default: all but ray-cast and path-reuse)");
-    app.add_option("--repeats", o.repeats, "Runs of each method, with seeds one apart")
+    app.add_option("--repeats", o.accuracy.repeats, "Runs of each method, with seeds one apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
-    app.add_flag("--knobs", o.knobs,
+    app.add_flag("--knobs", o.accuracy.knobs,
                  "Also vary patch size, bundle resolution, strategy probabilities, bias for noise, "
                  "gloss and variants of the iteration, one at a time");
-    app.add_flag("--early", o.early,
+    app.add_flag("--early", o.accuracy.early,
                  "Instead measure a viewer's pictures after 8 to 256 iterations, since nothing and "
                  "since a turn of the camera")
         ->excludes("--methods", "--knobs");
-    app.add_option("--reference", o.reference,
+    app.add_option("--reference", o.accuracy.reference,
                    "Reference to compare with, .exr (default: path-traced, kept in the folder)");
-    app.add_option("--reference-seconds", o.reference_seconds,
+    app.add_option("--reference-seconds", o.accuracy.reference_seconds,
                    "At most for each reference (default: 60 times --seconds)")
         ->check(positive());
 }
@@ -249,7 +253,7 @@ float parse_float(const std::string& option, const std::string& text) {
 void define_options(CLI::App& app, Options& options) {
     app.description("Raybundle: global illumination in object space, served to browsers");
     app.set_version_flag("--version", "raybundle " RAYBUNDLE_VERSION);
-    app.add_flag("--list-gpus", options.list_gpus, "List the EGL devices and exit");
+    app.add_flag("--list-gpus", options.device.list_gpus, "List the EGL devices and exit");
     for (const CommandRow& row : command_table) {
         CLI::App* command = app.add_subcommand(row.name, row.help);
         command->callback([&options, row, command] {
@@ -276,27 +280,27 @@ void define_options(CLI::App& app, Options& options) {
         } else if (row.command == Options::Command::accuracy) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::inspect) {
-            command->add_flag("--json", options.json_to_stdout, "Print JSON");
-            command->add_flag("--costs", options.costs,
+            command->add_flag("--json", options.inspect.json_to_stdout, "Print JSON");
+            command->add_flag("--costs", options.inspect.costs,
                               "Measure what each effect costs on this machine, in some seconds");
             command
-                ->add_option("--error", options.error,
+                ->add_option("--error", options.stop.error,
                              "Plan for pictures of this relative error: effects that cannot be a "
                              "tenth of it are skipped, as render --error does")
                 ->check(relative_error());
             CLI::Option* const sheet =
-                command->add_option("--contact-sheet", options.contact_sheet,
+                command->add_option("--contact-sheet", options.inspect.contact_sheet,
                                     "PNG of the scene with --effect and without, and its cost");
-            CLI::Option* const effect =
-                command->add_option("--effect", options.effect, "Name of an effect of the plan");
+            CLI::Option* const effect = command->add_option("--effect", options.inspect.effect,
+                                                            "Name of an effect of the plan");
             sheet->needs(effect);
             effect->needs(sheet);
         } else {
-            command->add_option("--json", options.json_file,
+            command->add_option("--json", options.output.json_file,
                                 "Also write the results as JSON (bench: plots beside it)");
             if (row.command == Options::Command::bench) {
                 command
-                    ->add_option("--seconds", options.seconds,
+                    ->add_option("--seconds", options.stop.seconds,
                                  "How long moves are followed (default: 3, and fewer variants)")
                     ->check(number_that([](double value) { return value >= 0.5 && value <= 600.0; },
                                         "a number of 0.5 to 600"));

@@ -43,88 +43,140 @@ struct SkyChoice {
     [[nodiscard]] std::optional<float> luminance() const;  ///< cd/m², of a uniform sky
 };
 
-/// Everything the command line can say.
-struct Options {
-    enum class Command { none, serve, render, accuracy, inspect, bench, selftest, token };
-    Command command = Command::none;
+// What each option means, with its unit and range: option_table.cpp (for `serve`, and what all
+// commands know) and cli_options.cpp.
 
-    // All commands.
+/// Where light is computed.
+struct DeviceOptions {
     int gpu = -1;
     std::string bundles = "auto";
     bool list_gpus = false;
+};
+
+struct SceneOptions {
+    std::string file;
     std::string unit = "m";
-    // Daylight; option_table.cpp says what each means.
+    float patch_size = 0.0F;  ///< m, 0: about 25 000 patches
+    std::uint64_t seed = 1;
+    std::vector<std::string> ies;  ///< LIGHT=FILE
+};
+
+struct DaylightOptions {
     SkyChoice sky;
     std::optional<float> sky_zenith, sun_elevation, sun_azimuth, sun_illuminance, sun_diameter;
     std::optional<float> ground_albedo;
-    std::string environment;  // file
+    std::string environment;  ///< file
     std::optional<float> environment_rotation, environment_scale;
-    std::vector<std::string> ies;  // LIGHT=FILE
-    std::string log_level = "info";
+};
 
-    std::string scene;
-    float patch_size = 0.0F;  // m, 0: about 25 000 patches
-    std::uint64_t seed = 1;
+struct LogOptions {
+    std::string level = "info";
+    std::string format = "text";
+};
 
-    // serve; option_table.cpp says what each means
-    std::string config;                     // file
-    std::set<std::string> on_command_line;  // keys that the configuration file does not override
+struct ConfigOptions {
+    std::string file;
+    std::set<std::string> on_command_line;  ///< keys that the file does not override
+    bool print = false;
+};
+
+/// Who may connect to a server, and how.
+struct NetworkOptions {
     std::string listen = "127.0.0.1:8080";
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;
-    std::vector<AccessToken> tokens;  // from the file only
-    std::string journal;              // file, "none", or empty: one of the user's folder
-    std::string log_format = "text";
-    double min_frames_per_second = 0.0;
+    std::vector<AccessToken> tokens;  ///< from the configuration file only
     double max_messages_per_second = 1000.0;
-    int max_viewers = 64;
     int max_connections = 256;
     int max_connections_per_address = 32;
-    bool print_config = false;
     bool allow_remote = false;
-    bool watch = false;
-    std::string scenes;  // folder
+};
+
+/// What a server does for its viewers.
+struct ServeOptions {
+    std::string journal;  ///< file, "none", or empty: one of the user's folder
+    std::string scenes;   ///< folder
+    double min_frames_per_second = 0.0;
+    int max_viewers = 64;
     int max_upload_megabytes = 256;
     double max_upload_seconds = 600.0;
+    bool watch = false;
+};
 
-    // token
-    std::string token_name;
-    std::string token_role = "VIEWER";
+struct TokenOptions {
+    std::string name;
+    std::string role = "VIEWER";
+};
 
-    // render
-    std::string output;
-    std::string camera;
+struct CameraOptions {
+    std::string name;  ///< or index
     std::string eye, target;
-    float fov = 40.0F;  // degrees
-    std::string size = "800x600";
+    float fov = 40.0F;  ///< degrees
+};
+
+/// When a solve ends.
+struct StopOptions {
     std::optional<double> seconds;
     std::optional<std::uint64_t> iterations;
     std::optional<double> error;
+};
+
+struct OutputOptions {
+    std::string file;  ///< of accuracy a folder
+    std::string json_file;
+};
+
+struct RenderOptions {
+    std::string size = "800x600";
     std::string method = "combined";
-    std::uint64_t bias_for_noise = 0;  // iterations planned
+    std::uint64_t bias_for_noise = 0;  ///< iterations planned
     bool constant_radiance = false;
     bool random_faces = false;
-    std::string stats;
-    std::string script;  // file
+    std::string stats;   ///< file
+    std::string script;  ///< file
+};
 
-    // accuracy, besides those of render
-    std::string accuracy_size = "128x128";
-    std::string methods;  // between commas; empty: all that solve the whole transport
+struct AccuracyOptions {
+    std::string size = "128x128";
+    std::string methods;  ///< between commas; empty: all that solve the whole transport
     std::string reference;
     std::optional<double> reference_seconds;
     std::size_t repeats = 1;
     bool knobs = false;
     bool early = false;
+};
 
-    // inspect
+struct InspectOptions {
     bool costs = false;
-    std::string contact_sheet;  // file
-    std::string effect;
-
-    // inspect, bench, selftest
     bool json_to_stdout = false;
-    std::string json_file;
+    std::string contact_sheet;  ///< file
+    std::string effect;
+};
+
+/// Everything the command line can say.
+struct Options {
+    enum class Command { none, serve, render, accuracy, inspect, bench, selftest, token };
+    Command command = Command::none;
+
+    // All commands but token.
+    DeviceOptions device;
+    SceneOptions scene;
+    DaylightOptions daylight;
+    LogOptions log;
+
+    // serve
+    ConfigOptions config;
+    NetworkOptions network;
+    ServeOptions serve;
+
+    CameraOptions camera;  // render, accuracy
+    StopOptions stop;      // render, accuracy, inspect, bench
+    OutputOptions output;  // render, accuracy, bench, selftest
+    RenderOptions render;
+    AccuracyOptions accuracy;
+    InspectOptions inspect;
+    TokenOptions token;
 };
 
 /// Parses the command line into options, and for `serve` the configuration file under it. Tables:

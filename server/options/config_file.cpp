@@ -64,7 +64,7 @@ std::string suggestion(const std::string& key, const std::vector<std::string>& k
 
 std::vector<std::string> known_keys() {
     std::vector<std::string> keys{scene_key, tokens_key};
-    for (const ServeOption& option : serve_options()) {
+    for (const OptionRow& option : option_table()) {
         keys.emplace_back(option.key);
     }
     return keys;
@@ -194,20 +194,20 @@ std::vector<AccessToken> read_tokens(const Json& value) {
 
 void read_key(const std::string& key, const Json& value, Options& options) {
     if (key == scene_key) {
-        read(value, options.scene);
+        read(value, options.scene.file);
         return;
     }
     if (key == tokens_key) {
-        options.tokens = read_tokens(value);
+        options.network.tokens = read_tokens(value);
         return;
     }
-    const auto table = serve_options();
+    const auto table = option_table();
     const auto option = std::find_if(table.begin(), table.end(),
-                                     [&](const ServeOption& row) { return key == row.key; });
+                                     [&](const OptionRow& row) { return key == row.key; });
     if (option == table.end()) {
         refuse_unknown(key, known_keys());
     }
-    std::visit([&](const auto member) { read(value, options.*member); }, option->member);
+    std::visit([&](const auto& field) { read(value, field(options)); }, option->field);
     if (const std::string problem = problem_of(*option, options); !problem.empty()) {
         throw BadValue(problem);
     }
@@ -215,7 +215,7 @@ void read_key(const std::string& key, const Json& value, Options& options) {
 
 /// What the command line has said is kept, but checked in the file all the same.
 void apply_key(const std::string& key, const Json& value, Options& options) {
-    if (options.on_command_line.contains(key)) {
+    if (options.config.on_command_line.contains(key)) {
         Options overridden;
         read_key(key, value, overridden);
     } else {
@@ -296,35 +296,35 @@ void apply_config_file(const std::string& file, Options& options) {
 Options reread_config(const Options& options) {
     Options fresh;
     fresh.command = options.command;
-    fresh.config = options.config;
-    fresh.on_command_line = options.on_command_line;
-    for (const ServeOption& option : serve_options()) {
-        if (options.on_command_line.contains(option.key)) {
-            std::visit([&](const auto member) { fresh.*member = options.*member; }, option.member);
+    fresh.config.file = options.config.file;
+    fresh.config.on_command_line = options.config.on_command_line;
+    for (const OptionRow& option : option_table()) {
+        if (options.config.on_command_line.contains(option.key)) {
+            std::visit([&](const auto& field) { field(fresh) = field(options); }, option.field);
         }
     }
-    if (options.on_command_line.contains(scene_key)) {
-        fresh.scene = options.scene;
+    if (options.config.on_command_line.contains(scene_key)) {
+        fresh.scene.file = options.scene.file;
     }
-    if (!fresh.config.empty()) {
+    if (!fresh.config.file.empty()) {
         std::error_code missing;
-        if (std::filesystem::is_fifo(fresh.config, missing)) {
-            throw UsageError(fresh.config + ": is a pipe, which cannot be read again");
+        if (std::filesystem::is_fifo(fresh.config.file, missing)) {
+            throw UsageError(fresh.config.file + ": is a pipe, which cannot be read again");
         }
-        apply_config_file(fresh.config, fresh);
+        apply_config_file(fresh.config.file, fresh);
     }
     return fresh;
 }
 
 std::string print_config(const Options& options) {
     Json json;
-    json[scene_key] = options.scene;
-    for (const ServeOption& option : serve_options()) {
+    json[scene_key] = options.scene.file;
+    for (const OptionRow& option : option_table()) {
         json[option.key] =
-            std::visit([&](const auto member) { return to_json(options.*member); }, option.member);
+            std::visit([&](const auto& field) { return to_json(field(options)); }, option.field);
     }
     json[tokens_key] = Json::array();
-    for (const AccessToken& token : options.tokens) {
+    for (const AccessToken& token : options.network.tokens) {
         json[tokens_key].push_back({{"name", token.name},
                                     {"role", v1::Role_Name(token.role)},
                                     {"sha256", to_hex(token.digest)}});

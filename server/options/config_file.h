@@ -7,9 +7,9 @@
 
 namespace raybundle {
 
-/// Reads a JSON configuration of `serve`: the keys of serve_options(), "scene" and "tokens". What
-/// options.on_command_line names keeps its value. Throws UsageError that names the file, the key
-/// and the reason; an unknown key gets a suggestion. The options are unchanged then.
+/// Reads a JSON configuration of `serve`: the keys of option_table(), "scene" and "tokens". What
+/// options.config.on_command_line names keeps its value. Throws UsageError that names the file, the
+/// key and the reason; an unknown key gets a suggestion. The options are unchanged then.
 void apply_config_file(const std::string& file, Options& options);
 
 /// As apply_config_file() for JSON text; `name` stands for the file in errors.

@@ -61,7 +61,7 @@ class PlainMessage : public spdlog::custom_flag_formatter {
 }  // namespace
 
 void set_log(const Options& options) {
-    const bool json = options.log_format == "json";
+    const bool json = options.log.format == "json";
     auto formatter = std::make_unique<spdlog::pattern_formatter>(
         json ? spdlog::pattern_time_type::utc : spdlog::pattern_time_type::local);
     if (json) {
@@ -77,7 +77,7 @@ void set_log(const Options& options) {
 
 void set_log_level(const Options& options) {
     spdlog::set_level(
-        spdlog::level::from_str(options.log_level == "warn" ? "warning" : options.log_level));
+        spdlog::level::from_str(options.log.level == "warn" ? "warning" : options.log.level));
 }
 
 }  // namespace raybundle

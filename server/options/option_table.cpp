@@ -85,117 +85,125 @@ std::string sky_problem(const std::string& text) {
 }
 
 constexpr std::array serve_table{
-    ServeOption{"listen", "Address and port; port 0: any free one", &Options::listen, 0, 0,
-                address_problem},
-    ServeOption{"allowRemote", "Listen beyond this machine without tokens", &Options::allow_remote},
-    ServeOption{"tlsCert", "PEM certificate chain; the server then speaks https",
-                &Options::tls_cert},
-    ServeOption{"tlsKey", "PEM private key, without passphrase", &Options::tls_key},
-    ServeOption{"allowedOrigins", "Origins of pages that may connect, besides the server's own",
-                &Options::allowed_origins, 0, 0, origin_problem},
-    ServeOption{"trustedProxies", "Addresses of proxies whose X-Forwarded-For the log believes",
-                &Options::trusted_proxies, 0, 0, proxy_problem},
-    ServeOption{"maxViewers", "Viewers at a time", &Options::max_viewers, 1, 1000},
-    ServeOption{"minFramesPerSecond",
-                "A viewer is refused where the others would get fewer (0: all "
-                "get fewer instead)",
-                &Options::min_frames_per_second, 0, 60},
-    ServeOption{"maxConnections", "Connections at a time, viewers and HTTP together",
-                &Options::max_connections, 1, 100000},
-    ServeOption{"maxConnectionsPerAddress",
-                "Connections of one address; this machine's own are not limited",
-                &Options::max_connections_per_address, 1, 100000},
-    ServeOption{"maxMessagesPerSecond", "Messages of one viewer a second, on average",
-                &Options::max_messages_per_second, 1, 1e6},
-    ServeOption{"journal",
-                "File that keeps changes and pins over a restart (SQLite); none: nothing is kept; "
-                "by default "
-                "a file in ~/.local/state/raybundle, one for each scene",
-                &Options::journal},
-    ServeOption{"watch", "Read the scene again when its file is replaced", &Options::watch},
-    ServeOption{"scenes", "Folder of .gltf and .glb files that editors may open", &Options::scenes},
-    ServeOption{"maxUploadMegabytes", "Of one scene that an editor adds to it (0: none may be)",
-                &Options::max_upload_megabytes, 0, 4000},
-    ServeOption{"maxUploadSeconds", "Until all bytes of an upload have come",
-                &Options::max_upload_seconds, 0.1, 86400},
-    ServeOption{"logFormat", "Log lines as text or as one JSON object each", &Options::log_format,
-                0, 0, log_format_problem},
-    ServeOption{"patchSize", "Target edge of the patches, m (0: about 25 000 patches)",
-                &Options::patch_size, 0, no_limit},
-    ServeOption{"seed", "Of all random numbers", &Options::seed, 0, no_limit},
-    ServeOption{"gpu", "EGL device number, see --list-gpus (-1: the first usable one)",
-                &Options::gpu, -1, 1000, nullptr, true},
-    ServeOption{"bundles",
-                "What finds the surfaces that bundles and pictures see: raster, trace (rays on the "
-                "processor), or auto, which is quicker",
-                &Options::bundles, 0, 0, bundles_problem, true},
-    ServeOption{"unit", "Length unit of the scene file: m, cm, mm, in, ft", &Options::unit, 0, 0,
-                unit_problem, true},
-    ServeOption{"sky",
-                "Luminance of a uniform sky, cd/m², or a standard sky: overcast, intermediate, "
-                "clear, cie-1 to cie-15",
-                &Options::sky, 0, no_limit, sky_problem, true},
-    ServeOption{"skyZenith", "Luminance of a standard sky's zenith, cd/m² (default: typical)",
-                &Options::sky_zenith, 0, 1e9, nullptr, true},
-    ServeOption{"sunElevation", "Of a standard sky's sun, degrees above the horizon (default: 45)",
-                &Options::sun_elevation, 0, 90, nullptr, true},
-    ServeOption{"sunAzimuth", "From north (-Z) over east (+X), degrees (default: 180)",
-                &Options::sun_azimuth, -360, 360, nullptr, true},
-    ServeOption{"sunIlluminance", "Of a surface that faces the sun, lx (default: typical; 0: none)",
-                &Options::sun_illuminance, 0, 1e9, nullptr, true},
-    ServeOption{"sunDiameter", "Of the sun's disc, degrees (default: 0.533)",
-                &Options::sun_diameter, 0, 10, nullptr, true},
-    ServeOption{"groundAlbedo", "Of the plain below a standard sky (default: 0.2)",
-                &Options::ground_albedo, 0, 1, nullptr, true},
-    ServeOption{"environment", "Equirectangular image of the surroundings, .hdr or .exr",
-                &Options::environment, 0, 0, nullptr, true},
-    ServeOption{"environmentRotation", "Clockwise as seen from above, degrees",
-                &Options::environment_rotation, -360, 360, nullptr, true},
-    ServeOption{"environmentScale", "cd/m² of one unit of the image (default: 1)",
-                &Options::environment_scale, 0, 1e9, nullptr, true},
-    ServeOption{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES file",
-                &Options::ies, 0, 0, ies_problem, true},
-    ServeOption{"logLevel", "trace, debug, info, warn, error, off", &Options::log_level, 0, 0,
-                log_level_problem, true},
+    OptionRow{"listen", "Address and port; port 0: any free one",
+              field<&Options::network, &NetworkOptions::listen>(), 0, 0, address_problem},
+    OptionRow{"allowRemote", "Listen beyond this machine without tokens",
+              field<&Options::network, &NetworkOptions::allow_remote>()},
+    OptionRow{"tlsCert", "PEM certificate chain; the server then speaks https",
+              field<&Options::network, &NetworkOptions::tls_cert>()},
+    OptionRow{"tlsKey", "PEM private key, without passphrase",
+              field<&Options::network, &NetworkOptions::tls_key>()},
+    OptionRow{"allowedOrigins", "Origins of pages that may connect, besides the server's own",
+              field<&Options::network, &NetworkOptions::allowed_origins>(), 0, 0, origin_problem},
+    OptionRow{"trustedProxies", "Addresses of proxies whose X-Forwarded-For the log believes",
+              field<&Options::network, &NetworkOptions::trusted_proxies>(), 0, 0, proxy_problem},
+    OptionRow{"maxViewers", "Viewers at a time",
+              field<&Options::serve, &ServeOptions::max_viewers>(), 1, 1000},
+    OptionRow{"minFramesPerSecond",
+              "A viewer is refused where the others would get fewer (0: all "
+              "get fewer instead)",
+              field<&Options::serve, &ServeOptions::min_frames_per_second>(), 0, 60},
+    OptionRow{"maxConnections", "Connections at a time, viewers and HTTP together",
+              field<&Options::network, &NetworkOptions::max_connections>(), 1, 100000},
+    OptionRow{"maxConnectionsPerAddress",
+              "Connections of one address; this machine's own are not limited",
+              field<&Options::network, &NetworkOptions::max_connections_per_address>(), 1, 100000},
+    OptionRow{"maxMessagesPerSecond", "Messages of one viewer a second, on average",
+              field<&Options::network, &NetworkOptions::max_messages_per_second>(), 1, 1e6},
+    OptionRow{"journal",
+              "File that keeps changes and pins over a restart (SQLite); none: nothing is kept; "
+              "by default "
+              "a file in ~/.local/state/raybundle, one for each scene",
+              field<&Options::serve, &ServeOptions::journal>()},
+    OptionRow{"watch", "Read the scene again when its file is replaced",
+              field<&Options::serve, &ServeOptions::watch>()},
+    OptionRow{"scenes", "Folder of .gltf and .glb files that editors may open",
+              field<&Options::serve, &ServeOptions::scenes>()},
+    OptionRow{"maxUploadMegabytes", "Of one scene that an editor adds to it (0: none may be)",
+              field<&Options::serve, &ServeOptions::max_upload_megabytes>(), 0, 4000},
+    OptionRow{"maxUploadSeconds", "Until all bytes of an upload have come",
+              field<&Options::serve, &ServeOptions::max_upload_seconds>(), 0.1, 86400},
+    OptionRow{"logFormat", "Log lines as text or as one JSON object each",
+              field<&Options::log, &LogOptions::format>(), 0, 0, log_format_problem},
+    OptionRow{"patchSize", "Target edge of the patches, m (0: about 25 000 patches)",
+              field<&Options::scene, &SceneOptions::patch_size>(), 0, no_limit},
+    OptionRow{"seed", "Of all random numbers", field<&Options::scene, &SceneOptions::seed>(), 0,
+              no_limit},
+    OptionRow{"gpu", "EGL device number, see --list-gpus (-1: the first usable one)",
+              field<&Options::device, &DeviceOptions::gpu>(), -1, 1000, nullptr, true},
+    OptionRow{"bundles",
+              "What finds the surfaces that bundles and pictures see: raster, trace (rays on the "
+              "processor), or auto, which is quicker",
+              field<&Options::device, &DeviceOptions::bundles>(), 0, 0, bundles_problem, true},
+    OptionRow{"unit", "Length unit of the scene file: m, cm, mm, in, ft",
+              field<&Options::scene, &SceneOptions::unit>(), 0, 0, unit_problem, true},
+    OptionRow{"sky",
+              "Luminance of a uniform sky, cd/m², or a standard sky: overcast, intermediate, "
+              "clear, cie-1 to cie-15",
+              field<&Options::daylight, &DaylightOptions::sky>(), 0, no_limit, sky_problem, true},
+    OptionRow{"skyZenith", "Luminance of a standard sky's zenith, cd/m² (default: typical)",
+              field<&Options::daylight, &DaylightOptions::sky_zenith>(), 0, 1e9, nullptr, true},
+    OptionRow{"sunElevation", "Of a standard sky's sun, degrees above the horizon (default: 45)",
+              field<&Options::daylight, &DaylightOptions::sun_elevation>(), 0, 90, nullptr, true},
+    OptionRow{"sunAzimuth", "From north (-Z) over east (+X), degrees (default: 180)",
+              field<&Options::daylight, &DaylightOptions::sun_azimuth>(), -360, 360, nullptr, true},
+    OptionRow{"sunIlluminance", "Of a surface that faces the sun, lx (default: typical; 0: none)",
+              field<&Options::daylight, &DaylightOptions::sun_illuminance>(), 0, 1e9, nullptr,
+              true},
+    OptionRow{"sunDiameter", "Of the sun's disc, degrees (default: 0.533)",
+              field<&Options::daylight, &DaylightOptions::sun_diameter>(), 0, 10, nullptr, true},
+    OptionRow{"groundAlbedo", "Of the plain below a standard sky (default: 0.2)",
+              field<&Options::daylight, &DaylightOptions::ground_albedo>(), 0, 1, nullptr, true},
+    OptionRow{"environment", "Equirectangular image of the surroundings, .hdr or .exr",
+              field<&Options::daylight, &DaylightOptions::environment>(), 0, 0, nullptr, true},
+    OptionRow{"environmentRotation", "Clockwise as seen from above, degrees",
+              field<&Options::daylight, &DaylightOptions::environment_rotation>(), -360, 360,
+              nullptr, true},
+    OptionRow{"environmentScale", "cd/m² of one unit of the image (default: 1)",
+              field<&Options::daylight, &DaylightOptions::environment_scale>(), 0, 1e9, nullptr,
+              true},
+    OptionRow{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES file",
+              field<&Options::scene, &SceneOptions::ies>(), 0, 0, ies_problem, true},
+    OptionRow{"logLevel", "trace, debug, info, warn, error, off",
+              field<&Options::log, &LogOptions::level>(), 0, 0, log_level_problem, true},
 };
 
-std::string range_problem(const ServeOption& option, double value) {
-    if (std::isfinite(value) && value >= option.min && value <= option.max) {
+std::string range_problem(const OptionRow& row, double value) {
+    if (std::isfinite(value) && value >= row.min && value <= row.max) {
         return {};
     }
-    return option.max == no_limit
-               ? fmt::format("must be a number of at least {}", option.min)
-               : fmt::format("must be a number from {} to {}", option.min, option.max);
+    return row.max == no_limit ? fmt::format("must be a number of at least {}", row.min)
+                               : fmt::format("must be a number from {} to {}", row.min, row.max);
 }
 
-std::string value_problem(const ServeOption& option, const std::string& value) {
-    return option.problem == nullptr ? "" : option.problem(value);
+std::string value_problem(const OptionRow& row, const std::string& value) {
+    return row.problem == nullptr ? "" : row.problem(value);
 }
 
-std::string value_problem(const ServeOption& option, const std::vector<std::string>& values) {
+std::string value_problem(const OptionRow& row, const std::vector<std::string>& values) {
     for (const std::string& value : values) {
-        if (std::string problem = value_problem(option, value); !problem.empty()) {
+        if (std::string problem = value_problem(row, value); !problem.empty()) {
             return problem;
         }
     }
     return {};
 }
 
-std::string value_problem(const ServeOption& option, const std::optional<float>& value) {
-    return value ? range_problem(option, *value) : "";
+std::string value_problem(const OptionRow& row, const std::optional<float>& value) {
+    return value ? range_problem(row, *value) : "";
 }
 
-std::string value_problem(const ServeOption& option, const SkyChoice& value) {
-    return value_problem(option, value.text);
+std::string value_problem(const OptionRow& row, const SkyChoice& value) {
+    return value_problem(row, value.text);
 }
 
-std::string value_problem(const ServeOption& /*option*/, bool /*value*/) {
+std::string value_problem(const OptionRow& /*row*/, bool /*value*/) {
     return {};
 }
 
 template <typename Number>
-std::string value_problem(const ServeOption& option, const Number& value) {
-    return range_problem(option, static_cast<double>(value));
+std::string value_problem(const OptionRow& row, const Number& value) {
+    return range_problem(row, static_cast<double>(value));
 }
 
 }  // namespace
@@ -208,7 +216,7 @@ std::optional<float> SkyChoice::luminance() const {
     return number ? std::optional(value) : std::nullopt;
 }
 
-std::span<const ServeOption> serve_options() {
+std::span<const OptionRow> option_table() {
     return serve_table;
 }
 
@@ -224,9 +232,9 @@ std::string flag_of(std::string_view key) {
     return flag;
 }
 
-std::string problem_of(const ServeOption& option, const Options& options) {
-    return std::visit([&](const auto member) { return value_problem(option, options.*member); },
-                      option.member);
+std::string problem_of(const OptionRow& row, const Options& options) {
+    return std::visit([&](const auto& field) { return value_problem(row, field(options)); },
+                      row.field);
 }
 
 }  // namespace raybundle

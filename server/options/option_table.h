@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,16 +16,34 @@
 namespace raybundle {
 
 /// Where an option's value lies.
-using OptionMember =
-    std::variant<bool Options::*, int Options::*, std::uint64_t Options::*, float Options::*,
-                 double Options::*, std::optional<float> Options::*, std::string Options::*,
-                 std::vector<std::string> Options::*, SkyChoice Options::*>;
+template <typename Value>
+struct OptionField {
+    Value& (*of)(Options& options);
+    const Value& (*of_const)(const Options& options);
+
+    Value& operator()(Options& options) const { return of(options); }
+    const Value& operator()(const Options& options) const { return of_const(options); }
+};
+
+/// A member of one of the groups of Options.
+template <auto group, auto member>
+constexpr auto field() {
+    using Value = std::remove_reference_t<decltype(std::declval<Options&>().*group.*member)>;
+    return OptionField<Value>{
+        [](Options& options) -> Value& { return options.*group.*member; },
+        [](const Options& options) -> const Value& { return options.*group.*member; }};
+}
+
+using AnyOptionField = std::variant<OptionField<bool>, OptionField<int>, OptionField<std::uint64_t>,
+                                    OptionField<float>, OptionField<double>,
+                                    OptionField<std::optional<float>>, OptionField<std::string>,
+                                    OptionField<std::vector<std::string>>, OptionField<SkyChoice>>;
 
 /// One option of `serve`, on the command line and in the configuration file alike.
-struct ServeOption {
+struct OptionRow {
     const char* key;   ///< in the file, e.g. "tlsCert"; the flag is --tls-cert
     const char* help;  ///< with unit and meaning
-    OptionMember member;
+    AnyOptionField field;
     /// Of numbers; what lies outside is refused.
     double min = 0.0;
     double max = 0.0;
@@ -33,12 +53,12 @@ struct ServeOption {
 };
 
 /// The one table. "SCENE", a positional argument, has the key "scene" in the file.
-std::span<const ServeOption> serve_options();
+std::span<const OptionRow> option_table();
 
 /// "--tls-cert" of "tlsCert".
 std::string flag_of(std::string_view key);
 
 /// Why an option's present value is out of range; empty where it is fine.
-std::string problem_of(const ServeOption& option, const Options& options);
+std::string problem_of(const OptionRow& row, const Options& options);
 
 }  // namespace raybundle

@@ -19,45 +19,46 @@ void check_exposure(const Options& options, const std::string& host) {
     if (is_loopback(host)) {
         return;
     }
-    if (options.tokens.empty() && !options.allow_remote) {
-        throw UsageError("--listen " + options.listen +
+    if (options.network.tokens.empty() && !options.network.allow_remote) {
+        throw UsageError("--listen " + options.network.listen +
                          " lets anyone on the network change the scene; configure tokens, or add "
                          "--allow-remote if that is meant");
     }
-    if (!options.tokens.empty() && options.tls_cert.empty()) {
+    if (!options.network.tokens.empty() && options.network.tls_cert.empty()) {
         spdlog::warn("tokens travel unencrypted to {}: use --tls-cert and --tls-key",
-                     options.listen);
+                     options.network.listen);
     }
 }
 
 }  // namespace
 
 ServerSettings server_settings(const Options& options) {
-    const auto [host, port] = parse_address(options.listen);
+    const auto [host, port] = parse_address(options.network.listen);
     check_exposure(options, host);
-    if (options.tls_cert.empty() != options.tls_key.empty()) {
+    if (options.network.tls_cert.empty() != options.network.tls_key.empty()) {
         throw UsageError("--tls-cert and --tls-key belong together");
     }
     ServerSettings settings;
     settings.host = host;
     settings.port = port;
-    settings.tls_certificate = options.tls_cert;
-    settings.tls_key = options.tls_key;
-    settings.max_viewers = static_cast<std::size_t>(options.max_viewers);
-    settings.max_connections = static_cast<std::size_t>(options.max_connections);
+    settings.tls_certificate = options.network.tls_cert;
+    settings.tls_key = options.network.tls_key;
+    settings.max_viewers = static_cast<std::size_t>(options.serve.max_viewers);
+    settings.max_connections = static_cast<std::size_t>(options.network.max_connections);
     settings.max_connections_per_address =
-        static_cast<std::size_t>(options.max_connections_per_address);
-    settings.trusted_proxies = options.trusted_proxies;
-    settings.max_messages_per_second = options.max_messages_per_second;
-    if (!options.scenes.empty()) {
+        static_cast<std::size_t>(options.network.max_connections_per_address);
+    settings.trusted_proxies = options.network.trusted_proxies;
+    settings.max_messages_per_second = options.network.max_messages_per_second;
+    if (!options.serve.scenes.empty()) {
         settings.max_upload_bytes =
-            static_cast<std::uint32_t>(options.max_upload_megabytes) * bytes_per_megabyte;
+            static_cast<std::uint32_t>(options.serve.max_upload_megabytes) * bytes_per_megabyte;
     }
-    settings.max_upload_s = options.max_upload_seconds;
+    settings.max_upload_s = options.serve.max_upload_seconds;
     // Without tokens, who reaches the server may do everything: on this machine a browser can be
     // made to by any page.
-    const bool no_foreign_names = options.tokens.empty() && is_loopback(host);
-    settings.access = {AccessTokens(options.tokens), {options.allowed_origins, no_foreign_names}};
+    const bool no_foreign_names = options.network.tokens.empty() && is_loopback(host);
+    settings.access = {AccessTokens(options.network.tokens),
+                       {options.network.allowed_origins, no_foreign_names}};
     return settings;
 }
 

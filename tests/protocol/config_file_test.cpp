@@ -49,17 +49,17 @@ TEST(ConfigFile, EveryOptionCanBeSet) {
         "tokens":[{"name":"lead","role":"EDITOR","sha256":")" +
                           kDigest + R"("}]})",
                       options);
-    EXPECT_EQ(options.scene, "a.gltf");
-    EXPECT_EQ(options.listen, "[::1]:9");
-    EXPECT_TRUE(options.allow_remote);
-    EXPECT_EQ(options.allowed_origins, std::vector<std::string>{"https://a.example"});
-    EXPECT_EQ(options.max_viewers, 3);
-    EXPECT_DOUBLE_EQ(options.max_messages_per_second, 50.5);
-    EXPECT_FLOAT_EQ(options.patch_size, 0.25F);
-    EXPECT_EQ(options.seed, 18446744073709551615U);
-    EXPECT_EQ(options.sky.luminance(), 5000.0F);
-    ASSERT_EQ(options.tokens.size(), 1U);
-    EXPECT_EQ(options.tokens[0].role, v1::EDITOR);
+    EXPECT_EQ(options.scene.file, "a.gltf");
+    EXPECT_EQ(options.network.listen, "[::1]:9");
+    EXPECT_TRUE(options.network.allow_remote);
+    EXPECT_EQ(options.network.allowed_origins, std::vector<std::string>{"https://a.example"});
+    EXPECT_EQ(options.serve.max_viewers, 3);
+    EXPECT_DOUBLE_EQ(options.network.max_messages_per_second, 50.5);
+    EXPECT_FLOAT_EQ(options.scene.patch_size, 0.25F);
+    EXPECT_EQ(options.scene.seed, 18446744073709551615U);
+    EXPECT_EQ(options.daylight.sky.luminance(), 5000.0F);
+    ASSERT_EQ(options.network.tokens.size(), 1U);
+    EXPECT_EQ(options.network.tokens[0].role, v1::EDITOR);
 }
 
 TEST(ConfigFile, WhatIsPrintedIsReadBackTheSame) {
@@ -74,7 +74,7 @@ TEST(ConfigFile, WhatIsPrintedIsReadBackTheSame) {
     apply_config_text("printed", printed, again);
     EXPECT_EQ(print_config(again), printed);
     EXPECT_NE(print_config(Options()), printed);
-    for (const ServeOption& option : serve_options()) {
+    for (const OptionRow& option : option_table()) {
         EXPECT_NE(printed.find("\"" + std::string(option.key) + "\""), std::string::npos);
     }
 }
@@ -116,7 +116,7 @@ TEST(ConfigFile, ErrorsNameFileKeyAndReason) {
 TEST(ConfigFile, AnErrorChangesNothing) {
     Options options;
     EXPECT_THROW(apply_config_text("f", R"({"maxViewers":3,"nonsense":1})", options), UsageError);
-    EXPECT_EQ(options.max_viewers, Options().max_viewers);
+    EXPECT_EQ(options.serve.max_viewers, Options().serve.max_viewers);
 }
 
 TEST(ConfigFile, TheCommandLineWins) {
@@ -125,25 +125,25 @@ TEST(ConfigFile, TheCommandLineWins) {
     const Options options =
         parsed({"serve", "--config", file.string(), "--listen", "127.0.0.1:2", "cli.gltf"});
     std::filesystem::remove(file);
-    EXPECT_EQ(options.scene, "cli.gltf");
-    EXPECT_EQ(options.listen, "127.0.0.1:2");
-    EXPECT_EQ(options.max_viewers, 3);
+    EXPECT_EQ(options.scene.file, "cli.gltf");
+    EXPECT_EQ(options.network.listen, "127.0.0.1:2");
+    EXPECT_EQ(options.serve.max_viewers, 3);
     EXPECT_THROW(parsed({"serve", "--config", "/nonexistent.json", "a.gltf"}), UsageError);
 }
 
 TEST(ConfigFile, WhatTheCommandLineOverridesMustBeRightToo) {
     Options options;
-    options.on_command_line = {"scene", "maxViewers"};
-    options.max_viewers = 7;
+    options.config.on_command_line = {"scene", "maxViewers"};
+    options.serve.max_viewers = 7;
     apply_config_text("f", R"({"scene":"a.gltf","maxViewers":3})", options);
-    EXPECT_EQ(options.max_viewers, 7);
+    EXPECT_EQ(options.serve.max_viewers, 7);
     EXPECT_THROW(apply_config_text("f", R"({"scene":5})", options), UsageError);
     EXPECT_THROW(apply_config_text("f", R"({"maxViewers":0})", options), UsageError);
 }
 
 TEST(ConfigFile, TextThatIsNotUtf8CannotBePrinted) {
     Options options;
-    options.scene = "\xff.gltf";
+    options.scene.file = "\xff.gltf";
     EXPECT_THROW(print_config(options), UsageError);
 }
 
@@ -153,15 +153,15 @@ TEST(ConfigFile, IsReadAgainUnderTheSameCommandLine) {
         "sha256":")" << kDigest
                         << R"("}]})";
     const Options before = parsed({"serve", "a.gltf", "--config", file.string(), "--seed", "7"});
-    ASSERT_EQ(before.tokens.size(), 1U);
+    ASSERT_EQ(before.network.tokens.size(), 1U);
     std::ofstream(file) << R"({"maxConnections":9,"seed":6})";
     const Options after = reread_config(before);
     std::filesystem::remove(file);
-    EXPECT_TRUE(after.tokens.empty()) << "they are gone from the file";
-    EXPECT_EQ(after.max_viewers, Options().max_viewers);
-    EXPECT_EQ(after.max_connections, 9);
-    EXPECT_EQ(after.seed, 7U);
-    EXPECT_EQ(after.scene, "a.gltf");
+    EXPECT_TRUE(after.network.tokens.empty()) << "they are gone from the file";
+    EXPECT_EQ(after.serve.max_viewers, Options().serve.max_viewers);
+    EXPECT_EQ(after.network.max_connections, 9);
+    EXPECT_EQ(after.scene.seed, 7U);
+    EXPECT_EQ(after.scene.file, "a.gltf");
 }
 
 /// It would be waited for, and no signal heard meanwhile.
@@ -180,43 +180,43 @@ TEST(ConfigFile, TheCommandLineIsCheckedByTheSameTable) {
     EXPECT_THROW(parsed({"serve", "a.gltf", "--max-viewers", "0"}), UsageError);
     EXPECT_THROW(parsed({"serve", "a.gltf", "--log-format", "xml"}), UsageError);
     EXPECT_THROW(parsed({"serve"}), UsageError) << "no scene";
-    EXPECT_EQ(parsed({"serve", "--print-config"}).listen, "127.0.0.1:8080");
+    EXPECT_EQ(parsed({"serve", "--print-config"}).network.listen, "127.0.0.1:8080");
 }
 
 TEST(ServeSettings, BeyondThisMachineNeedsTokensOrPermission) {
     Options options;
     for (const char* local : {"127.0.0.1:1", "localhost:1", "[::1]:1", "127.8.8.8:1"}) {
-        options.listen = local;
+        options.network.listen = local;
         EXPECT_NO_THROW(server_settings(options)) << local;
     }
     for (const char* remote : {"0.0.0.0:1", "[::]:1", "192.0.2.1:1", "127.0.0.1.example.org:1"}) {
-        options.listen = remote;
+        options.network.listen = remote;
         EXPECT_THROW(server_settings(options), UsageError) << remote;
     }
-    options.listen = "0.0.0.0:1";
-    options.allow_remote = true;
+    options.network.listen = "0.0.0.0:1";
+    options.network.allow_remote = true;
     EXPECT_NO_THROW(server_settings(options));
-    options.allow_remote = false;
-    options.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
+    options.network.allow_remote = false;
+    options.network.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
     EXPECT_NO_THROW(server_settings(options));
     EXPECT_FALSE(server_settings(options).access.tokens.empty());
 }
 
 TEST(ServeSettings, OnThisMachineWithoutTokensNamesOfOthersAreNotTrusted) {
     Options options;
-    options.listen = "127.0.0.1:1";
+    options.network.listen = "127.0.0.1:1";
     EXPECT_TRUE(server_settings(options).access.origins.no_foreign_names);
-    options.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
+    options.network.tokens = {{"lead", v1::EDITOR, token_digest("x")}};
     EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
-    options.tokens.clear();
-    options.listen = "0.0.0.0:1";
-    options.allow_remote = true;
+    options.network.tokens.clear();
+    options.network.listen = "0.0.0.0:1";
+    options.network.allow_remote = true;
     EXPECT_FALSE(server_settings(options).access.origins.no_foreign_names);
 }
 
 TEST(ServeSettings, CertificateAndKeyBelongTogether) {
     Options options;
-    options.tls_cert = "certificate.pem";
+    options.network.tls_cert = "certificate.pem";
     EXPECT_THROW(server_settings(options), UsageError);
 }
 

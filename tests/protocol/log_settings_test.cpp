@@ -19,7 +19,7 @@ std::string logged(const std::string& format) {
     spdlog::set_default_logger(std::make_shared<spdlog::logger>(
         "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out)));
     Options options;
-    options.log_format = format;
+    options.log.format = format;
     set_log(options);
     spdlog::warn("viewer '{}' joined",
                  "a\"\\\n[error] b\x1b[2J \xc3\xa4 \xc2\xa9 \xc2\x9b\x32J \xff");

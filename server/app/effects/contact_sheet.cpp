@@ -35,21 +35,22 @@ std::vector<glm::dvec3> side_by_side(const std::vector<glm::dvec3>& left,
 
 EffectCost write_contact_sheet(const Options& options, const LoadedScene& loaded) {
     const EffectsPlan plan = plan_effects(loaded.scene, loaded.mesh.patch_count());
-    const bool active = std::any_of(
-        plan.effects.begin(), plan.effects.end(),
-        [&](const Effect& effect) { return effect.active && effect.name == options.effect; });
+    const bool active =
+        std::any_of(plan.effects.begin(), plan.effects.end(), [&](const Effect& effect) {
+            return effect.active && effect.name == options.inspect.effect;
+        });
     const EffectTrial all{loaded.scene, loaded.mesh};
     EffectTrial rest = all;
-    if (!active || !rest.remove(options.effect)) {
-        throw UsageError("--effect: the scene has no effect '" + options.effect +
+    if (!active || !rest.remove(options.inspect.effect)) {
+        throw UsageError("--effect: the scene has no effect '" + options.inspect.effect +
                          "' that can be taken out");
     }
-    const EglContext context = create_egl_context({options.gpu, false});
-    const TrialOutcome with = run_trial(all, picture_trial, options.seed);
-    const TrialOutcome without = run_trial(rest, picture_trial, options.seed);
+    const EglContext context = create_egl_context({options.device.gpu, false});
+    const TrialOutcome with = run_trial(all, picture_trial, options.scene.seed);
+    const TrialOutcome without = run_trial(rest, picture_trial, options.scene.seed);
     const double factor =
         automatic_display_factor(with.picture, std::vector<bool>(with.picture.size(), true));
-    write_png(options.contact_sheet, 2 * static_cast<int>(contact_size.x),
+    write_png(options.inspect.contact_sheet, 2 * static_cast<int>(contact_size.x),
               static_cast<int>(contact_size.y),
               tone_mapped(side_by_side(with.picture, without.picture), factor));
     return {with.ms, without.ms, with.bytes, without.bytes};

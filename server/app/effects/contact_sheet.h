@@ -14,8 +14,8 @@ struct EffectCost {
     std::size_t bytes_with = 0, bytes_without = 0;
 };
 
-/// Writes options.contact_sheet, a PNG: the scene by its first camera with the effect
-/// options.effect at the left, without it at the right, exposed alike. Some seconds. Throws
+/// Writes options.inspect.contact_sheet, a PNG: the scene by its first camera with the effect
+/// options.inspect.effect at the left, without it at the right, exposed alike. Some seconds. Throws
 /// UsageError where the scene does not call for the effect or it cannot be taken out, GpuError,
 /// and std::runtime_error where the file cannot be written.
 EffectCost write_contact_sheet(const Options& options, const LoadedScene& loaded);

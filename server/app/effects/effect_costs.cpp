@@ -15,9 +15,9 @@ constexpr TrialLength cost_trial = {.size = {320, 240}, .first_iterations = 8, .
 
 void measure_effects(const Options& options, const Scene& scene, const PatchMesh& mesh,
                      EffectsPlan& plan, const std::stop_token& stop) {
-    const EglContext context = create_egl_context({options.gpu, false});
+    const EglContext context = create_egl_context({options.device.gpu, false});
     const auto cost = [&](const EffectTrial& trial) {
-        return run_trial(trial, cost_trial, options.seed).ms;
+        return run_trial(trial, cost_trial, options.scene.seed).ms;
     };
     EffectTrial all{scene, mesh};
     all.caustics = is_active(plan, "caustics");
