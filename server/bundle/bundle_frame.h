@@ -16,7 +16,7 @@ struct BundleFrame {
     glm::vec3 x{1.0F, 0.0F, 0.0F};
     glm::vec3 y{0.0F, 1.0F, 0.0F};
     glm::vec3 z{0.0F, 0.0F, 1.0F};
-    /// Of the points that a hemicube's pixels sample from their centres, pixels, in [-0.5, 0.5).
+    /// Offset of a hemicube's sample points from the centres of its pixels, pixels, [-0.5, 0.5).
     glm::vec2 pixel_shift{0.0F};
 
     [[nodiscard]] glm::vec3 to_bundle(const glm::vec3& world) const {
@@ -73,8 +73,7 @@ inline PixelRectangle dilated(const glm::vec2& low, const glm::vec2& high,
             clamped(std::ceil(high.y) + 1.0F, limit.y0, limit.y1)};
 }
 
-/// The view that a rectangle of a picture of `size` pixels shows: what lies outside of it need not
-/// be drawn.
+/// Restricts a view to a rectangle of a picture of `size` pixels; the rest need not be drawn.
 inline glm::mat4 narrowed(const glm::mat4& clip_from_world, const PixelRectangle& rectangle,
                           const glm::ivec2& size) {
     const glm::vec2 low = 2.0F * glm::vec2(rectangle.x0, rectangle.y0) / glm::vec2(size) - 1.0F;

@@ -27,7 +27,7 @@ FaceAxes face_axes(int face) {
 }
 
 /// Rows of clip_from_bundle for a face of n pixels: reversed infinite depth; sides show their upper
-/// half only. Moved so that pixel centres show the points that are to be sampled.
+/// half only. Shifted, so that pixel centres show the sample points.
 glm::mat4 clip_from_world(const BundleFrame& frame, int face, int n, float near_distance) {
     const FaceAxes axes = face_axes(face);
     const glm::mat3 world_from_bundle(frame.x, frame.y, frame.z);

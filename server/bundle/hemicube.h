@@ -16,8 +16,8 @@
 
 namespace raybundle {
 
-/// A perspective bundle: what a point sees of the scene (ch. 5.1.2). Surface ids and depths of five
-/// faces stacked in one picture; see shaders/hemicube.glsl for its geometry.
+/// A perspective bundle: the surfaces that a point sees (ch. 5.1.2). Five faces of surface ids and
+/// depths are stacked in one picture; see shaders/hemicube.glsl for its geometry.
 class Hemicube {
   public:
     static constexpr int face_count = 5;
@@ -34,7 +34,7 @@ class Hemicube {
     [[nodiscard]] FaceRectangles covering(const BundleFrame& frame,
                                           std::span<const Bounds> boxes) const;
 
-    /// Finds what is seen of the scene at a place in the given rectangles only.
+    /// Finds the surfaces of the scene at a place, in the given rectangles only.
     void draw(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
               const FaceRectangles& rectangles);
     void bind_textures() const;  ///< units 0: surface ids, 1: depths

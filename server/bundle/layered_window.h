@@ -13,8 +13,8 @@
 namespace raybundle {
 
 /// A parallel bundle with all surfaces along every line (ch. 4.3.1, "software z-buffer"): one
-/// list per window pixel. Hits are never dropped: a window with more surfaces along a line than
-/// there is room for is counted, not transferred, and drawn again after grow().
+/// list per window pixel. Hits are never dropped: a window whose lists overflow is counted, not
+/// transferred, and drawn again after grow().
 class LayeredWindow {
   public:
     /// n: pixels along the window's side. defines: of the scene to be drawn.
@@ -27,7 +27,7 @@ class LayeredWindow {
     [[nodiscard]] bool in_order() const { return traced_; }
 
     /// Puts all surfaces into the lists of a rectangle. The bundle's parameters are bound.
-    /// `counters` (bound at BINDING_COUNTERS) tell whether the surfaces were too many.
+    /// `counters` (bound at BINDING_COUNTERS) tell whether lists have overflowed.
     void draw(const GpuScene& scene, const ParallelWindow& window, Place place,
               const PixelRectangle& rectangle, const Buffer& counters) const;
     void bind() const;

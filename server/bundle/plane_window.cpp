@@ -38,8 +38,8 @@ void PlaneWindow::draw(const GpuScene& scene, const ParallelWindow& window, Plac
     }
 }
 
-/// Two rays a pixel, from the plane both ways. What coincides back to back is a wall: the front
-/// that faces the plane wins on either side.
+/// Two rays a pixel, from the plane both ways. Surfaces that coincide back to back are a wall: the
+/// front that faces the plane wins on either side.
 void PlaneWindow::trace(const GpuScene& scene, const ParallelWindow& window, Place place) {
     const GlScope scope("plane rays");
     const BundleFrame& frame = window.frame;

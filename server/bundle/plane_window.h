@@ -15,8 +15,8 @@ namespace raybundle {
 
 /// A parallel bundle split by a plane (ch. 4.3.1, "hardware z-buffer"): along every line the
 /// nearest surfaces on both sides of a plane perpendicular to the direction, as two depth-buffered
-/// pictures. They see each other; the chance that the plane falls between two surfaces at distance
-/// r is r/R.
+/// pictures. These surfaces see each other; the plane falls between two surfaces at distance r with
+/// probability r/R.
 class PlaneWindow {
   public:
     /// n: pixels along the window's side. defines: of the scene to be drawn.

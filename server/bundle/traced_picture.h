@@ -16,7 +16,7 @@ class TracedPicture {
   public:
     TracedPicture(int width, int height, bool depths);
 
-    /// Where rays put what they find.
+    /// Receives the hits of rays.
     [[nodiscard]] FacetTracer::Nearest result(float depth_scale);
     /// Copies a rectangle to textures of the picture's size, R32UI and R32F.
     void upload(const PixelRectangle& rectangle, const Texture2D& surfaces,

@@ -17,9 +17,9 @@ namespace raybundle {
 
 namespace {
 
-constexpr int tile = 32;  // pixels along the side of what a thread works on at once
+constexpr int tile = 32;  // pixels along the side of a thread's piece of work
 
-/// Where rays have met a back, the front that coincides with it, if there is one.
+/// Replaces a back that rays have met by the front that coincides with it, if any.
 template <unsigned Width>
 void prefer_fronts(Query query, const RayGrid& grid, typename Packet<Width>::Rays& rays,
                    const int* valid) {

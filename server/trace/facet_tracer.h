@@ -25,12 +25,12 @@ class FacetTracer {
     ~FacetTracer();
 
     void update_material(const Scene& scene, std::size_t material);
-    /// Keeps where a movable object is as its place before, until settle(), and puts it elsewhere.
+    /// Moves a movable object, and keeps its present place as the one before until settle().
     /// Throws std::invalid_argument for one that is not movable.
     void move(std::uint32_t object, const glm::mat4& world_from_object);
     void settle();
 
-    /// Where first hits go: by place of the pixel, see RayGrid::result.
+    /// Receives first hits, at the pixel's place of RayGrid::result.
     struct Nearest {
         std::uint32_t* surfaces = nullptr;  ///< no_hit where there is none
         float* depths =
@@ -38,19 +38,19 @@ class FacetTracer {
         float depth_scale = 0.0F;
     };
     static constexpr std::uint32_t no_hit = 0xffffffffU;
-    /// What rays meet first. hidden: objects that they do not meet.
+    /// First hits. hidden: objects that rays do not meet.
     void nearest(std::span<const RayGrid> grids, const TraceRules& rules, const Nearest& result,
                  std::span<const std::uint32_t> hidden = {});
 
-    /// Where all hits of the lines go, as shaders/layers.glsl lays them out.
+    /// Receives all hits of the lines, in the layout of shaders/layers.glsl.
     struct Lists {
         std::uint32_t* counts = nullptr;
         std::uint32_t* surfaces = nullptr;
         std::size_t pixels = 0;      ///< of the window
-        std::uint32_t capacity = 0;  ///< surfaces of a line that there is room for
+        std::uint32_t capacity = 0;  ///< surfaces of a line, at most
     };
-    /// All that lines meet, in order. Returns the length of the longest list; those beyond the
-    /// capacity are cut off.
+    /// All surfaces that lines meet, in order. Returns the length of the longest list; lists are
+    /// cut off at the capacity.
     std::uint32_t all(const RayGrid& grid, const TraceRules& rules, const LineOrder& order,
                       const Lists& result);
     /// Which of the lamps that a point is asked for reach it, bit by slot. Alpha cuts holes, and

@@ -12,13 +12,13 @@
 
 namespace raybundle {
 
-/// The facets of a mesh as Embree has them: in world space, so that rays meet what the rasteriser
-/// draws, to the bit of a vertex. One tree over all that cannot move, and one for each object that
-/// can, below a common top that is quick to make anew: a move rebuilds the moved object's tree and
-/// that top.
+/// The facets of a mesh in Embree's scene: in world space, so that rays meet the surfaces that the
+/// rasteriser draws, to the bit of a vertex. One tree holds all objects that cannot move, and each
+/// movable object has its own, below a common top level: a move rebuilds the moved object's tree
+/// and the top level.
 class FacetTreeScene {
   public:
-    /// Some facets of one object, or of all that cannot move.
+    /// Some facets of one object, or of all objects that cannot move.
     struct Part {
         std::uint32_t object = 0;
         unsigned place = 0;  ///< of the object; 1: as it was before a move
@@ -42,11 +42,11 @@ class FacetTreeScene {
     FacetTreeScene(const FacetTreeScene&) = delete;
     FacetTreeScene& operator=(const FacetTreeScene&) = delete;
 
-    /// The object is elsewhere, and was where it is until now: rays know both until settle().
+    /// Moves an object. Rays meet it at both places until settle().
     /// Throws std::invalid_argument for one that is not movable.
     void move(std::uint32_t object, const glm::mat4& world_from_object);
     void settle();
-    /// Builds what has changed. Before rays are traced.
+    /// Builds the trees that have changed. Call it before rays are traced.
     void commit();
 
     [[nodiscard]] RTCScene get() const { return scene_.get(); }

@@ -11,19 +11,20 @@
 
 namespace raybundle {
 
-/// Where rays pass through surfaces: what alpha MASK cuts out, and glass. The same as
-/// shaders/alpha_mask.glsl and shaders/glass.glsl. Keeps copies of what it needs of the scene.
+/// Where rays pass through surfaces: cut-outs (alpha MASK) and glass, by the rules of
+/// shaders/alpha_mask.glsl and shaders/glass.glsl. Keeps copies of the textures and materials that
+/// it needs.
 class LineOpenings {
   public:
     explicit LineOpenings(const Scene& scene);
 
-    /// Takes over what a material is now.
+    /// Follows a change of a material.
     void update(const Scene& scene, std::size_t material);
-    /// Whether rays may pass anything of a material.
+    /// Whether rays may pass some surface of a material.
     [[nodiscard]] bool may_pass(std::size_t material) const {
         return materials_[material].cutoff > 0.0F || materials_[material].is_glass;
     }
-    /// Whether there is no surface at a point of the mesh.
+    /// Whether alpha cuts out a point of the mesh.
     [[nodiscard]] bool cut_out(std::size_t material, const glm::vec2& mesh_uv) const;
     /// Whether a line passes glass of a material. cosine: to its normal, 0..1; line: any number of
     /// its own.

@@ -17,15 +17,14 @@ struct LineHit {
 /// How surfaces of a line are ordered; m.
 struct LineOrder {
     glm::vec3 axis{0.0F, 0.0F, 1.0F};  ///< of the window
-    /// Surfaces back to back that are not farther apart, measured across them, coincide; 0: such
-    /// are not looked for.
+    /// Surfaces back to back coincide up to this distance across them; 0: none do.
     float tie = 0.0F;
-    float range = 0.0F;  ///< no surfaces that are farther apart along the line do
+    float range = 0.0F;  ///< and up to this distance along the line
 };
 
 /// Orders the surfaces of a line as shaders/transport_layers_patches.comp does: by depth, then by
-/// number; of those that coincide back to back the one that faces the window comes first, so that a
-/// thin wall is a wall.
+/// number. Of two surfaces that coincide back to back, the one that faces the window comes first,
+/// so that a thin wall stops light.
 void order_line(std::span<LineHit> hits, const LineOrder& order);
 
 }  // namespace raybundle

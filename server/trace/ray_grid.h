@@ -8,16 +8,16 @@
 
 namespace raybundle {
 
-/// The rays of a rectangle of pixels: origin and direction change evenly from pixel to pixel, as
-/// those of a face of a hemicube, of a picture and of a window do. Metres.
+/// The rays of a rectangle of pixels, of a hemicube's face, a picture or a window: origin and
+/// direction change linearly from pixel to pixel. Metres.
 struct RayGrid {
     glm::vec3 origin{0.0F}, origin_x{0.0F},
         origin_y{0.0F};  ///< of pixel (0, 0); per column; per row
     glm::vec3 direction{0.0F}, direction_x{0.0F}, direction_y{0.0F};
-    float near = 0.0F;  ///< of the way that counts, in lengths of a ray's direction
+    float near = 0.0F;  ///< start of the ray, in lengths of its direction
     float far = std::numeric_limits<float>::infinity();
     glm::ivec2 first{0}, last{0};   ///< pixels [first, last) are traced
-    std::size_t result = 0;         ///< place of pixel (0, 0) in what is traced
+    std::size_t result = 0;         ///< index of pixel (0, 0) in the result
     std::size_t result_row = 0;     ///< from row to row
     std::size_t result_column = 1;  ///< from column to column
     int line_row = 0;               ///< row of pixel (0, 0) among the lines of the bundle
@@ -25,14 +25,14 @@ struct RayGrid {
     [[nodiscard]] bool empty() const { return last.x <= first.x || last.y <= first.y; }
 };
 
-/// What glass is to rays (scene/specular_surface.h).
+/// How rays treat glass (scene/material/specular_surface.h).
 enum class GlassRule {
-    absorbs,  ///< passes, but for single lines, by chance: as bundles see it
-    clear,    ///< passes
+    absorbs,  ///< lets a random share of the lines pass, as for bundles
+    clear,    ///< lets all lines pass
     shown     ///< a surface like others
 };
 
-/// What rays meet, and how.
+/// Which surfaces rays meet, and from which side.
 struct TraceRules {
     unsigned place = 0;  ///< of the objects: 0 now, 1 before
     GlassRule glass = GlassRule::absorbs;
@@ -40,7 +40,7 @@ struct TraceRules {
     /// Side 0 of a surface is the one that the rays leave it from, as windows number it; else the
     /// one that they meet.
     bool sides_along_rays = false;
-    /// Fronts win over backs that coincide with them to so much, m; 0: never.
+    /// A front wins over a back that is nearer by this at most, m; 0: never.
     float tie = 0.0F;
 };
 

@@ -56,7 +56,7 @@ inline std::uint32_t line_number(int column, int row) {
     return static_cast<std::uint32_t>(row) << 16U | static_cast<std::uint32_t>(column);
 }
 
-/// Makes the rays of a packet whose first pixel is given; last: of those that there are.
+/// Makes the rays of a packet from its first pixel on; last: end of the pixels of the grid.
 template <unsigned Width>
 void make_rays(const RayGrid& grid, const glm::ivec2& first, const glm::ivec2& last,
                typename Packet<Width>::Rays& rays, int* valid) {

@@ -37,7 +37,7 @@ struct Filtered {
     }
 };
 
-/// Whether a ray goes on through a part that rays may pass, or does not see at its place.
+/// Whether a ray passes the surface, or the part is at another place than the ray sees.
 bool goes_on(const Query& query, const Filtered& ray) {
     const FacetTreeScene::Part& part = query.tree->part(ray.geometry());
     if (part.in_motion && part.place != query.rules->place) {

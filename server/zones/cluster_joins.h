@@ -7,9 +7,10 @@
 
 namespace raybundle {
 
-/// A zone that sends so much of its light to another one has its level from there after some
-/// bounces, whatever it was. At a quarter, parts of one room were zones whose levels had noise in
-/// common that no pixel's samples show (83 instead of 95 of 100 early error bars right).
+/// A zone that sends a larger share of its light to another zone gets its level from there within
+/// some bounces, and is no zone of its own. With a quarter, parts of one room were zones, whose
+/// levels had common noise that no pixel's samples show (83 instead of 95 of 100 early error bars
+/// were right).
 constexpr float loose_share = 0.1F;
 
 /// A ray from one cluster of patches to another.

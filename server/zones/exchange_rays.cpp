@@ -25,8 +25,8 @@ constexpr int max_passes = 32;            // surfaces that a ray passes: glass, 
 constexpr float lift_share = 0x1.0p-20F;  // of the scene's diameter
 constexpr float tie_lifts = 4.0F;         // surfaces that are nearer to each other coincide
 
-// Shares of the rays by area, by number of patches, by emitted flux; the rest by object, so that
-// neither a small room on a large site nor a small lamp is without any.
+// Shares of the rays by area, by number of patches, by emitted flux; the rest by object. Small
+// rooms on large sites, and small lamps, have rays, too.
 constexpr double by_area = 0.4;
 constexpr double by_number = 0.3;
 constexpr double by_emission = 0.2;
@@ -339,8 +339,8 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
     return result;
 }
 
-/// Of surfaces that coincide those win that face the ray, as in bundles: the patch of such a one
-/// where a ray has met a back, else lost.
+/// Among coinciding surfaces the one that faces the ray wins, as in bundles. Returns its patch
+/// where a ray has met a back, or lost where there is none.
 std::uint32_t ExchangeRays::front_beside(const RTCRayHit& back) const {
     Query query;
     rtcInitIntersectContext(&query.context);

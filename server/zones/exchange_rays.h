@@ -26,15 +26,16 @@ struct ExchangeRay {
     std::uint32_t from = 0;   ///< patch
     std::uint32_t to = lost;  ///< patch that receives it; lost: it leaves the scene or meets a back
                               ///< that has no patch
-    float area = 0.0F;        ///< m² of the patch's kind that the ray stands for: the sum over all
-                              ///< rays of area times exitance is an unbiased estimate of all flux
-    glm::vec3 sky{0.0F};      ///< cd/m²: radiance of what it meets beyond the scene
+    float area = 0.0F;        ///< m² that the ray stands for: the sum of area times exitance over
+                              ///< all rays is an unbiased estimate of the whole flux
+    glm::vec3 sky{0.0F};      ///< cd/m²: radiance of the sky that it meets
 };
 
-/// Single rays between patches (Embree) that say how surfaces exchange light, independently of the
-/// bundles: a few ten thousand, always the same ones, so that what a change makes of them is the
-/// change and not chance. Bundles' rules hold: light passes glass, less what it absorbs, and what
-/// alpha MASK cuts out; backs without a patch absorb. Lambert's law holds for all surfaces.
+/// Single rays between patches (Embree) that measure how surfaces exchange light, independently of
+/// the bundles. They are a few ten thousand, always the same ones, so that a difference between two
+/// traces is due to the scene and not to chance. The rules of bundles hold: light passes cut-outs
+/// (alpha MASK) and glass, less its absorption; backs without a patch absorb. All surfaces are
+/// Lambertian.
 class ExchangeRays {
   public:
     /// world_from_object: of all objects, in the space that rays live in; sky directions are the
@@ -46,7 +47,7 @@ class ExchangeRays {
     ExchangeRays(ExchangeRays&&) noexcept = default;
     ExchangeRays& operator=(ExchangeRays&&) = delete;
 
-    /// Objects are elsewhere; commits what trace() needs.
+    /// Moves objects and prepares trace().
     void place(std::span<const glm::mat4> world_from_object, float diameter);
     /// A patch's share of all rays follows its area, its object, its emission and its number.
     void choose_densities(const PatchMesh& mesh);

@@ -20,7 +20,7 @@ double worth(double error) {
     return error > 0.0 ? sample_deviation * sample_deviation / (error * error) : 1e30;
 }
 
-/// Share of a difference that is no chance, given its standard error.
+/// Share of a difference that chance does not explain, given its standard error.
 double believed(double difference, double error) {
     const double z = error > 0.0 ? std::abs(difference) / (sure * error) : 1e6;
     return z * z / (1.0 + z * z);

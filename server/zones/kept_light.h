@@ -16,9 +16,9 @@ struct ZoneMeans {
     glm::dvec3 since{0.0};
     double since_weight = 0.0;  ///< samples that the latter is worth
     double area = 0.0;          ///< m²
-    /// Mean of q / (q + DIFFERENCE_UNIT) over patches with both means, q: squared difference of
-    /// them over the variance that samples of a relative deviation of 1 give it. Negative: none
-    /// has.
+    /// Mean of q / (q + DIFFERENCE_UNIT) over patches with both means. q: squared difference of the
+    /// means, divided by its variance if samples had a relative deviation of 1. Negative: no patch
+    /// has both.
     double bounded_difference = -1.0;
     bool loose = false;  ///< has no level of its own
 };
@@ -27,11 +27,11 @@ struct ZoneMeans {
 struct KeptLevel {
     glm::dvec3 scale{1.0};  ///< factor of it
     double limit = 1e30;    ///< samples that it is worth at most
-    /// Squared relative deviation of samples of its patches from their means, by what both means
-    /// differ in most places.
+    /// Squared relative deviation of samples of its patches from their means, estimated from the
+    /// difference of both means in most patches.
     double sample_variance = 0.16;
-    /// Next to nothing of the zone's light is left: its iterate starts from the dark, since the
-    /// distribution of the light that went would last longer than a new solve takes.
+    /// The change has put out nearly all light of the zone: its iterate starts from darkness, since
+    /// the distribution of the former light would last longer than a new solve takes.
     bool anew = false;
 };
 
@@ -39,10 +39,10 @@ struct KeptLevel {
 /// q / (q + unit), see ZoneMeans::bounded_difference.
 double variance_of_samples(double bounded_difference, double unit);
 
-/// Judges what has been kept over a change. Both means estimate the same light, so what their
-/// difference, summed over a zone, is beyond its noise is an error of the kept one: it keeps no
-/// more weight than such an error leaves. Directly after a change, what enters the zone
-/// (ZoneLevels) tells the same at once, and the level of the kept mean follows it.
+/// Judges the light that has been kept over a change. Both means estimate the same light. Where
+/// their difference, summed over a zone, exceeds its noise, the kept mean has an error, which
+/// bounds its weight. Directly after a change the flux that enters the zone (ZoneLevels) shows the
+/// same at once, and the level of the kept mean follows it.
 class KeptLight {
   public:
     /// A change has been worked in, as far as its special phase has found it.

@@ -16,8 +16,8 @@ constexpr unsigned groups_per_batch = 4;
 constexpr double fewest_rays =
     4.0;  // that tell a flux from chance: fewer are off by more than a half
 
-/// How much of its level a zone is given. Where little of its light arrives anywhere it forgets its
-/// start by itself, while its level would follow the noise of all that is in it.
+/// Share of the correction of its level that a zone gets. A zone that loses most of its light
+/// forgets its start by itself, and its level would follow the noise of all of its patches.
 double firmness(double arriving_share) {
     constexpr double loose = 0.3;
     constexpr double firm = 0.6;
@@ -100,7 +100,7 @@ Shares shares_of(std::span<const ZoneExchange> exchange, unsigned zones) {
     Shares shares;
     shares.reflected.assign(std::size_t{zones} * zones, glm::dvec3(0.0));
     shares.emitted = shares.reflected;
-    // What no ray has found may still carry as much as one ray does.
+    // A pair of zones that no ray connects may still exchange as much as one ray carries.
     shares.variance.resize(shares.reflected.size());
     shares.lost_variance.assign(zones, 0.0);
     for (unsigned from = 0; from < zones; ++from) {
@@ -201,8 +201,8 @@ double ZoneLevels::Mean::error() const {
     return count() > 1.0 ? std::sqrt(squares / (weight * (count() - 1.0))) : 0.0;
 }
 
-/// The share of what bundles bring beyond the rays' prediction that is believed: by its variance
-/// and that of the rays.
+/// Weight of the flux that bundles bring beyond the rays' prediction, from its variance and that of
+/// the rays.
 glm::dvec3 ZoneLevels::beyond(unsigned zone, double variance) const {
     const Beyond& b = beyond_[zone];
     if (!known(zone)) {
@@ -224,10 +224,10 @@ double ZoneLevels::noise(unsigned zone) const {
     return b.batches.count() >= fewest_groups ? b.batches.error() : b.groups.error();
 }
 
-/// What bundles bring beyond the prediction to all zones together is believed only as far as rays
-/// leave unknown what is lost: in a closed scene it is exchange between zones and noise, which the
-/// levels would magnify. Each zone gives way by its variance (least squares with a given sum), so
-/// that the noise of a wide outside leaves what is known of a room alone.
+/// Bounds the flux that bundles bring to all zones together beyond the prediction: it counts only
+/// as far as the rays leave the lost flux uncertain. In a closed scene the rest is noise and
+/// exchange between zones, which the levels would magnify. Zones share the correction by their
+/// variances (least squares with a given sum), so that a wide, noisy outside hardly changes a room.
 /// variance: of the rays' prediction for each zone.
 void ZoneLevels::conserve(std::span<const double> variance, std::span<const double> lost_variance,
                           std::span<const glm::dvec3> albedo, std::span<const ZoneFlux> zones,

@@ -49,16 +49,16 @@ struct ZoneLevel {
 ///     X_t = sum_s k_ts (emitted_s + reflected_s) + sky_t + d_t,
 /// where the reflected flux is proportional to the incident one. This is the coarse step of
 /// iterative aggregation and disaggregation (Koury, McAllister, Stewart 1984): the slowest modes of
-/// the transport, the levels of rooms, follow at once from what enters them. Rays give k; d is what
-/// bundles have brought beyond that so far, a mean over groups of iterations, as far as it is known
-/// better than the rays are.
+/// the transport, the levels of rooms, follow at once from the flux that enters them. Rays give k.
+/// d is the flux that bundles have brought beyond the rays' prediction, a mean over groups of
+/// iterations; it counts as far as its variance is below that of the rays.
 class ZoneLevels {
   public:
     explicit ZoneLevels(unsigned zones);
 
-    /// Everything that is known of d is of another scene, or of another light.
+    /// Forgets d, which belongs to another scene or another light.
     void forget();
-    /// Something else than levels changes the iterate: the running group tells nothing of d.
+    /// Forgets the running group: something else than levels has changed the iterate.
     void skip_group() { solved_ = false; }
     /// All light is multiplied by a factor.
     void scale(const glm::vec3& factor);

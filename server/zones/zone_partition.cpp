@@ -59,9 +59,10 @@ class ExchangeShares {
     std::vector<float> logs_;
 };
 
-/// Gives each patch to the zone whose lines end where its own do: clusters may have reached under a
-/// wall. One line through a door says little of a patch, one to a closed room next door everything.
-/// What loses its light is loose. Zones of patches without rays stay.
+/// Gives each patch to the zone whose lines end where the patch's lines do, since clusters may
+/// reach under a wall. A line through a door says little about a patch, a line to a closed room
+/// next door says everything. Zones that lose their light are loose. Patches without rays keep
+/// their zone.
 void settle_patches(std::span<const ExchangeRay> traced, ZonePartition& partition) {
     const float odds = std::log(20.0F);  // at which a patch changes its zone
     constexpr int max_sweeps = 16;

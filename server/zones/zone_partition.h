@@ -16,17 +16,17 @@ constexpr unsigned max_zones = 64;
 struct ZonePartition {
     unsigned count = 0;
     std::vector<std::uint32_t> zone;  ///< of each patch, below count
-    /// Has patches that belong to none: facades, what is hardly lit by anything, what too few rays
-    /// tell apart. Its light has no level of its own.
+    /// Holds patches that belong to no room: facades, surfaces that hardly anything lights,
+    /// surfaces with too few rays. Its light has no level of its own.
     std::optional<unsigned> loose;
     /// Of each patch, below clusters: patches near each other that see the same things.
     std::vector<std::uint32_t> cluster;
     unsigned clusters = 0;
 };
 
-/// Small clusters of patches (by place, side and object) are merged, those first that exchange the
-/// largest share of their light, until none of max_zones zones at most sends as much as
-/// `loose_share` of its light to another one. What is left is the slow modes of the transport.
+/// Merges small clusters of patches (by place, side and object), those first that exchange the
+/// largest share of their light, until there are max_zones zones at most and none sends
+/// `loose_share` of its light to another one. The zones are the slow modes of the transport.
 /// Deterministic.
 ZonePartition find_zones(const ExchangeRays& rays, std::span<const ExchangeRay> traced);
 
