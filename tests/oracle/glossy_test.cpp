@@ -91,6 +91,7 @@ TEST(GlossyTransport, FurnaceBelowAClearCoatIsUniform) {
         b.add_box({0, 0, 0}, {4, 3, 5}, true, 4, b.add_material(material));
         SolverSettings settings;
         settings.coarse = {64, 160};
+        settings.coarse_iterations = 1'000'000;
         Solver solver(b.scene, b.mesh, settings);
         for (int i = 0; i < 1024; ++i) {
             solver.step({});
