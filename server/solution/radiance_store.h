@@ -8,21 +8,19 @@
 
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
-#include "gpu/readback.h"
 #include "gpu/shader_program.h"
 #include "solution/caustics.h"
 #include "solution/first_shot.h"
 #include "solution/gpu_scene.h"
+#include "solution/store/gloss_samples.h"
+#include "solution/store/kept_mean.h"
+#include "solution/store/radiance_slopes.h"
+#include "solution/store/sent_radiance.h"
+#include "solution/store/shooter_selection.h"
+#include "solution/store/solution_measures.h"
 #include "solution/zone_balance.h"
 
 namespace raybundle {
-
-/// How far the solution is from the end of its last correction; see solution_statistics.comp.
-struct SolutionStatistics {
-    double settled = 0.0;  ///< 1 - remaining correction / size of the correction, 0..1
-    /// Of the iterate from the mean irradiance, root mean square over patches, relative.
-    double distance = 1.0;
-};
 
 /// How one bundle joins the solution.
 struct BundleUpdate {
@@ -53,13 +51,13 @@ class RadianceStore {
         zones_.forget_step(iterate_age, weight);
     }
     /// Whether only perspective bundles are drawn, which never find what lines meet nothing.
-    void set_shoots_only(bool shoots_only) { shoots_only_ = shoots_only; }
+    void set_shoots_only(bool shoots_only) { selection_.set_shoots_only(shoots_only); }
     /// What all patches send along the parallel bundle whose parameters are bound takes the place
     /// of the radiance, UNIT_RADIANCE, until the next bind(): in glossy scenes, and where objects
     /// have another size at the other place.
-    void send_along_bundle(Place place) const;
+    void send_along_bundle(Place place) const { sent_.send_along_bundle(scene_, place); }
     /// Objects have moved: makes ready for those that have another size now.
-    void follow_sizes();
+    void follow_sizes() { sent_.follow_sizes(scene_); }
     /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
     /// the means lose weight by how much of all light that is. phase_weight: as for correct().
     void reshoot(float phase_weight);
@@ -81,16 +79,18 @@ class RadianceStore {
         return first_shot_ ? &*first_shot_ : nullptr;
     }
     /// An object has turned: its glossy patches keep the directions of their light.
-    void turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const;
+    void turn_gloss(std::uint32_t object, const glm::mat4& now_from_before) const {
+        gloss_.turn(object, now_from_before);
+    }
     /// From now on bundles carry this radiance (as BINDING_RADIANCE, with the texture on it)
     /// instead of the solution's, until stop_sending_other(). Both must outlive that.
     void send_other(const Buffer& radiance, const Texture2D& texture);
     void stop_sending_other();
     /// How radiance changes within patches follows the present solution; nothing is known of that
     /// before.
-    void refresh_slopes() const;
+    void refresh_slopes() const { slopes_.refresh(scene_); }
     /// Whether bundles carry it: not where they carry other radiance than the solution's.
-    [[nodiscard]] bool sends_slopes() const { return other_ == nullptr; }
+    [[nodiscard]] bool sends_slopes() const { return !sent_.sends_other(); }
     /// Whether the iterate is put to the levels of its zones.
     enum class Levels { found, kept };
     /// New selection probabilities from the present solution.
@@ -101,7 +101,9 @@ class RadianceStore {
     [[nodiscard]] Buffer complete_start() const;
     /// Shooting points for the coming perspective bundles; one small readback. numbers: see
     /// solution_shooters.comp; at most 16.
-    std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers);
+    std::vector<layout::Shooter> choose_shooters(std::span<const glm::vec4> numbers) {
+        return selection_.choose(numbers, scene_.diameter());
+    }
 
     /// Copies the solution of a store for the same patches, with what is left of its last change;
     /// glossy parts stay as they are.
@@ -112,29 +114,31 @@ class RadianceStore {
     /// Brings the mean irradiance up to date, which follows iterations only between their groups.
     void serve() const;
     /// There has been no change: nothing is kept apart.
-    void forget_kept() { keeping_ = false; }
-    [[nodiscard]] bool keeping() const { return keeping_; }
+    void forget_kept() { kept_.forget(); }
+    [[nodiscard]] bool keeping() const { return kept_.keeping(); }
     /// Remembers the state before a change. unsettled: the last one is still being worked in, and
     /// both are one for statistics().
-    void checkpoint(bool unsettled) const;
+    void checkpoint(bool unsettled) const { measures_.checkpoint(unsettled); }
     /// There has been no change.
-    void forget_checkpoint() const { checkpoint_buffer_.clear(); }
-    [[nodiscard]] SolutionStatistics statistics() const;
+    void forget_checkpoint() const { measures_.forget_checkpoint(); }
+    [[nodiscard]] SolutionStatistics statistics() const { return measures_.statistics(); }
     /// Sums of the squared deviations of bundles from the mean irradiance over patches (luminance),
     /// of parallel and of perspective ones, in one unknown unit. What was measured before weighs
     /// half from now on.
-    [[nodiscard]] glm::dvec2 take_scatter() const;
+    [[nodiscard]] glm::dvec2 take_scatter() const { return measures_.take_scatter(); }
     /// The light has changed: what was measured no longer counts.
-    void forget_scatter() const { scatter_.clear(); }
-    /// Sums of a reduction over all patches by statistics_groups groups of 256; see its shader.
-    [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const;
+    void forget_scatter() const { measures_.forget_scatter(); }
+    /// See SolutionMeasures::reduce().
+    [[nodiscard]] glm::dvec4 reduce(const ShaderProgram& program) const {
+        return measures_.reduce(program);
+    }
 
     /// Reads the counters back and clears them (synchronous, four numbers).
-    layout::Counters take_counters() const;
-    void clear_counters() const;
-    [[nodiscard]] const Buffer& counters() const { return counters_; }
+    layout::Counters take_counters() const { return measures_.take_counters(); }
+    void clear_counters() const { measures_.clear_counters(); }
+    [[nodiscard]] const Buffer& counters() const { return measures_.counters(); }
     /// Radiance per patch as it is transferred, radiance units, w = p_j/A_j.
-    [[nodiscard]] const Buffer& sent() const { return radiance_; }
+    [[nodiscard]] const Buffer& sent() const { return light_.radiance; }
 
     /// Mean irradiance per patch, lx, w = weight; for tests, results and files. Synchronous.
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
@@ -147,39 +151,31 @@ class RadianceStore {
     void write_radiance(std::uint32_t patch, const glm::vec4& value);
 
   private:
+    /// Per patch, written by every update.
+    struct Light {
+        explicit Light(std::size_t patch_count);
+
+        Buffer radiance;    ///< as it is transferred
+        Buffer irradiance;  ///< the mean
+        Buffer iterate;     ///< irradiance of the iterate
+        Buffer sums;        ///< of the running bundle, fixed-point
+    };
+
     const GpuScene& scene_;
     ZoneBalance& zones_;
-    std::uint32_t patch_count_, block_count_;
-    Buffer radiance_, irradiance_, source_, accumulator_, counters_;
-    Buffer power_, flux_, balance_, cdf_, shooters_, checkpoint_buffer_, statistics_buffer_;
-    unsigned scout_stride_;
-    Buffer scatter_;
-    float forgetting_ = 0.0F;
-    bool shoots_only_ = false;
+    std::uint32_t patch_count_;
+    Light light_;
+    SentRadiance sent_;
+    GlossSamples gloss_;
+    RadianceSlopes slopes_;
+    ShooterSelection selection_;
+    SolutionMeasures measures_;
+    KeptMean kept_;
     std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
-    Buffer gloss_, chain_, sent_;          // only where the scene is glossy
     Caustics* caustics_;                   // null where the scene has none
-    Buffer vertex_light_, slopes_;         // see radiance_slope.glsl
-    Buffer kept_, since_;                  // from the first change on, see solution_serve.comp
-    bool keeping_ = false;
-    ShaderProgram serve_;
-    Texture2D radiance_texture_, gloss_texture_, sent_texture_;
-    Texture2D slope_texture_;
-    /// Radiance with the densities of one place; exists from the first change of a size on.
-    struct Placed {
-        Buffer radiance;
-        Texture2D texture;
-        ShaderProgram program;
-    };
-    std::optional<Placed> placed_;
-    const Buffer* other_ = nullptr;
-    const Texture2D* other_texture_ = nullptr;
-    Readback shooter_readback_;
-    mutable Readback statistics_readback_, counters_readback_;
+    float forgetting_ = 0.0F;
     std::optional<ShaderProgram> level_;  // only where patches transmit light
-    ShaderProgram update_, power_sum_, power_scan_, power_density_, choose_;
-    ShaderProgram complete_, flux_sum_, balance_flux_, gather_at_vertices_, find_slopes_;
-    ShaderProgram checkpoint_, statistics_, measure_scatter_, turn_gloss_, send_, forget_;
+    ShaderProgram update_, complete_, forget_;
 };
 
 }  // namespace raybundle

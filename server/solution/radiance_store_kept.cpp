@@ -5,26 +5,14 @@
 namespace raybundle {
 
 void RadianceStore::keep_light() {
-    if (kept_.bytes() == 0) {
-        kept_ = Buffer("kept irradiance", irradiance_.bytes());
-        since_ = Buffer("irradiance since the change", irradiance_.bytes());
-        serve_ = ShaderProgram({"solution_serve.comp"});
-    }
-    glCopyNamedBufferSubData(irradiance_.get(), kept_.get(), 0, 0,
-                             static_cast<GLsizeiptr>(kept_.bytes()));
-    since_.clear();
-    keeping_ = true;
+    kept_.keep(light_.irradiance);
 }
 
 void RadianceStore::serve() const {
-    if (!keeping_) {
-        return;
+    if (kept_.keeping()) {
+        zones_.bind();
+        kept_.serve(patch_count_);
     }
-    zones_.bind();
-    kept_.bind_storage(BINDING_KEPT);
-    since_.bind_storage(BINDING_SINCE);
-    serve_.set("patch_count", patch_count_);
-    serve_.dispatch(patch_count_);
 }
 
 Buffer RadianceStore::complete_start() const {
