@@ -82,9 +82,10 @@ void make(Scene& scene, const std::vector<Edit>& edits) {
     }
 }
 
-SolverSettings settings_of(std::uint64_t seed) {
+SolverSettings settings_of(const ChangeCase& c, std::uint64_t seed) {
     SolverSettings settings;
     settings.seed = seed;
+    settings.coarse = c.coarse;
     settings.special = interactive_special();
     return settings;
 }
@@ -95,7 +96,7 @@ class Watched {
     Watched(const ChangeCase& c, Scene scene, std::uint64_t seed)
         : scene_(std::move(scene)),
           mesh_(tessellate(scene_, {.patch_size = c.patch_size})),
-          solver_(scene_, mesh_, settings_of(seed)),
+          solver_(scene_, mesh_, settings_of(c, seed)),
           programs_(solver_.scene()),
           image_(solver_.scene(), solver_.store(), programs_, glm::uvec2(c.picture)) {
         image_.set_camera(camera_of(c));

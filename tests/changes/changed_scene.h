@@ -48,7 +48,8 @@ struct ChangeCase {
     float field_of_view = 75.0F;  ///< degrees, vertical
     float patch_size = 0.3F;      ///< m
     unsigned picture = 96;        ///< pixels along an edge
-    double bright = 100.0;        ///< lx: order of the light before or after, the brighter of both
+    BundleResolution coarse{256, 400};
+    double bright = 100.0;  ///< lx: order of the light before or after, the brighter of both
 };
 
 /// Names the case in lists and failures of tests.
