@@ -10,7 +10,7 @@ namespace raybundle {
 namespace {
 
 /// Axes of a face in bundle coordinates; the same table as hemicube_face() in
-/// shaders/hemicube.glsl.
+/// shaders/bundle/hemicube.glsl.
 struct FaceAxes {
     glm::vec3 right, up, forward;
 };
@@ -123,7 +123,7 @@ void Hemicube::draw(const GpuScene& scene, const BundleFrame& frame, float near_
     }
 }
 
-/// Rays of the pixels of a face, as hemicube_direction() of shaders/hemicube.glsl has them.
+/// Rays of the pixels of a face, as hemicube_direction() of shaders/bundle/hemicube.glsl has them.
 RayGrid Hemicube::rays(const BundleFrame& frame, int face, float near_distance,
                        const PixelRectangle& rectangle) const {
     const FaceAxes axes = face_axes(face);

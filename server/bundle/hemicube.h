@@ -17,7 +17,7 @@
 namespace raybundle {
 
 /// A perspective bundle: the surfaces that a point sees (ch. 5.1.2). Five faces of surface ids and
-/// depths are stacked in one picture; see shaders/hemicube.glsl for its geometry.
+/// depths are stacked in one picture; see shaders/bundle/hemicube.glsl for its geometry.
 class Hemicube {
   public:
     static constexpr int face_count = 5;

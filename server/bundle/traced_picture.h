@@ -29,7 +29,7 @@ class TracedPicture {
     std::vector<float> depths_;
 };
 
-/// Random number of a bundle, as shaders/glass.glsl makes it.
+/// Random number of a bundle, as shaders/material/glass.glsl makes it.
 std::uint32_t bundle_number(const BundleFrame& frame);
 
 }  // namespace raybundle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ side of shaders/layouts.glsl: the same text, with GLSL's types.
+// The C++ side of shaders/common/layouts.glsl: the same text, with GLSL's types.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
-#include "shaders/layouts.glsl"
+#include "shaders/common/layouts.glsl"
 
 // std430 puts a scalar into the fourth component after a vec3, as C++ does.
 static_assert(sizeof(PatchGeometry) == 32 && offsetof(PatchGeometry, offset) == 12);

@@ -6,7 +6,7 @@
 
 namespace raybundle {
 
-/// Unit vector as a point of the square [-1, 1]^2, as shaders/octahedral.glsl has it.
+/// Unit vector as a point of the square [-1, 1]^2, as shaders/common/octahedral.glsl has it.
 inline glm::vec2 octahedral_from_vector(const glm::vec3& n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     if (sum <= 0.0F) {

@@ -22,7 +22,7 @@ constexpr int max_include_depth = 8;
 
 std::string_view find_shader(const std::string& name) {
     for (const EmbeddedFile& file : shader_files()) {
-        if (file.name == name) {
+        if (file.name.substr(file.name.rfind('/') + 1) == name) {
             return file.contents;
         }
     }

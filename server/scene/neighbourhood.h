@@ -9,7 +9,7 @@
 namespace raybundle {
 
 /// Surfaces closer than this share of the scene's diameter coincide for bundles: TIE_SHARE of
-/// shaders/layouts.glsl.
+/// shaders/common/layouts.glsl.
 constexpr double coincidence_share = 4e-6;
 
 /// Part of a scene: a triangle, an instance or an object.

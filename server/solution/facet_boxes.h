@@ -12,7 +12,7 @@
 
 namespace raybundle {
 
-/// Boxes round the facets, by which a ray finds the nearest one (shaders/facet_boxes.glsl): a
+/// Boxes round the facets, by which a ray finds the nearest one (shaders/scene/facet_boxes.glsl): a
 /// binary tree over the objects, whose leaves are binary trees over their facets. The nodes are in
 /// preorder, each with the number of the one after its subtree, so that a walk needs no stack. The
 /// trees' shape stays; what an object's move changes is the boxes of its facets and those on the

@@ -25,7 +25,7 @@ unsigned divisions_of(std::uint32_t patches, std::size_t lights) {
     return patches < many_patches && patches * lights < many_pairs ? 4 : 2;
 }
 
-/// A profile at the directions of shaders/first_shot.glsl, cd.
+/// A profile at the directions of shaders/solution/first_shot.glsl, cd.
 void append_table(const IesProfile& profile, std::vector<float>& values) {
     for (int column = 0; column < IES_COLUMNS; ++column) {
         const double phi = glm::radians(2.5 * column);

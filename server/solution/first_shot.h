@@ -35,7 +35,7 @@ class FirstShot {
     /// For change_source.comp.
     void bind_remembered() const { remembered_.bind_storage(BINDING_OLD_FIRST_SHOT); }
     void bind() const;
-    /// Sets the uniforms of shaders/first_shot.glsl.
+    /// Sets the uniforms of shaders/solution/first_shot.glsl.
     void set_uniforms(const ShaderProgram& program) const;
     /// Where there are more lights than shadow maps, else null. The light of those is found little
     /// by little, see ManyLamps.

@@ -10,7 +10,7 @@
 namespace raybundle {
 
 /// The sides of patches on the GPU, where some patches are several triangles; nothing where none
-/// is. See shaders/patch_members.glsl.
+/// is. See shaders/scene/patch_members.glsl.
 class PatchMembers {
   public:
     explicit PatchMembers(const PatchMesh& mesh);

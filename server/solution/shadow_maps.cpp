@@ -50,7 +50,7 @@ Texture2D create_layers(GLenum format, int size, unsigned layers) {
     return texture;
 }
 
-/// Axes of a face of a cube map; the same table as cube_face() in shaders/first_shot.glsl.
+/// Axes of a face of a cube map; the same table as cube_face() in shaders/solution/first_shot.glsl.
 struct FaceAxes {
     glm::vec3 right{0.0F}, up{0.0F}, forward{0.0F};
 };

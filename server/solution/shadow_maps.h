@@ -15,7 +15,7 @@ namespace raybundle {
 
 /// What each punctual light sees of the scene: numbers of the nearest surfaces, a cube of six faces
 /// round a point light, one face for a spot and for a directional light; and near which of their
-/// texels some surface begins or ends. shaders/first_shot.glsl reads them.
+/// texels some surface begins or ends. shaders/solution/first_shot.glsl reads them.
 class ShadowMaps {
   public:
     explicit ShadowMaps(const GpuScene& scene);

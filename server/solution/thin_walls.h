@@ -11,7 +11,7 @@ namespace raybundle {
 bool has_thin_walls(const Scene& scene, const PatchMesh& mesh);
 
 /// Whether some facet is narrower than a pixel of a window of 400, so that the rasteriser turns it
-/// over often enough to matter (folded_over in shaders/parallel.glsl).
+/// over often enough to matter (folded_over in shaders/bundle/parallel.glsl).
 bool has_slivers(const Scene& scene, const PatchMesh& mesh);
 
 }  // namespace raybundle

@@ -133,7 +133,7 @@ void trace_nearest(const Tile& part, const Query& query, const FacetTracer::Near
     });
 }
 
-/// Writes a list as shaders/layers.glsl has it: the first four together, the others apart.
+/// Writes a list as shaders/bundle/layers.glsl has it: the first four together, the others apart.
 void write_list(const std::vector<LineHit>& hits, std::size_t pixel,
                 const FacetTracer::Lists& result) {
     result.counts[pixel] = static_cast<std::uint32_t>(hits.size());

@@ -42,7 +42,7 @@ class FacetTracer {
     void nearest(std::span<const RayGrid> grids, const TraceRules& rules, const Nearest& result,
                  std::span<const std::uint32_t> hidden = {});
 
-    /// Receives all hits of the lines, in the layout of shaders/layers.glsl.
+    /// Receives all hits of the lines, in the layout of shaders/bundle/layers.glsl.
     struct Lists {
         std::uint32_t* counts = nullptr;
         std::uint32_t* surfaces = nullptr;

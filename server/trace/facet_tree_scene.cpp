@@ -11,7 +11,7 @@ namespace raybundle {
 
 namespace {
 
-/// As shaders/scene_place_vertices.comp places it.
+/// As shaders/scene/scene_place_vertices.comp places it.
 glm::vec3 placed(const glm::mat4& world_from_object, const glm::vec3& position) {
     return glm::vec3(world_from_object * glm::vec4(position, 1.0F));
 }

@@ -10,14 +10,14 @@ namespace raybundle {
 
 namespace {
 
-/// texel_at() of shaders/alpha_mask.glsl.
+/// texel_at() of shaders/material/alpha_mask.glsl.
 int texel_at(float coordinate, int size, bool repeat) {
     const float wrapped =
         repeat ? coordinate - std::floor(coordinate) : std::clamp(coordinate, 0.0F, 1.0F);
     return std::clamp(static_cast<int>(wrapped * static_cast<float>(size)), 0, size - 1);
 }
 
-/// The first of random_numbers_of() in shaders/random_hash.glsl.
+/// The first of random_numbers_of() in shaders/common/random_hash.glsl.
 float random_number_of(std::uint32_t a, std::uint32_t b) {
     glm::uvec3 v = glm::uvec3(a, b, 0x9e3779b9U) * 1664525U + 1013904223U;
     v.x += v.y * v.z;

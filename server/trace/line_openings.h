@@ -12,8 +12,8 @@
 namespace raybundle {
 
 /// Where rays pass through surfaces: cut-outs (alpha MASK) and glass, by the rules of
-/// shaders/alpha_mask.glsl and shaders/glass.glsl. Keeps copies of the textures and materials that
-/// it needs.
+/// shaders/material/alpha_mask.glsl and shaders/material/glass.glsl. Keeps copies of the textures
+/// and materials that it needs.
 class LineOpenings {
   public:
     explicit LineOpenings(const Scene& scene);

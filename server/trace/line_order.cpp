@@ -9,7 +9,7 @@ namespace raybundle {
 
 namespace {
 
-/// faces_far() of shaders/parallel.glsl.
+/// faces_far() of shaders/bundle/parallel.glsl.
 bool faces_far(const LineHit& hit) {
     return (hit.surface & 1U) == 0U;
 }

@@ -22,9 +22,9 @@ struct LineOrder {
     float range = 0.0F;  ///< and up to this distance along the line
 };
 
-/// Orders the surfaces of a line as shaders/transport_layers_patches.comp does: by depth, then by
-/// number. Of two surfaces that coincide back to back, the one that faces the window comes first,
-/// so that a thin wall stops light.
+/// Orders the surfaces of a line as shaders/transport/transport_layers_patches.comp does: by depth,
+/// then by number. Of two surfaces that coincide back to back, the one that faces the window comes
+/// first, so that a thin wall stops light.
 void order_line(std::span<LineHit> hits, const LineOrder& order);
 
 }  // namespace raybundle

@@ -51,7 +51,7 @@ inline unsigned packet_width(RTCDevice device) {
                                                                : 4;
 }
 
-/// Number of a line among those of its bundle, as shaders/glass.glsl has it.
+/// Number of a line among those of its bundle, as shaders/material/glass.glsl has it.
 inline std::uint32_t line_number(int column, int row) {
     return static_cast<std::uint32_t>(row) << 16U | static_cast<std::uint32_t>(column);
 }

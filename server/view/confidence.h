@@ -15,8 +15,8 @@ struct ConfidencePrograms {
 };
 
 /// How much a picture's pixels believe their own samples beside the light of the patches
-/// (shaders/view_confidence.glsl): measured in tiles each time that there are twice as many
-/// samples. Costs nothing in between.
+/// (shaders/view/confidence/view_confidence.glsl): measured in tiles each time that there are twice
+/// as many samples. Costs nothing in between.
 class Confidence {
   public:
     explicit Confidence(glm::uvec2 size);

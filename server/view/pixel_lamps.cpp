@@ -11,7 +11,7 @@ namespace raybundle {
 
 namespace {
 
-// As in shaders/view_lamps.comp.
+// As in shaders/view/view_lamps.comp.
 constexpr unsigned step_begin = 0, step_add = 1, step_change = 2, step_count = 3;
 constexpr std::size_t most_changed = LAMP_SLOTS;  // lamps that change without a new beginning
 

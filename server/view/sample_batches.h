@@ -16,7 +16,7 @@ struct SampleWeights {
 
 /// What a picture's batches of samples, from one request of statistics to the next, say of the
 /// noise beside the scatter of single samples. Sums over its probe pixels come from
-/// shaders/view_statistics.comp.
+/// shaders/view/view_statistics.comp.
 class SampleBatches {
   public:
     /// Sums over the picture when a batch has ended. d, e: deviations of this batch and of the one

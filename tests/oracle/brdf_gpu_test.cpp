@@ -45,7 +45,7 @@ void main() {
 
 std::string shader_text(std::string_view name) {
     for (const EmbeddedFile& file : shader_files()) {
-        if (file.name == name) {
+        if (file.name.substr(file.name.rfind('/') + 1) == name) {
             return std::string(file.contents);
         }
     }

@@ -10,7 +10,7 @@
 namespace raybundle {
 namespace {
 
-/// The walk of shaders/facets.glsl.
+/// The walk of shaders/scene/facets.glsl.
 std::uint32_t triangle_at(const PatchMesh& mesh, std::size_t facet, glm::dvec3 weights) {
     FacetNode node = mesh.facet_roots[facet];
     while ((node.code & FacetNode::leaf_bit) == 0) {

@@ -10,7 +10,7 @@ namespace raybundle {
 
 /// Up to three levels of the bisections that have cut a facet into triangles, in 64 bits, so that a
 /// walk from a facet to the triangle under a point takes a third of the memory accesses. The walk
-/// is triangle_at() in shaders/facets.glsl.
+/// is triangle_at() in shaders/scene/facets.glsl.
 ///
 /// An inner node has bits 2i, 2i+1 of `code` for its bisections i = 0 (root), 1, 2 (its children),
 /// 3..6 (theirs): the edge that is split (see EdgeRefinement::Node), or `stop` where that triangle

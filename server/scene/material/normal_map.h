@@ -3,7 +3,7 @@
 // in which u grows, y against the one in which v grows, so that it points up in the image. It is
 // made orthogonal to the interpolated normal, and mirrored where the image is. Vertex tangents of a
 // file, which are this frame averaged over neighbours, are not used.
-// shaders/material_details.glsl has the same formulas.
+// shaders/material/material_details.glsl has the same formulas.
 #pragma once
 
 #include <array>
