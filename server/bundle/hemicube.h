@@ -12,7 +12,7 @@
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 
 namespace raybundle {
 

@@ -9,7 +9,7 @@
 #include "bundle/traced_picture.h"
 #include "gpu/gl_objects.h"
 #include "gpu/shader_program.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 
 namespace raybundle {
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 
 namespace raybundle {
 

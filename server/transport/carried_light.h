@@ -6,7 +6,7 @@
 
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 
 namespace raybundle {
 

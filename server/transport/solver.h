@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "solution/gpu_scene.h"
-#include "solution/radiance_store.h"
+#include "solution/geometry/gpu_scene.h"
+#include "solution/store/radiance_store.h"
 #include "transport/carried_light.h"
 #include "transport/iteration_schedule.h"
 #include "transport/scene_change.h"

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "solution/change_store.h"
-#include "solution/gpu_scene.h"
-#include "solution/radiance_store.h"
+#include "solution/geometry/gpu_scene.h"
+#include "solution/store/change_store.h"
+#include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "transport/iteration_schedule.h"
 #include "transport/scene_change.h"

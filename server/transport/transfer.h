@@ -10,7 +10,7 @@
 #include "bundle/hemicube.h"
 #include "bundle/layered_window.h"
 #include "bundle/plane_window.h"
-#include "solution/radiance_store.h"
+#include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "transport/iteration_schedule.h"
 

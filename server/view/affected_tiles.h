@@ -7,7 +7,7 @@
 
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 #include "transport/bundle_receiver.h"
 #include "view/tile_lists.h"
 

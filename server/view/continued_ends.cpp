@@ -10,7 +10,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gpu/octahedral.h"
-#include "solution/facet_raster.h"
+#include "solution/geometry/facet_raster.h"
 #include "view/sub_samples.h"
 
 namespace raybundle {

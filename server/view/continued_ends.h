@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/layouts.h"
-#include "solution/specular_rays.h"
+#include "solution/specular/specular_rays.h"
 #include "view/camera_matrices.h"
 
 namespace raybundle {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "gpu/gl_scope.h"
-#include "solution/many_lamps.h"
+#include "solution/direct/many_lamps.h"
 
 namespace raybundle {
 

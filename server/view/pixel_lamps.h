@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu/gl_objects.h"
-#include "solution/first_shot.h"
+#include "solution/direct/first_shot.h"
 #include "view/view_programs.h"
 
 namespace raybundle {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu/shader_program.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 #include "view/affected_tiles.h"
 #include "view/confidence.h"
 #include "view/edge_filter.h"

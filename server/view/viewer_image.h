@@ -14,7 +14,7 @@
 #include "bundle/traced_picture.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
-#include "solution/radiance_store.h"
+#include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "view/affected_tiles.h"
 #include "view/camera_matrices.h"

@@ -13,7 +13,7 @@
 #include "gpu/layouts.h"
 #include "scene/material/specular_surface.h"
 #include "scene/mesh/patch_colour.h"
-#include "solution/reflectance_tables.h"
+#include "solution/geometry/reflectance_tables.h"
 
 namespace raybundle {
 namespace {

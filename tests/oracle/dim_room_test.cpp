@@ -7,7 +7,7 @@
 
 #include "hard_rooms.h"
 #include "methods.h"
-#include "solution/shooting_shares.h"
+#include "solution/store/shooting_shares.h"
 
 namespace raybundle {
 namespace {

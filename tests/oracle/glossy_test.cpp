@@ -7,7 +7,7 @@
 #include "oracle/glossy_oracles.h"
 #include "oracle/scene_builder.h"
 #include "scene/material/reflectance_table.h"
-#include "solution/reflectance_tables.h"
+#include "solution/geometry/reflectance_tables.h"
 #include "transport/solver.h"
 
 namespace raybundle {

@@ -8,7 +8,7 @@
 
 #include "../reference/lit_room.h"
 #include "changed_room.h"
-#include "solution/many_lamps.h"
+#include "solution/direct/many_lamps.h"
 
 namespace raybundle {
 namespace {

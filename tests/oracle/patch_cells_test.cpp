@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "solution/patch_cells.h"
+#include "solution/geometry/patch_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "../reference/lit_room.h"
 #include "methods.h"
 #include "scene/gltf/gltf_loader.h"
-#include "solution/first_shot.h"
+#include "solution/direct/first_shot.h"
 #include "transport/patch_area.h"
 #include "transport/solver.h"
 

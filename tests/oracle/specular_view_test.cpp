@@ -8,7 +8,7 @@
 
 #include "oracle/scene_builder.h"
 #include "pictures.h"
-#include "solution/specular_rays.h"
+#include "solution/specular/specular_rays.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

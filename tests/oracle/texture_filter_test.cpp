@@ -10,7 +10,7 @@
 
 #include "oracle/scene_builder.h"
 #include "scene/walk/camera_axes.h"
-#include "solution/texture_levels.h"
+#include "solution/geometry/texture_levels.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

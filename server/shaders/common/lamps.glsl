@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of many lamps (MANY_LAMPS), a row of slots at a time: rays on the processor have found which of them reach
-// each point, see solution/many_lamps.h. Requires first_shot.glsl.
+// each point, see solution/direct/many_lamps.h. Requires first_shot.glsl.
 struct LampPoint {  // trace/lamp_rays.h
     vec3 position;
     uint facet;

@@ -24,7 +24,7 @@
 #define BINDING_LAYER_SURFACES 14  // uint[capacity * window pixels]: see layers.glsl
 #define BINDING_OBJECTS 15         // mat4[2 * objects]: world_from_object, place 0 then place 1
 #define BINDING_MATERIALS 16       // MaterialData[]
-#define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures, see solution/texture_levels.h
+#define BINDING_TEXELS 17          // uint[]: RGBA8 texels of all textures, see solution/geometry/texture_levels.h
 #define BINDING_VERTEX_DATA 18     // VertexData[]
 #define BINDING_VERTEX_TRIANGLES 19  // uint[]: triangles round each vertex
 #define BINDING_PIXELS 20          // PixelSurface[]
@@ -81,7 +81,7 @@
 #define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use
-#define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/zone_balance.cpp
+#define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/store/zone_balance.cpp
 #define BINDING_MEMBERS 60            // uvec2[]: see patch_members.glsl
 #define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
@@ -114,7 +114,7 @@
 #define SCATTER_NOT_MEASURED 2u
 #define CONFIDENCE_TILE 8  // pixels along an edge
 #define CONFIDENCE_WHOLE 2  // values before those of the tiles
-#define LAMP_SLOTS 16  // lamps that are looked at at once, see solution/many_lamps.h
+#define LAMP_SLOTS 16  // lamps that are looked at at once, see solution/direct/many_lamps.h
 #define LAMP_POINT_MOVED 0x80000000u  // flag of LampPoint::cell
 #define LAMP_CHANCES 16  // drawn from those that have not been looked at yet
 #define GROUP_SIZE 8  // iterations that are planned together
@@ -186,7 +186,7 @@ struct FacetGeometry {
     uint material;
 };
 
-// Node of the tree of boxes round the facets, see solution/facet_boxes.h.
+// Node of the tree of boxes round the facets, see solution/geometry/facet_boxes.h.
 struct FacetBox {
     vec3 low;    // world space
     uint next;   // node after its subtree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glass (scene/material/specular_surface.h) lets bundles straight through, line by line; only pictures show it (SHOW_GLASS).
 // What it absorbs (GLASS_ABSORBS) are single fragments, by chance: those stay, as a black surface. Punctual lights see
-// through all of it (CLEAR_GLASS), since solution/caustic_rays.h knows what of their light arrives.
+// through all of it (CLEAR_GLASS), since solution/specular/caustic_rays.h knows what of their light arrives.
 // Only compiled where a scene has any (GLASS). For GLASS_ABSORBS the including shader declares uint facet_base of the
 // place that is drawn.
 #ifndef ALPHA_MASK

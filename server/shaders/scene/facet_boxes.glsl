@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest facet that a ray meets, by the tree of boxes of solution/facet_boxes.h. Requires rarely.glsl and
+// The nearest facet that a ray meets, by the tree of boxes of solution/geometry/facet_boxes.h. Requires rarely.glsl and
 // facets.glsl, and of the including shader uint facet_base of the present place. ALPHA_MASK: rays go through where nothing
 // is (alpha_mask.glsl); GLASS: and through glass, as bundles do (glass.glsl, which requires density.glsl).
 layout(binding = UNIT_FACET_BOXES) uniform samplerBuffer facet_box_texels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sides of the patches that are several triangles (PATCH_SETS), see solution/patch_members.h. Requires scene_geometry.glsl.
+// Sides of the patches that are several triangles (PATCH_SETS), see solution/geometry/patch_members.h. Requires scene_geometry.glsl.
 #ifdef PATCH_SETS
 /// Of each patch: its first member, and the one after its last. Then members: a side, and the share of the patch's area
 /// that it and those before it have (float bits).

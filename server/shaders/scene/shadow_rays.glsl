@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays to punctual lights, through the tree of boxes round all facets. Requires rarely.glsl and facets.glsl. Objects are at
-// their present places. Punctual lights shine through glass, since solution/caustic_rays.h knows what of it arrives.
+// their present places. Punctual lights shine through glass, since solution/specular/caustic_rays.h knows what of it arrives.
 #ifndef CLEAR_GLASS
 #define CLEAR_GLASS 1
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selection probability of shooting patches (ch. 5.3): proportional to luminance power, half of it shared among zones by
-// area (solution/shooting_shares.h), with a defensive share for area and for emitting area, so that no light is starved,
+// area (solution/store/shooting_shares.h), with a defensive share for area and for emitting area, so that no light is starved,
 // however dim beside others, and a black scene still samples.
 #include "luminance.glsl"
 layout(std430, binding = BINDING_SURFACES) readonly buffer SurfaceBuffer { PatchSurface surfaces[]; };

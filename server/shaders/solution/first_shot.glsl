@@ -19,7 +19,7 @@ uniform uint punctual_count;
 uniform float shadow_tie;  // m: surfaces closer to a point than this are its own
 
 /// Face of a cube map, and coordinates on it in [-1, 1]; the same table as face_axes() in
-/// solution/shadow_maps.cpp.
+/// solution/direct/shadow_maps.cpp.
 vec2 cube_face(vec3 d, out uint face) {
     vec3 a = abs(d);
     uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;

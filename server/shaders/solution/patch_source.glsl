@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a patch sends whatever the random iteration says: its emission and, in a scene with punctual lights
 // (FIRST_SHOT), the main part of the first reflection of their light, solution_first_shot.comp; behind mirrors and glass
-// (CAUSTICS) what caustics make of it, which may be negative, solution/caustics.h. Needs `surfaces`.
+// (CAUSTICS) what caustics make of it, which may be negative, solution/specular/caustics.h. Needs `surfaces`.
 #ifdef FIRST_SHOT
 /// Per patch: irradiance by punctual lights (radiance units), then the radiance that it makes.
 layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flux of the patches that a batch of rays has met (solution/caustics.h).
+// Flux of the patches that a batch of rays has met (solution/specular/caustics.h).
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a new estimate of the caustics' irradiance (solution/caustics.h) makes of the patches' radiance.
+// What a new estimate of the caustics' irradiance (solution/specular/caustics.h) makes of the patches' radiance.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"

@@ -6,7 +6,7 @@
 
 #include "gpu/gl_objects.h"
 #include "gpu/shader_program.h"
-#include "solution/zone_balance.h"
+#include "solution/store/zone_balance.h"
 
 namespace raybundle {
 

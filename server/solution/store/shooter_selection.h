@@ -11,7 +11,7 @@
 #include "gpu/layouts.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
-#include "solution/gpu_scene.h"
+#include "solution/geometry/gpu_scene.h"
 
 namespace raybundle {
 
