@@ -18,7 +18,7 @@
 #include "research/plot/line_plot.h"
 #include "stream/image_encoder.h"
 #include "transport/solver.h"
-#include "view/tone_curve.h"
+#include "view/image/tone_curve.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

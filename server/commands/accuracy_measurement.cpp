@@ -17,7 +17,7 @@
 #include "research/accuracy/scene_fingerprint.h"
 #include "scene/effects/effect_removal.h"
 #include "scene/effects/effects_plan.h"
-#include "view/tone_curve.h"
+#include "view/image/tone_curve.h"
 
 namespace raybundle {
 namespace {

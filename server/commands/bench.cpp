@@ -15,8 +15,8 @@
 #include "gpu/egl_context.h"
 #include "gpu/gl_scope.h"
 #include "transport/solver.h"
+#include "view/image/whole_file.h"
 #include "view/viewer_image.h"
-#include "view/whole_file.h"
 
 namespace raybundle {
 

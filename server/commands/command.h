@@ -3,7 +3,7 @@
 
 #include "app/load_scene.h"
 #include "options/cli_options.h"
-#include "view/whole_file.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 

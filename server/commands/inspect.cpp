@@ -10,7 +10,7 @@
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "scene/scene_report.h"
-#include "view/whole_file.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 namespace {

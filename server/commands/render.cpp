@@ -13,8 +13,8 @@
 #include "scene/effects/effects_plan.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"
-#include "view/image_file.h"
-#include "view/whole_file.h"
+#include "view/image/image_file.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 

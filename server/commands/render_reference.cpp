@@ -12,8 +12,8 @@
 #include "commands/command.h"
 #include "reference/measures/emitter_pixels.h"
 #include "research/reference_method.h"
-#include "view/image_file.h"
-#include "view/tone_curve.h"
+#include "view/image/image_file.h"
+#include "view/image/tone_curve.h"
 
 namespace raybundle {
 namespace {

@@ -13,7 +13,7 @@
 #include "gpu/egl_context.h"
 #include "scene/animation_script.h"
 #include "transport/solver.h"
-#include "view/image_file.h"
+#include "view/image/image_file.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -8,7 +8,7 @@
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "oracle/oracles.h"
-#include "view/whole_file.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 

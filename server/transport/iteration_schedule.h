@@ -28,8 +28,8 @@ struct IterationSample {
 /// Hands out iterations: one low-discrepancy sequence per strategy. Batches with a randomisation of
 /// their own would be independent, but cost much of what the sequences bring (measured on the
 /// Cornell box, 512x512, true relRMSE after 3 and 10 s: 10.0 and 5.4 % instead of 5.8 and 3.5 %);
-/// as it is, the scatter of the samples says too much: view/error_interval.h. No clock and no state
-/// beyond counters, so a seed always gives the same sequence.
+/// as it is, the scatter of the samples says too much: view/error/error_interval.h. No clock and no
+/// state beyond counters, so a seed always gives the same sequence.
 class IterationSchedule {
   public:
     /// shuffled: for glossy scenes, whose patches reflect the light that they accepted last. In its

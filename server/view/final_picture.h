@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference/spot_check.h"
-#include "view/measured_error.h"
+#include "view/error/measured_error.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

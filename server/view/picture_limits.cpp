@@ -6,7 +6,7 @@
 
 #include "gpu/gl_limits.h"
 #include "gpu/layouts.h"
-#include "view/picture_tiles.h"
+#include "view/tiles/picture_tiles.h"
 
 namespace raybundle {
 

@@ -8,9 +8,9 @@
 
 #include "gpu/shader_program.h"
 #include "solution/geometry/gpu_scene.h"
-#include "view/affected_tiles.h"
-#include "view/confidence.h"
-#include "view/edge_filter.h"
+#include "view/error/confidence.h"
+#include "view/filters/edge_filter.h"
+#include "view/tiles/affected_tiles.h"
 
 namespace raybundle {
 
@@ -21,7 +21,7 @@ struct ViewPrograms {
     ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
 
     ShaderProgram raster;
-    ShaderProgram raster_staggered;  ///< some of the pixels, see view/sub_samples.h
+    ShaderProgram raster_staggered;  ///< some of the pixels, see view/filters/sub_samples.h
     /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same
     /// after an object has moved; `specular` goes over specular pixels alone.
     struct Resolve {

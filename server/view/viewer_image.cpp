@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "gpu/gl_scope.h"
-#include "view/continued_view.h"
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
+#include "view/specular/continued_view.h"
 
 namespace raybundle {
 

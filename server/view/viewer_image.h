@@ -16,16 +16,16 @@
 #include "gpu/shader_program.h"
 #include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
-#include "view/affected_tiles.h"
 #include "view/camera_matrices.h"
-#include "view/confidence.h"
-#include "view/crowded_pixels.h"
 #include "view/depth_grid.h"
-#include "view/edge_filter.h"
-#include "view/error_interval.h"
+#include "view/error/confidence.h"
+#include "view/error/error_interval.h"
+#include "view/error/sample_batches.h"
+#include "view/filters/crowded_pixels.h"
+#include "view/filters/edge_filter.h"
 #include "view/pixel_lamps.h"
-#include "view/sample_batches.h"
-#include "view/specular_groups.h"
+#include "view/specular/specular_groups.h"
+#include "view/tiles/affected_tiles.h"
 #include "view/view_programs.h"
 
 namespace raybundle {
@@ -109,9 +109,9 @@ class ViewerImage : public BundleReceiver {
     void set_view(const Camera& camera, glm::uvec2 size);
     /// Draws the same view with `factor` times as many pixels along each edge, which are from now
     /// on parts of the pixels that there were: they are looked at in staggered places
-    /// (view/sub_samples.h), and what is said of the error is that of means over them. What is
-    /// accumulated goes along, and so does what its samples say of their scatter; what is seen in
-    /// mirrors and through glass begins anew. For pictures of full size, between special phases.
+    /// (view/filters/sub_samples.h), and what is said of the error is that of means over them. What
+    /// is accumulated goes along, and so does what its samples say of their scatter; what is seen
+    /// in mirrors and through glass begins anew. For pictures of full size, between special phases.
     void refine(unsigned factor);
     /// The camera will not move again: what makes the picture better and takes a while is done at
     /// once.

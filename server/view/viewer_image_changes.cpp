@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a viewer's picture follows a special iteration phase.
-#include "view/continued_view.h"
+#include "view/specular/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

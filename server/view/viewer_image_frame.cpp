@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gpu/gl_limits.h"
-#include "view/continued_view.h"
+#include "view/specular/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -5,7 +5,7 @@
 
 #include "gpu/gl_scope.h"
 #include "trace/facet_tracer.h"
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -2,7 +2,7 @@
 // What is read from a viewer's picture: its light, and single pixels.
 #include <bit>
 
-#include "view/continued_view.h"
+#include "view/specular/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "view/continued_view.h"
+#include "view/specular/continued_view.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

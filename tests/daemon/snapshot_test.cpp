@@ -8,7 +8,7 @@
 #include "daemon.h"
 #include "json_viewer.h"
 #include "test_folder.h"
-#include "view/image_file.h"
+#include "view/image/image_file.h"
 
 namespace raybundle {
 namespace {

@@ -66,7 +66,7 @@ class Layers(unittest.TestCase):
     def test_no_folder_of_sources_has_more_than_it_has_room_for(self):
         # Folders still to be divided, with what they have now; no other may pass `room`.
         room = 30
-        crowded = {"view": 55}
+        crowded = {}
         for folder in sorted(path for path in (root / "server").rglob("*") if path.is_dir()):
             count = sum(1 for file in folder.iterdir() if file.suffix in (".h", ".cpp", ".comp", ".glsl", ".vert", ".frag"))
             name = folder.relative_to(root / "server").as_posix()

@@ -9,7 +9,7 @@
 
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

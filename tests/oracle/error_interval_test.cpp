@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Error bars: their arithmetic, and a hundred pictures against their true errors. 800, more scenes
 // and targets: error_interval_statistics_test.cpp.
-#include "view/error_interval.h"
+#include "view/error/error_interval.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "judged_scene.h"
-#include "view/measured_error.h"
+#include "view/error/measured_error.h"
 
 namespace raybundle {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Large pictures made of tiles, and sizes within limits.
-#include "view/picture_tiles.h"
+#include "view/tiles/picture_tiles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What batches of samples tell of a picture's noise, from sums whose modes are known.
-#include "view/sample_batches.h"
+#include "view/error/sample_batches.h"
 
 #include <gtest/gtest.h>
 

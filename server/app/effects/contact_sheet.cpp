@@ -7,8 +7,8 @@
 #include "app/effects/effect_trial.h"
 #include "gpu/egl_context.h"
 #include "scene/effects/effects_plan.h"
-#include "view/image_file.h"
-#include "view/tone_curve.h"
+#include "view/image/image_file.h"
+#include "view/image/tone_curve.h"
 
 namespace raybundle {
 namespace {

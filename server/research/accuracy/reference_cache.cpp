@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "view/image_file.h"
-#include "view/whole_file.h"
+#include "view/image/image_file.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 namespace {

@@ -8,7 +8,7 @@
 #include <exception>
 #include <utility>
 
-#include "view/measured_error.h"
+#include "view/error/measured_error.h"
 
 namespace raybundle {
 

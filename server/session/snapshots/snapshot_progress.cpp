@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "session/snapshots/snapshot_queue.h"
-#include "view/error_interval.h"
+#include "view/error/error_interval.h"
 
 namespace raybundle {
 

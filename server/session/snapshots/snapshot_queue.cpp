@@ -11,7 +11,7 @@
 #include "session/snapshots/snapshot_quota.h"
 #include "session/viewers/picture_refusal.h"
 #include "stream/image_encoder.h"
-#include "view/image_file.h"
+#include "view/image/image_file.h"
 
 namespace raybundle {
 

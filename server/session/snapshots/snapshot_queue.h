@@ -17,7 +17,7 @@
 #include "scheduling/scheduling_settings.h"
 #include "scheduling/time_share.h"
 #include "session/changes/earlier_scene.h"
-#include "view/picture_tiles.h"
+#include "view/tiles/picture_tiles.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

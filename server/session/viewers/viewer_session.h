@@ -15,7 +15,7 @@
 #include "session/viewers/viewer_display.h"
 #include "stream/congestion_window.h"
 #include "stream/depth_code.h"
-#include "view/measured_error.h"
+#include "view/error/measured_error.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From exposed light to displayed light, as view/tone_curve.h.
+// From exposed light to displayed light, as view/image/tone_curve.h.
 
 /// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 4, per channel: nearly
 /// linear in the shadows, soft shoulder, 1 at `white`.

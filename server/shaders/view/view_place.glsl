@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a viewer's pixels are looked at: at their centres, or where they are parts of the pixels of a final picture
-// at staggered places (view/sub_samples.h). Needs the view parameters.
+// at staggered places (view/filters/sub_samples.h). Needs the view parameters.
 
 /// From the centre of a pixel, pixels.
 vec2 place_in_pixel(uvec2 at) {

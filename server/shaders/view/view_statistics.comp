@@ -22,7 +22,7 @@ layout(std430, binding = BINDING_STATISTICS) writeonly buffer StatisticsBuffer {
 #include "false_colour.glsl"
 layout(std430, binding = BINDING_SOURCE) readonly buffer IterateBuffer { vec4 iterate[]; };
 uniform float logarithm_floor;   // radiance units
-uniform float variance_of_mean;  // over that of independent samples: view/error_interval.h
+uniform float variance_of_mean;  // over that of independent samples: view/error/error_interval.h
 uniform float variance_of_patches;  // of patches' means, over the squared distance of the iterate from them
 uniform float batch_begin;       // weight of all samples when the last batch ended; 0: this is the first
 uniform float batch_squares;     // sum of the squared weights of all batches, this one included

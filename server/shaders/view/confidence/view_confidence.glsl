@@ -19,7 +19,7 @@ float effective_samples(float weight) {
     return weight * weight / max(weight - view.weights.y + view.weights.z, 1e-12);
 }
 
-/// Variance of the mean of so many samples over that of one, view/error_interval.h.
+/// Variance of the mean of so many samples over that of one, view/error/error_interval.h.
 float variance_share(float samples) {
     return pow(max(samples / view.gain.y, 1.0), -view.gain.x) / max(samples, 1e-6);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/sample_batches.h"
+#include "view/error/sample_batches.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/continued_ends.h"
+#include "view/specular/continued_ends.h"
 
 #include <tbb/parallel_for.h>
 
@@ -11,7 +11,7 @@
 
 #include "gpu/octahedral.h"
 #include "solution/geometry/facet_raster.h"
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
 
 namespace raybundle {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/affected_tiles.h"
+#include "view/tiles/affected_tiles.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
 
 #include <span>
 

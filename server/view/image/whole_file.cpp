@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/whole_file.h"
+#include "view/image/whole_file.h"
 
 #include <unistd.h>
 

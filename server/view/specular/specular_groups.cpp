@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/specular_groups.h"
+#include "view/specular/specular_groups.h"
 
 #include <cstdint>
 

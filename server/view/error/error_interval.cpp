@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/error_interval.h"
+#include "view/error/error_interval.h"
 
 #include <algorithm>
 #include <array>

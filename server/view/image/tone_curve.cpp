@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/tone_curve.h"
+#include "view/image/tone_curve.h"
 
 #include <algorithm>
 #include <cmath>

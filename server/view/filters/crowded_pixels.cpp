@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/crowded_pixels.h"
+#include "view/filters/crowded_pixels.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/tile_lists.h"
+#include "view/tiles/tile_lists.h"
 
 #include <algorithm>
 #include <cstdint>

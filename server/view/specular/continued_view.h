@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "gpu/gl_objects.h"
-#include "view/continued_ends.h"
+#include "view/specular/continued_ends.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

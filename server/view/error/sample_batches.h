@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "view/error_interval.h"
+#include "view/error/error_interval.h"
 
 namespace raybundle {
 

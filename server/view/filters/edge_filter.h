@@ -9,7 +9,7 @@
 #include "gpu/layouts.h"
 #include "gpu/shader_program.h"
 #include "solution/geometry/gpu_scene.h"
-#include "view/tile_lists.h"
+#include "view/tiles/tile_lists.h"
 
 namespace raybundle {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/edge_filter.h"
+#include "view/filters/edge_filter.h"
 
 #include <cstdint>
 
-#include "view/sub_samples.h"
+#include "view/filters/sub_samples.h"
 
 namespace raybundle {
 

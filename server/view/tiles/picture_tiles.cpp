@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/picture_tiles.h"
+#include "view/tiles/picture_tiles.h"
 
 #include <algorithm>
 #include <cmath>

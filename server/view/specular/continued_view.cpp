@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/continued_view.h"
+#include "view/specular/continued_view.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/confidence.h"
+#include "view/error/confidence.h"
 
 #include <algorithm>
 

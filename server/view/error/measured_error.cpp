@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/measured_error.h"
+#include "view/error/measured_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ ImageStatistics MeasuredError::with_carried(const ImageStatistics& by_samples) c
 }
 
 /// The squared error as it is to be expected after more samples. Those have noise of their own,
-/// whose few modes (view/error_interval.cpp) make it come out larger or smaller: a seventh more
-/// samples change it by 18 % (independent) to 30 % (low-discrepancy; standard deviation).
+/// whose few modes (view/error/error_interval.cpp) make it come out larger or smaller: a seventh
+/// more samples change it by 18 % (independent) to 30 % (low-discrepancy; standard deviation).
 SquaredError MeasuredError::now(const ImageStatistics& by_samples) const {
     constexpr double unforeseen = 0.7;  // of the squared error, for twice as many samples
     const double fallen = by_samples.relative_error / said_.relative_error;
