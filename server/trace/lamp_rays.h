@@ -10,7 +10,7 @@
 
 namespace raybundle {
 
-/// A point on which the light of lamps is looked for; as shaders/common/lamps.glsl has it.
+/// A point on which the light of lamps is looked for; as shaders/lamps/lamps.glsl has it.
 struct LampPoint {
     glm::vec3 position{0.0F};  ///< m
     std::uint32_t facet = 0;   ///< its own, which hides nothing, or FacetTracer::no_hit

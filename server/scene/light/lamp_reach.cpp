@@ -94,7 +94,9 @@ NearLamps::NearLamps(std::span<const PlacedLight> lamps, std::span<const float> 
 std::span<const std::uint32_t> NearLamps::at(const glm::dvec3& place) const {
     const glm::ivec3 cell = glm::ivec3(
         glm::clamp((place - low_) * cells_per_metre_, glm::dvec3(0.0), glm::dvec3(counts_ - 1)));
-    const auto index = static_cast<std::size_t>(cell.x + counts_.x * (cell.y + counts_.y * cell.z));
+    const glm::uvec3 at(cell);
+    const glm::uvec3 counts(counts_);
+    const std::size_t index = at.x + std::size_t{counts.x} * (at.y + std::size_t{counts.y} * at.z);
     return std::span(lamps_).subspan(index * count_, count_);
 }
 

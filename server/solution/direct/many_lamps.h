@@ -48,7 +48,7 @@ class ManyLamps {
                                                  bool dark) const;
     /// The same row for all cells.
     [[nodiscard]] std::vector<std::uint32_t> row_of(std::span<const std::uint32_t> lamps) const;
-    /// Binds a row for shaders/common/lamps.glsl, and what else it needs but the points.
+    /// Binds a row for shaders/lamps/lamps.glsl, and what else it needs but the points.
     void bind_row(std::span<const std::uint32_t> row);
     /// Masks of the points that a shader has written, for a bound row.
     void reach(std::size_t points, std::span<const std::uint32_t> row, bool before = false);
