@@ -57,6 +57,28 @@ double exact(const Scene& scene, const glm::dvec3& point) {
     return sum;
 }
 
+Camera from_above() {
+    Camera camera;
+    camera.eye = {0, 14, -12};
+    camera.target = {0, 0, 0};
+    return camera;
+}
+
+/// A scene, and a viewer at rest who looks at it from above.
+struct Viewed {
+    Viewed(const SceneBuilder& b, glm::uvec2 size)
+        : solver(b.scene, b.mesh),
+          programs(solver.scene()),
+          image(solver.scene(), solver.store(), programs, size) {
+        image.set_camera(from_above());
+        image.rest();
+    }
+
+    Solver solver;
+    ViewPrograms programs;
+    ViewerImage image;
+};
+
 void finish(Solver& solver, ViewerImage& image) {
     BundleReceiver* const receivers[] = {&image};
     for (int i = 0; i < 4000 && !(solver.store().first_shot()->many()->complete() &&
@@ -68,13 +90,6 @@ void finish(Solver& solver, ViewerImage& image) {
     for (int i = 0; i < 16; ++i) {  // so that all that has been found is in effect
         solver.step(receivers);
     }
-}
-
-Camera from_above() {
-    Camera camera;
-    camera.eye = {0, 14, -12};
-    camera.target = {0, 0, 0};
-    return camera;
 }
 
 std::vector<double> of_patches(const Solver& solver) {
@@ -133,11 +148,9 @@ class ManyLampsOver : public testing::TestWithParam<unsigned> {};
 /// it is from that.
 TEST_P(ManyLampsOver, AFloorGiveTheSumOfInverseSquares) {
     SceneBuilder b = lit_floor(0, GetParam(), GetParam(), false);
-    Solver solver(b.scene, b.mesh);
-    const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, {32, 32});
-    image.set_camera(from_above());
-    image.rest();
+    Viewed viewed(b, {32, 32});
+    Solver& solver = viewed.solver;
+    ViewerImage& image = viewed.image;
     const auto errors = [&] {
         double square = 0.0;
         double all = 0.0;
@@ -177,11 +190,9 @@ TEST(ManyLamps, AreTheSumOfFew) {
     SceneBuilder all = lit_floor(0, 400, 400, true);
     SceneBuilder one = lit_floor(0, 200, 400, true);
     SceneBuilder other = lit_floor(200, 400, 400, true);
-    Solver solver(all.scene, all.mesh);
-    const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, {16, 16});
-    image.set_camera(from_above());
-    image.rest();
+    Viewed viewed(all, {16, 16});
+    Solver& solver = viewed.solver;
+    ViewerImage& image = viewed.image;
     finish(solver, image);
     std::vector<double> truth = of_patches(Solver(one.scene, one.mesh));
     const std::vector<double> rest = of_patches(Solver(other.scene, other.mesh));
@@ -205,11 +216,9 @@ TEST(ManyLamps, AreTheSumOfFew) {
 TEST(ManyLamps, OneThatGoesOutTakesItsLightAlone) {
     SceneBuilder b = lit_floor(0, 600, 600, false);
     b.scene.punctual_lights[300].intensity *= 40.0F;
-    Solver solver(b.scene, b.mesh);
-    const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, {16, 16});
-    image.set_camera(from_above());
-    image.rest();
+    Viewed viewed(b, {16, 16});
+    Solver& solver = viewed.solver;
+    ViewerImage& image = viewed.image;
     finish(solver, image);
     const std::vector<double> before = of_patches(solver);
     b.scene.punctual_lights[300].intensity = glm::vec3(0.0F);
@@ -236,11 +245,9 @@ TEST(ManyLamps, OneThatGoesOutTakesItsLightAlone) {
 /// them, and all of them in the end.
 TEST(ManyLamps, ShadowsFollowWhatMoves) {
     SceneBuilder b = lit_floor(0, 400, 400, true);
-    Solver solver(b.scene, b.mesh);
-    const ViewPrograms programs(solver.scene());
-    ViewerImage image(solver.scene(), solver.store(), programs, {16, 16});
-    image.set_camera(from_above());
-    image.rest();
+    Viewed viewed(b, {16, 16});
+    Solver& solver = viewed.solver;
+    ViewerImage& image = viewed.image;
     finish(solver, image);
     const std::vector<double> before = of_patches(solver);
     BundleReceiver* const receivers[] = {&image};
@@ -258,15 +265,11 @@ TEST(ManyLamps, ShadowsFollowWhatMoves) {
     EXPECT_LT(deviation(floor_of(at_once), floor_of(after)).rms, 0.05);
     EXPECT_LT(deviation(at_once, after).rms, 0.05);
     b.scene.objects[1].transform.translation = {5, 0, 3};
-    Solver fresh(b.scene, b.mesh);
-    const ViewPrograms others(fresh.scene());
-    ViewerImage other(fresh.scene(), fresh.store(), others, {16, 16});
-    other.set_camera(from_above());
-    other.rest();
-    finish(fresh, other);
-    EXPECT_LT(deviation(after, of_patches(fresh)).rms, 0.05);  // by other points of patches
+    Viewed fresh(b, {16, 16});
+    finish(fresh.solver, fresh.image);
+    EXPECT_LT(deviation(after, of_patches(fresh.solver)).rms, 0.05);  // by other points of patches
     const std::vector<double> pixels = of_pixels(image);
-    const std::vector<double> truth = of_pixels(other);
+    const std::vector<double> truth = of_pixels(fresh.image);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         EXPECT_NEAR(pixels[i], truth[i], 1e-3 * truth[i] + 1e-3) << i;
     }

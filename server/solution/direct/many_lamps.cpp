@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solution/direct/many_lamps.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <numeric>
 
 #include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
-#include "scene/mix_bits.h"
 #include "trace/facet_tracer.h"
 
 namespace raybundle {
@@ -18,10 +15,6 @@ namespace {
 
 static_assert(lamp_slots == LAMP_SLOTS && LampPoint::moved == LAMP_POINT_MOVED);
 constexpr std::size_t most_scratch = 1U << 16U;  // points
-constexpr unsigned patch_points = 4;             // points of a patch
-/// Lamps of each cell that are looked at from all points of a patch, and anew after a move.
-constexpr std::size_t near_lamps = std::size_t{4} * LAMP_SLOTS;
-constexpr std::size_t most_changed = 64;  // lamps that change apart from the others
 
 std::size_t rows_of(std::size_t lamps) {
     return (lamps + LAMP_SLOTS - 1) / LAMP_SLOTS;
@@ -29,28 +22,6 @@ std::size_t rows_of(std::size_t lamps) {
 
 unsigned levels_of(std::size_t lamps) {
     return static_cast<unsigned>(std::bit_width(std::max<std::size_t>(rows_of(lamps), 1) - 1)) + 1;
-}
-
-std::vector<glm::vec4> places_of(std::span<const layout::PunctualData> lights) {
-    std::vector<glm::vec4> places;
-    places.reserve(lights.size());
-    for (const layout::PunctualData& light : lights) {
-        places.push_back(light.map.z == PUNCTUAL_DIRECTIONAL
-                             ? glm::vec4(glm::vec3(light.axis_z), 0.0F)
-                             : glm::vec4(glm::vec3(light.position), 1.0F));
-    }
-    return places;
-}
-
-bool lamps_differ(const layout::PunctualData& a, const layout::PunctualData& b) {
-    const bool directional = a.map.z == PUNCTUAL_DIRECTIONAL;  // placed by the scene's bounds
-    return (!directional && a.position != b.position) || a.axis_x != b.axis_x ||
-           a.axis_y != b.axis_y || a.axis_z != b.axis_z || a.intensity != b.intensity;
-}
-
-/// A number in [0, 1) of two.
-float random_number(std::uint32_t a, std::uint32_t b) {
-    return static_cast<float>(mix_bits(std::uint64_t{a} << 32U | b) >> 40U) * 0x1p-24F;
 }
 
 }  // namespace
@@ -229,60 +200,6 @@ void ManyLamps::reach(std::size_t points, std::span<const std::uint32_t> row, bo
     masks_.write<std::uint32_t>(std::span(lit_).first(points), 0);
 }
 
-/// Lamps for the patches of a chunk among those that have not been looked at after this row, by
-/// what they may bring, in strata; and whether they reach a point of the patch.
-void ManyLamps::draw_chances(std::size_t patches, const Pass& pass, std::size_t first) {
-    const std::size_t known = std::min(rank_ + LAMP_SLOTS, lamps_);
-    std::vector<glm::uvec2> drawn(patches * LAMP_CHANCES, glm::uvec2(no_lamp, 0U));
-    const std::size_t points = patches * pass.parts;
-    std::vector<std::uint32_t> rows(points * LAMP_SLOTS, no_lamp);
-    std::vector<LampPoint> own(points_.begin(),
-                               points_.begin() + static_cast<std::ptrdiff_t>(points));
-    for (std::size_t i = 0; i < points; ++i) {
-        own[i].cell = static_cast<std::uint32_t>(i) | (own[i].cell & LampPoint::moved);
-    }
-    if (known < lamps_) {
-        std::vector<double> sums;
-        std::uint32_t cell_of_sums = LampPoint::no_cell;
-        for (std::size_t i = 0; i < patches; ++i) {
-            const std::uint32_t patch = patch_order_[first + i];
-            const std::uint32_t cell = order_.cell_of()[patch];
-            if (cell != cell_of_sums) {
-                const auto weights = order_.weights(cell).subspan(known);
-                sums.assign(weights.begin(), weights.end());
-                std::partial_sum(sums.begin(), sums.end(), sums.begin());
-                cell_of_sums = cell;
-            }
-            const double offset = static_cast<double>(random_number(patch, step_));
-            for (std::size_t k = 0; k < LAMP_CHANCES; ++k) {
-                const double at = (static_cast<double>(k) + offset) / LAMP_CHANCES * sums.back();
-                const auto found = std::min<std::size_t>(
-                    static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), at) -
-                                             sums.begin()),
-                    sums.size() - 1);
-                const double weight =
-                    sums.back() /
-                    (LAMP_CHANCES * static_cast<double>(order_.weights(cell)[known + found]));
-                const std::uint32_t lamp = order_.order(cell)[known + found];
-                drawn[i * LAMP_CHANCES + k] = {
-                    lamp, std::bit_cast<std::uint32_t>(static_cast<float>(weight))};
-                rows[(i * pass.parts + k % pass.parts) * LAMP_SLOTS + k] = lamp;
-            }
-        }
-    }
-    std::vector<std::uint32_t> lit(points, 0);
-    Pass plain = pass;
-    plain.boxes = {};
-    ask(own, rows, plain, lit);
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-        const std::size_t k = i % LAMP_CHANCES;
-        if ((lit[i / LAMP_CHANCES * pass.parts + k % pass.parts] >> k & 1U) == 0) {
-            drawn[i].y = 0;
-        }
-    }
-    chances_.write<glm::uvec2>(drawn, 0);
-}
-
 void ManyLamps::note_dark(std::span<const std::uint32_t> row, std::size_t points) {
     for (std::size_t i = 0; i < points; ++i) {
         const std::size_t cell = points_[i].cell & ~LampPoint::moved;
@@ -334,112 +251,6 @@ void ManyLamps::restart() {
     found_ = false;
     sums_.clear();
     std::fill(reaches_.begin(), reaches_.end(), std::uint8_t{0});
-}
-
-/// Some lamps are others: what they brought goes, and what they bring comes. What has moved looks
-/// at all of them in add_moves().
-void ManyLamps::add_changes(Buffer& lights, std::span<const layout::PunctualData> now) {
-    for (const bool before : {true, false}) {
-        if (!before) {
-            lights.write(now, 0);
-        }
-        for (std::size_t first = 0; first < changed_.size(); first += LAMP_SLOTS) {
-            const std::size_t count = std::min<std::size_t>(LAMP_SLOTS, changed_.size() - first);
-            Pass pass;
-            pass.before = before;
-            pass.sign = before ? -1.0F : 1.0F;
-            pass.but_moved = true;
-            run_all(row_of(std::span(changed_).subspan(first, count)), pass);
-        }
-    }
-}
-
-/// What has moved is among other lamps.
-void ManyLamps::follow_moved() {
-    for (std::size_t first = 0; first < patch_order_.size(); first += most_points_) {
-        const std::size_t end = std::min(first + most_points_, patch_order_.size());
-        make_points(first, end, 1);
-        for (std::size_t i = 0; i < end - first; ++i) {
-            if ((points_[i].cell & LampPoint::moved) != 0) {
-                order_.move_point(patch_order_[first + i], order_.cell_at(points_[i].position));
-            }
-        }
-    }
-    cells_.write(order_.cell_of(), 0);
-}
-
-/// Objects are elsewhere: the nearest lamps anew where their light passes either place, and
-/// everything on the objects themselves.
-void ManyLamps::add_moves(std::span<const Bounds> boxes) {
-    const std::size_t end = std::min(near_lamps, lamps_);
-    for (rank_ = 0; rank_ < end; rank_ += LAMP_SLOTS) {
-        std::vector<std::uint32_t> row = rank_row(rank_);
-        Pass pass;
-        pass.boxes = boxes;
-        pass.chances = rank_ + LAMP_SLOTS >= end;
-        run_all(row, pass);
-        pass.chances = false;
-        pass.before = true;
-        pass.sign = -1.0F;
-        pass.but_moved = true;
-        run_all(row, pass);
-    }
-}
-
-void ManyLamps::update(Buffer& lights, const IesProfiles& profiles, bool radiance_follows) {
-    const std::vector<layout::PunctualData> now = placed_lights(scene_, profiles);
-    const bool first = known_.empty();
-    const bool moved = scene_.moved_objects().x != NO_PATCH;
-    changed_.clear();
-    for (std::uint32_t k = 0; k < known_.size(); ++k) {
-        if (lamps_differ(known_[k], now[k])) {
-            changed_.push_back(k);
-        }
-    }
-    ++version_;
-    places_before_ = std::move(places_);
-    places_ = places_of(now);
-    const bool anew = first || changed_.size() > most_changed || unit_ != scene_.radiance_unit();
-    unit_ = scene_.radiance_unit();
-    all_changed_ = anew || moved;
-    if (!anew && !moved && changed_.empty() && !scene_.reflectance().any_glossy()) {
-        publish_reflection(radiance_follows);  // surfaces alone have changed
-        return;
-    }
-    if (anew) {
-        lights.write<layout::PunctualData>(now, 0);
-        std::vector<PlacedLight> lamps;
-        std::vector<float> ranges;
-        for (std::size_t k = 0; k < lamps_; ++k) {
-            lamps.push_back(scene_.placed_light(k));
-            ranges.push_back(scene_.punctual_lights()[k].range);
-        }
-        order_.rank(lamps, ranges);
-        restart();
-        Pass pass;
-        pass.chances = true;
-        pass.note = true;
-        run_all(rank_row(0), pass);
-        finish_row();
-        publish(false, radiance_follows);
-        found_ = false;
-    } else {
-        if (lights_before_.bytes() == 0) {
-            lights_before_ = Buffer("punctual lights before", lights.bytes());
-        }
-        lights_before_.write<layout::PunctualData>(known_, 0);
-        restart();
-        if (!changed_.empty()) {
-            add_changes(lights, now);
-        }
-        if (moved) {
-            follow_moved();
-            add_moves(scene_.moved_bounds());
-        }
-        publish(true, radiance_follows);
-        restart();
-    }
-    known_ = now;
 }
 
 /// A row has been looked at by all patches.
@@ -509,44 +320,6 @@ void ManyLamps::publish(bool adds, bool radiance_follows) {
     publish_reflection(radiance_follows);
     quality_ = adds ? quality_ : std::min(rank_, lamps_);
     found_ = false;
-}
-
-void ManyLamps::draw_proposals(std::uint32_t seed) {
-    if (proposals_.bytes() == 0) {
-        return;
-    }
-    // All at first, and then one in so many of the cells: there are groups enough.
-    constexpr std::size_t stride = 16;
-    const bool all = drawn_.empty();
-    drawn_.resize(order_.cells() * LAMP_SLOTS);
-    tbb::parallel_for(std::size_t{0}, order_.cells(), [&](std::size_t cell) {
-        if (!all && (cell + seed) % stride != 0) {
-            return;
-        }
-        const auto weights = order_.weights(cell);
-        // What has been looked at and reaches nothing here brings nothing.
-        const std::size_t known = std::min(rank_, lamps_);
-        std::vector<double> sums(lamps_);
-        double sum = 0.0;
-        for (std::size_t rank = 0; rank < lamps_; ++rank) {
-            const bool dark = rank < known && reaches_[cell * lamps_ + rank] == 0;
-            sum += dark ? 0.0 : static_cast<double>(weights[rank]);
-            sums[rank] = sum;
-        }
-        const auto offset =
-            static_cast<double>(random_number(static_cast<std::uint32_t>(cell), seed));
-        for (std::size_t k = 0; k < LAMP_SLOTS; ++k) {
-            const double at = (static_cast<double>(k) + offset) / LAMP_SLOTS * sum;
-            const auto rank = std::min<std::size_t>(
-                static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), at) -
-                                         sums.begin()),
-                lamps_ - 1);
-            const double weight = sum / static_cast<double>(weights[rank]);
-            drawn_[cell * LAMP_SLOTS + k] = {
-                order_.order(cell)[rank], std::bit_cast<std::uint32_t>(static_cast<float>(weight))};
-        }
-    });
-    proposals_.write<glm::uvec2>(drawn_, 0);
 }
 
 std::size_t ManyLamps::bytes() const {

@@ -67,8 +67,12 @@ class ManyLamps {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    static constexpr unsigned patch_points = 4;  // points of a patch
+    /// Lamps of each cell that are looked at from all points of a patch, and anew after a move.
+    static constexpr std::size_t near_lamps = std::size_t{4} * LAMP_SLOTS;
+
     struct Pass {
-        unsigned parts = 4;
+        unsigned parts = patch_points;
         float sign = 1.0F;
         bool before = false;
         bool chances = false;
