@@ -162,7 +162,7 @@ constexpr std::array serve_table{
     OptionRow{"environmentScale", "cd/m² of one unit of the image (default: 1)",
               field<&Options::daylight, &DaylightOptions::environment_scale>(), 0, 1e9, nullptr,
               true},
-    OptionRow{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES file",
+    OptionRow{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES or EULUMDAT file",
               field<&Options::scene, &SceneOptions::ies>(), 0, 0, ies_problem, true},
     OptionRow{"logLevel", "trace, debug, info, warn, error, off",
               field<&Options::log, &LogOptions::level>(), 0, 0, log_level_problem, true},

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// IES files: an error that names the file and a line, or intensities that are finite in every
+// IES and EULUMDAT files: an error that names the file and a line, or intensities that are finite in every
 // direction.
 #include <cmath>
 #include <string_view>
 
 #include "fuzz_target.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/light/ies_profile.h"
+#include "scene/photometry/ies_profile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace raybundle;
     try {
-        const IesProfile profile = parse_ies("f", {reinterpret_cast<const char*>(data), size});
+        const IesProfile profile = parse_photometry("f", {reinterpret_cast<const char*>(data), size});
         FUZZ_REQUIRE(profile.flux() > 0.0 && std::isfinite(profile.flux()));
         for (const glm::dvec3& d : {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0),
                                     glm::dvec3(0, -1, 0), glm::dvec3(-0.6, 0.48, 0.64)}) {

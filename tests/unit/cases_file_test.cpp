@@ -10,7 +10,7 @@
 #include "gltf_builder.h"
 #include "scene/gltf/file/gltf_container.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/light/ies_profile.h"
+#include "scene/photometry/ies_profile.h"
 
 namespace raybundle::test {
 namespace {

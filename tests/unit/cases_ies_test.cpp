@@ -37,7 +37,7 @@ std::string replaced(const std::string& text, const std::string& what, const std
 
 std::string error_of(const std::string& text) {
     try {
-        (void)parse_ies("lamp.ies", text);
+        (void)parse_photometry("lamp.ies", text);
     } catch (const SceneError& error) {
         return error.json_path() + ": " + error.reason();
     }
@@ -221,14 +221,15 @@ TEST(CasesIes, AnglesOfFloodlightsMayEndWithTheBeam) {
 }
 
 TEST(CasesIes, OtherFormatsAreNamed) {
+    // EULUMDAT is read, whatever its file is called; errors are of its own lines.
     EXPECT_EQ(error_of("Maker\r\n1\r\n0\r\n24\r\n15\r\n19\r\n5,0\r\nreport\r\n"),
-              "line 1: this is EULUMDAT, not LM-63");
-    // Latin-1, blanks, signs, exponents, CR alone, lines ended twice, lines left empty.
+              "line 9: the file ends where the name should be");
+    // Latin-1, blanks, signs, exponents, CR alone, lines ended twice.
     for (const char* eulumdat :
          {"H\xe4user GmbH \xb0\n 1 \n0\n24\n15\n37\n2.5\nr\n",
           "Maker\r\r\n+1\r\r\n 0\r\r\n24,0\r\r\n1,5E+01\r\r\n37\r\r\n2.5\r\r\nr\r\r\n",
-          "\n\nMaker\r3\r4\r1\r0\r19\r\rreport 5\r", "\xEF\xBB\xBFMaker\n2\n1\n36\n0\n91\n1\n"}) {
-        EXPECT_EQ(error_of(eulumdat), "line 1: this is EULUMDAT, not LM-63") << eulumdat;
+          "\xEF\xBB\xBFMaker\n2\n1\n36\n0\n91\n1\n\n"}) {
+        EXPECT_EQ(error_of(eulumdat), "line 9: the file ends where the name should be") << eulumdat;
     }
     EXPECT_EQ(error_of("Maker\n1\n2\n3\n"), "line 5: there is no line that begins with TILT=");
     EXPECT_EQ(error_of("<!DOCTYPE html><title>404</title>"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/light/ies_profile.h"
+#include "scene/photometry/ies_profile.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

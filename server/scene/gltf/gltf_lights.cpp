@@ -132,13 +132,13 @@ class LightReader {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         try {
             read_profiles_[index] =
-                std::make_shared<const IesProfile>(parse_ies(document_.path(), text));
+                std::make_shared<const IesProfile>(parse_photometry(document_.path(), text));
         } catch (const SceneError& error) {
             document_.fail(path, error.json_path() + ": " + error.reason());
         }
         for (const std::string& note : read_profiles_[index]->data().notes) {
             document_.note(
-                fmt::format("IES file '{}': {}", value_or<std::string>(source, "uri", path), note));
+                fmt::format("photometry '{}': {}", value_or<std::string>(source, "uri", path), note));
         }
         return read_profiles_[index];
     }

@@ -63,7 +63,7 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
             continue;
         }
         if (!profile) {
-            profile = std::make_shared<const IesProfile>(read_ies(file));
+            profile = std::make_shared<const IesProfile>(read_photometry(file));
         }
         light.kind = PunctualKind::point;
         light.intensity = colour_of(light);
@@ -71,7 +71,7 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
     }
     if (profile) {
         for (const std::string& note : profile->data().notes) {
-            document.note(fmt::format("IES file '{}': {}", file, note));
+            document.note(fmt::format("photometry '{}': {}", file, note));
         }
     } else {
         throw SceneError(scene.path, "",

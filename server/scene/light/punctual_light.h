@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/light/ies_profile.h"
+#include "scene/photometry/ies_profile.h"
 
 namespace raybundle {
 

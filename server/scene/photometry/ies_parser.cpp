@@ -6,20 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <utility>
 
-#include "scene/gltf/gltf_loader.h"
-#include "scene/light/ies_profile.h"
-#include "scene/light/ies_text.h"
 #include "scene/other_file.h"
+#include "scene/photometry/ies_profile.h"
+#include "scene/photometry/ies_text.h"
+#include "scene/photometry/photometric_values.h"
 
 namespace raybundle {
 namespace {
-
-constexpr std::size_t max_file_bytes = 16U << 20U;
-constexpr std::size_t max_values = 1U << 20U;  // of candela
 
 /// Year of the standard that a line names, as "IES:LM-63-2019" or "IESNA91" do; 0: none.
 int year_of(std::string_view line) {
@@ -45,31 +41,11 @@ int year_of(std::string_view line) {
 }
 
 /// What a file that has no TILT is instead, by its first lines; empty: not known.
-std::string other_format(const std::string& file, const std::string& text) {
+std::string other_format(const std::string& text) {
     if (compact(text.substr(0, 200)).starts_with("<")) {
         return "this is XML or HTML, not the text of LM-63";
     }
-    const std::string kind =
-        other_file_kind({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    if (!kind.empty()) {
-        return kind;
-    }
-    // EULUMDAT: a line of text, then one number a line: type, symmetry, planes, their distance,
-    // angles in a plane.
-    IesReader reader(file, text);
-    while (!reader.at_end() && compact(reader.next_line()).empty()) {
-    }
-    for (int numbers = 0; numbers < 5;) {
-        const std::string line = compact(reader.next_line());
-        if (!line.empty() && line.find_first_not_of("0123456789.,+-E") != std::string::npos) {
-            return "";
-        }
-        numbers += line.empty() ? 0 : 1;
-        if (reader.at_end()) {
-            return "";
-        }
-    }
-    return "this is EULUMDAT, not LM-63";
+    return other_file_kind({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 struct Head {
@@ -89,7 +65,7 @@ void skip_tilt(IesReader& reader) {
 }
 
 /// The part up to and with TILT.
-Head read_head(IesReader& reader, const std::string& file, const std::string& text) {
+Head read_head(IesReader& reader, const std::string& text) {
     Head head;
     constexpr int max_lines = 10'000;
     for (int i = 0; i < max_lines && !reader.at_end(); ++i) {
@@ -109,7 +85,7 @@ Head read_head(IesReader& reader, const std::string& file, const std::string& te
         }
         return head;
     }
-    const std::string other = other_format(file, text);
+    const std::string other = other_format(text);
     if (!other.empty()) {
         reader.fail(1, other);
     }
@@ -198,28 +174,6 @@ void close_planes(double angle, IesProfile::Data& data) {
                                      angle, circle ? 0.0 : last));
 }
 
-/// Values below zero are noise of the measurement where reading them as 0 adds no more than this
-/// share of the flux: a tenth of the percent that photometers differ by.
-constexpr double max_noise_share = 1e-3;
-
-IesProfile without_noise(const IesReader& reader, IesProfile::Data data, int lowest_line) {
-    const double lowest = *std::min_element(data.candela.begin(), data.candela.end());
-    if (lowest >= 0.0) {
-        return IesProfile(std::move(data));
-    }
-    const double raw = IesProfile(data).flux();
-    for (double& candela : data.candela) {
-        candela = std::max(candela, 0.0);
-    }
-    data.notes.push_back(
-        fmt::format("it has negative candela values, down to {}, which are read as 0", lowest));
-    IesProfile profile(std::move(data));
-    if (profile.flux() - raw > max_noise_share * profile.flux()) {
-        reader.fail(lowest_line, fmt::format("a candela value is {}: more than noise", lowest));
-    }
-    return profile;
-}
-
 /// Values in cd, with all factors. Returns the line of the lowest one.
 int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
     const std::size_t count = data.vertical.size() * data.horizontal.size();
@@ -242,12 +196,9 @@ int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
 }  // namespace
 
 IesProfile parse_ies(const std::string& file, std::string_view bytes) {
-    const std::string text = plain_ies_text(bytes.substr(0, max_file_bytes));
+    const std::string text = plain_photometric_text(file, bytes);
     IesReader reader(file, text);
-    if (bytes.size() > max_file_bytes) {
-        reader.fail(fmt::format("{} bytes; the limit is {}", bytes.size(), max_file_bytes));
-    }
-    const Head head = read_head(reader, file, text);
+    const Head head = read_head(reader, text);
     IesProfile::Data data;
     if (head.decimal_commas) {
         data.notes.emplace_back("its decimal commas are read as decimal points");
@@ -255,10 +206,12 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
     const double lamps = reader.number("the number of lamps", 0, 1e6);
     data.lamp_lumens = lamps * reader.number("the lumens per lamp", -1, IesReader::max_number);
     const double multiplier = reader.number("the candela multiplier", 0, IesReader::max_number);
-    const std::size_t rows = reader.count("the number of vertical angles", max_values);
-    const std::size_t columns = reader.count("the number of horizontal angles", max_values);
-    if (rows * columns > max_values) {
-        reader.fail(fmt::format("{} x {} values; the limit is {}", rows, columns, max_values));
+    const std::size_t rows = reader.count("the number of vertical angles", IesReader::max_values);
+    const std::size_t columns =
+        reader.count("the number of horizontal angles", IesReader::max_values);
+    if (rows * columns > IesReader::max_values) {
+        reader.fail(
+            fmt::format("{} x {} values; the limit is {}", rows, columns, IesReader::max_values));
     }
     data.type = static_cast<IesProfile::Type>(reader.count("the photometric type", 3));
     reader.count("the units type", 2);
@@ -281,22 +234,7 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
     if (missing) {
         close_planes(*missing, data);
     }
-    IesProfile profile = without_noise(reader, std::move(data), lowest_line);
-    if (!(profile.flux() > 0.0) || !std::isfinite(profile.flux())) {
-        reader.fail("the luminaire gives no light");
-    }
-    return profile;
-}
-
-IesProfile read_ies(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-        throw SceneError(path, "", "cannot be opened");
-    }
-    std::string text(max_file_bytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    return parse_ies(path, text);
+    return checked_profile(reader, std::move(data), lowest_line);
 }
 
 }  // namespace raybundle

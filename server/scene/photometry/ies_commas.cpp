@@ -7,7 +7,7 @@
 #include <charconv>
 #include <optional>
 
-#include "scene/light/ies_text.h"
+#include "scene/photometry/ies_text.h"
 
 namespace raybundle {
 namespace {

@@ -4,13 +4,15 @@
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace raybundle {
 
 /// Luminous intensity of a luminaire over direction, read from an IES file (ANSI/IES LM-63, 1986 to
-/// 2019). Local axes: it is aimed along -z, where both photometric angles are 0 (as glTF's
-/// EXT_lights_ies has it); the horizontal plane of type C is x, y.
+/// 2019) or from EULUMDAT. Local axes: it is aimed along -z, where both photometric angles are 0
+/// (as glTF's EXT_lights_ies has it); the horizontal plane of type C is x, y, and its plane C0
+/// holds +x.
 class IesProfile {
   public:
     enum class Type { c = 1, b = 2, a = 3 };  ///< coordinates, with LM-63's numbers
@@ -35,6 +37,7 @@ class IesProfile {
     /// Of all directions, lm.
     [[nodiscard]] double flux() const { return flux_; }
     [[nodiscard]] const Data& data() const { return data_; }
+    void add_note(std::string note) { data_.notes.push_back(std::move(note)); }
 
   private:
     [[nodiscard]] double at(double vertical, double horizontal) const;
@@ -49,7 +52,13 @@ class IesProfile {
 /// and the reason.
 IesProfile parse_ies(const std::string& file, std::string_view bytes);
 
-/// Reads a file. Throws SceneError.
-IesProfile read_ies(const std::string& path);
+/// The same of a EULUMDAT file (Stockmar 1990), whose angles are those of type C.
+IesProfile parse_eulumdat(const std::string& file, std::string_view bytes);
+
+/// The same of either, by what is in it.
+IesProfile parse_photometry(const std::string& file, std::string_view bytes);
+
+/// Reads a file of either kind. Throws SceneError.
+IesProfile read_photometry(const std::string& path);
 
 }  // namespace raybundle

@@ -9,16 +9,18 @@
 namespace raybundle {
 
 /// The bytes of a photometric file as ASCII text whose lines end with LF: without a byte order
-/// mark, from UTF-16 where one says so, from lines that end with CR LF or CR alone.
-std::string plain_ies_text(std::string_view bytes);
+/// mark, from UTF-16 where one says so, from lines that end with CR LF or CR alone. Throws
+/// SceneError where there are more than 16 MiB; `file` is the name for it.
+std::string plain_photometric_text(const std::string& file, std::string_view bytes);
 
 /// In upper case and without blanks.
 std::string compact(std::string_view line);
 
-/// Text of an IES file, by lines and then by numbers in free format.
+/// Text of a photometric file, by lines and then by numbers in free format.
 class IesReader {
   public:
     static constexpr double max_number = 1e9;
+    static constexpr std::size_t max_values = 1U << 20U;  ///< of candela
 
     /// file: its name for errors. Both must outlive the reader.
     IesReader(const std::string& file, std::string_view text) : file_(file), rest_(text) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/light/ies_text.h"
+#include "scene/photometry/ies_text.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,12 @@ std::string from_utf16(std::string_view bytes, std::size_t high) {
 
 }  // namespace
 
-std::string plain_ies_text(std::string_view bytes) {
+std::string plain_photometric_text(const std::string& file, std::string_view bytes) {
+    constexpr std::size_t max_bytes = 16U << 20U;
+    if (bytes.size() > max_bytes) {
+        IesReader(file, {}).fail(
+            fmt::format("more than {} bytes, the limit of photometric files", max_bytes));
+    }
     std::string decoded;
     if (bytes.starts_with("\xFF\xFE")) {
         decoded = from_utf16(bytes.substr(2), 1);

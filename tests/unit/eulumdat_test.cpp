@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// EULUMDAT files against the intensities that they were written from, and against the same
+// luminaires as IES files.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <regex>
+#include <vector>
+
+#include "gltf_builder.h"
+#include "scene/photometry/ies_profile.h"
+
+namespace raybundle::test {
+namespace {
+
+using std::numbers::pi;
+using Intensity = std::function<double(double, double)>;  // of gamma and C, radians; cd/klm
+
+glm::dvec3 towards(double gamma, double c) {
+    return {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c), -std::cos(gamma)};
+}
+
+struct Luminaire {
+    int symmetry = 0;
+    int planes = 24;
+    double lumens = 2000.0;
+    double light_output_ratio = 0.0;  // %; 0: not given
+    std::string lamps = "1";
+    std::string line_end = "\n";
+    Intensity intensity = [](double gamma, double) {
+        return 300.0 * std::max(std::cos(gamma), 0.0);
+    };
+};
+
+/// Planes that a file of this symmetry holds, in its order: the first one and how many.
+std::pair<int, int> planes_held(int symmetry, int planes) {
+    switch (symmetry) {
+        case 1:
+            return {0, 1};
+        case 2:
+            return {0, planes / 2 + 1};
+        case 3:
+            return {3 * planes / 4, planes / 2 + 1};
+        case 4:
+            return {0, planes / 4 + 1};
+        default:
+            return {0, planes};
+    }
+}
+
+std::string eulumdat(const Luminaire& luminaire) {
+    constexpr int step = 5;
+    const int angles = 180 / step + 1;
+    const double plane_step = 360.0 / luminaire.planes;
+    std::vector<std::string> lines = {"Maker",
+                                      "1",
+                                      fmt::format("{}", luminaire.symmetry),
+                                      fmt::format("{}", luminaire.planes),
+                                      fmt::format("{}", plane_step),
+                                      fmt::format("{}", angles),
+                                      fmt::format("{}", step),
+                                      "report 5",
+                                      "panel",
+                                      "4711",
+                                      "panel.ldt",
+                                      "2020-01-01"};
+    for (const char* size : {"600", "600", "50", "580", "580", "0", "0", "0", "0", "100"}) {
+        lines.emplace_back(size);
+    }
+    lines.push_back(fmt::format("{}", luminaire.light_output_ratio));
+    lines.insert(lines.end(), {"1.0", "0", "1", luminaire.lamps, "LED",
+                               fmt::format("{}", luminaire.lumens), "3000 K", "80", "21.5"});
+    lines.insert(lines.end(), 10, "0.5");
+    for (int k = 0; k < luminaire.planes; ++k) {
+        lines.push_back(fmt::format("{}", k * plane_step));
+    }
+    for (int k = 0; k < angles; ++k) {
+        lines.push_back(fmt::format("{}", k * step));
+    }
+    const auto [first, held] = planes_held(luminaire.symmetry, luminaire.planes);
+    for (int plane = first; plane < first + held; ++plane) {
+        for (int k = 0; k < angles; ++k) {
+            lines.push_back(
+                fmt::format("{:.6f}", luminaire.intensity(glm::radians(1.0 * k * step),
+                                                          glm::radians(plane * plane_step))));
+        }
+    }
+    std::string text;
+    for (const std::string& line : lines) {
+        text += line + luminaire.line_end;
+    }
+    return text;
+}
+
+/// Has neither symmetry; smooth enough for tables of 5 and 15 degrees.
+double crooked(double gamma, double c) {
+    return 200.0 + 60.0 * std::sin(gamma) * std::cos(c) + 40.0 * std::sin(gamma) * std::sin(c) +
+           50.0 * std::cos(gamma);
+}
+
+/// crooked(), mirrored as a symmetry wants it.
+double symmetric(int symmetry, double gamma, double c) {
+    const double x = std::cos(c);
+    const double y = std::sin(c);
+    const double folded_x = symmetry == 3 || symmetry == 4 ? std::abs(x) : x;
+    const double folded_y = symmetry == 2 || symmetry == 4 ? std::abs(y) : y;
+    return symmetry == 1 ? crooked(gamma, 0.0) : crooked(gamma, std::atan2(folded_y, folded_x));
+}
+
+TEST(Eulumdat, EachSymmetryFillsTheSphere) {
+    for (int symmetry = 0; symmetry <= 4; ++symmetry) {
+        Luminaire luminaire;
+        luminaire.symmetry = symmetry;
+        luminaire.intensity = [symmetry](double gamma, double c) {
+            return symmetric(symmetry, gamma, c);
+        };
+        const IesProfile profile = parse_photometry("panel.ldt", eulumdat(luminaire));
+        for (int gamma = 0; gamma <= 180; gamma += 20) {
+            for (int c = 0; c < 360; c += 15) {
+                const double g = glm::radians(1.0 * gamma);
+                const double turn = glm::radians(1.0 * c);
+                EXPECT_NEAR(profile.candela(towards(g, turn)), 2.0 * symmetric(symmetry, g, turn),
+                            1e-4)
+                    << "symmetry " << symmetry << ", gamma " << gamma << ", C " << c;
+            }
+        }
+        EXPECT_TRUE(profile.data().notes.empty());
+        EXPECT_EQ(profile.data().input_watts, 21.5);
+        EXPECT_EQ(profile.data().lamp_lumens, 2000.0);
+    }
+}
+
+TEST(Eulumdat, TheSameLuminaireAsIesHasTheSameFlux) {
+    Luminaire luminaire;
+    luminaire.intensity = crooked;
+    const IesProfile ldt = parse_photometry("f", eulumdat(luminaire));
+    std::string angles;
+    std::string values;
+    for (int gamma = 0; gamma <= 180; gamma += 5) {
+        angles += fmt::format("{} ", gamma);
+    }
+    angles += "\n";
+    for (int c = 0; c <= 360; c += 15) {
+        angles += fmt::format("{} ", c);
+        for (int gamma = 0; gamma <= 180; gamma += 5) {
+            values +=
+                fmt::format("{} ", 2.0 * crooked(glm::radians(1.0 * gamma), glm::radians(1.0 * c)));
+        }
+        values += "\n";
+    }
+    const IesProfile ies = parse_photometry(
+        "f", fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 37 25 1 2 0 0 0\n1 1 20\n{}\n{}",
+                         angles, values));
+    EXPECT_NEAR(ldt.flux() / ies.flux(), 1.0, 1e-6);
+    // 4 pi times the mean intensity: cosine and sine parts have none.
+    EXPECT_NEAR(ldt.flux(), 4.0 * pi * 400.0, 0.005 * 4.0 * pi * 400.0);
+}
+
+TEST(Eulumdat, FluxDiffersFromWhatIsStatedWithANotice) {
+    Luminaire luminaire;  // pi 300 lm/klm
+    luminaire.light_output_ratio = 0.1 * 300.0 * pi;
+    EXPECT_TRUE(parse_eulumdat("f", eulumdat(luminaire)).data().notes.empty());
+    luminaire.light_output_ratio *= 0.9;
+    const auto notes = parse_eulumdat("f", eulumdat(luminaire)).data().notes;
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("+11."), std::string::npos) << notes[0];
+    EXPECT_NE(notes[0].find("1696 lm"), std::string::npos) << notes[0];
+}
+
+TEST(Eulumdat, OddFilesAreReadAsTheyAreMeant) {
+    const Luminaire luminaire;
+    const double flux = parse_eulumdat("f", eulumdat(luminaire)).flux();
+    EXPECT_NEAR(flux, 600.0 * pi, 600.0 * pi * 3e-3);
+    for (const char* line_end : {"\r\n", "\r", "  \n", "\r\r\n", "\t\r\n"}) {
+        Luminaire other;
+        other.line_end = line_end;
+        EXPECT_EQ(parse_photometry("f", eulumdat(other)).flux(), flux);
+    }
+    const std::string text = eulumdat(luminaire);
+    EXPECT_EQ(parse_photometry("f", std::regex_replace(text, std::regex(R"((\d)\.(\d))"), "$1,$2"))
+                  .flux(),
+              flux);
+    EXPECT_EQ(parse_photometry("f", "\xEF\xBB\xBF" + std::regex_replace(text, std::regex("Maker"),
+                                                                        "H\xE4user \xB0"))
+                  .flux(),
+              flux);
+    Luminaire absolute;
+    absolute.lamps = "-4";
+    EXPECT_EQ(parse_photometry("f", eulumdat(absolute)).flux(), flux);
+    EXPECT_EQ(parse_photometry("f", text + "\n\n\x1A").flux(), flux);
+}
+
+TEST(Eulumdat, AGltfLightTakesIt) {
+    const TemporaryFolder folder;
+    SceneSettings settings;
+    settings.ies = {"desk=" + folder.write("panel.ldt", eulumdat({}))};
+    GltfBuilder builder;
+    builder.add_node({{"mesh", builder.add_triangle_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}});
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    builder.add_node({{"name", "desk"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const Scene scene = builder.load(settings);
+    ASSERT_EQ(scene.punctual_lights.size(), 1U);
+    EXPECT_NEAR(place_light(scene, scene.punctual_lights[0]).flux().g, 600.0 * pi, 6.0);
+}
+
+std::string ldt_error(const std::string& text) {
+    try {
+        (void)parse_photometry("f", text);
+    } catch (const SceneError& error) {
+        return error.json_path() + ": " + error.reason();
+    }
+    return "none";
+}
+
+/// Replaces one line (from 1).
+std::string with_line(std::size_t number, const std::string& line) {
+    std::string text = eulumdat({});
+    std::size_t at = 0;
+    for (std::size_t k = 1; k < number; ++k) {
+        at = text.find('\n', at) + 1;
+    }
+    return text.replace(at, text.find('\n', at) - at, line);
+}
+
+TEST(Eulumdat, ErrorsNameTheLineAndTheReason) {
+    EXPECT_EQ(ldt_error(with_line(3, "7")), "line 3: the symmetry is 7, not in [0, 4]");
+    EXPECT_EQ(ldt_error(with_line(4, "1000000")),
+              "line 12: 1000000 x 37 values; the limit is 1048576");
+    EXPECT_EQ(ldt_error(with_line(6, "0")),
+              "line 6: the number of angles in a plane is 0, not in [2, 1048576]");
+    EXPECT_EQ(ldt_error(with_line(24, "-1")), "line 24: the conversion factor is -1, below 0");
+    EXPECT_EQ(ldt_error(with_line(29, "0")),
+              "line 29: the flux of its first lamp set is 0, so that its cd/klm are dark");
+    EXPECT_EQ(ldt_error(with_line(29, "many")),
+              "line 29: the flux of the lamps is not a number: \"MANY\"");
+    EXPECT_EQ(ldt_error(with_line(44, "0")),
+              "line 44: a C angle 0 is not above the one before it, 0");
+    EXPECT_EQ(ldt_error(with_line(110, "-300")),
+              "line 110: a candela value is -600: more than noise");
+    const std::string text = eulumdat({});
+    EXPECT_NE(ldt_error(text.substr(0, text.size() - 40)).find("the file ends where an intensity"),
+              std::string::npos);
+    EXPECT_NE(ldt_error(text + "5\n").find("more numbers follow"), std::string::npos);
+    Luminaire odd;
+    odd.symmetry = 4;
+    odd.planes = 6;
+    EXPECT_NE(ldt_error(eulumdat(odd)).find("6 C planes do not fit symmetry 4"), std::string::npos);
+    EXPECT_EQ(ldt_error(std::string((16U << 20U) + 1, 'x')),
+              "line 1: more than 16777216 bytes, the limit of photometric files");
+}
+
+}  // namespace
+}  // namespace raybundle::test
