@@ -18,15 +18,38 @@ ChangeSubject subject_of(const v1::SceneChanged& change) {
     return {kind, 0};
 }
 
+namespace {
+
+/// Removes what a newer change replaces: one of two ways to say the same, and vectors, of which
+/// merging would keep components where the new ones' are 0.
+void clear_replaced(const v1::SetLight& newer, v1::SetLight* sum) {
+    if (newer.has_intensity() || newer.has_flux()) {
+        sum->clear_intensity();
+        sum->clear_flux();
+    }
+    if (newer.has_colour() || newer.has_colour_temperature()) {
+        sum->clear_colour();
+        sum->clear_colour_temperature();
+    }
+    if (newer.has_position()) {
+        sum->clear_position();
+    }
+    if (newer.has_aim()) {
+        sum->clear_aim();
+    }
+}
+
+}  // namespace
+
 void add_change(const v1::SceneChanged& change, v1::SceneChanged& sum) {
     if (change.has_move_object()) {
         sum = change;
         return;
     }
-    // Merging would keep components of the old colour where the new one's are 0.
-    if (change.set_light().has_colour() && sum.has_set_light()) {
-        sum.mutable_set_light()->clear_colour();
+    if (change.has_set_light() && sum.has_set_light()) {
+        clear_replaced(change.set_light(), sum.mutable_set_light());
     }
+    // Likewise.
     if (change.set_material().has_base_colour() && sum.has_set_material()) {
         sum.mutable_set_material()->clear_base_colour();
     }

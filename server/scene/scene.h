@@ -165,6 +165,7 @@ struct Light {
     bool on = true;
     glm::vec3 loaded{0.0F};  ///< radiance as the file has it
     double area = 0.0;       ///< that emits, of both sides where both do, as loaded, m²
+    LightControl control{};
 };
 
 /// The sky without its suns, seen as a luminaire.

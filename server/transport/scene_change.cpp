@@ -31,6 +31,12 @@ double flux_over_pi(const PunctualLight& light, int channel, const Bounds& bound
     return flux[channel] / glm::pi<double>();
 }
 
+/// Whether a light has been placed or turned otherwise, or shapes its beam otherwise.
+bool shines_elsewhere(const PunctualLight& before, const PunctualLight& after) {
+    return before.position != after.position || before.axes != after.axes ||
+           before.inner_cosine != after.inner_cosine || before.outer_cosine != after.outer_cosine;
+}
+
 /// Of what sum flux |ratio - g| is least at; 1 where that is as good.
 double weighted_median(std::vector<Share>& shares) {
     const auto cost = [&shares](double g) {
@@ -120,7 +126,8 @@ bool anything_left(const Emission& before, const Emission& after, const glm::vec
         }
     }
     for (std::size_t i = 0; i < before.punctual.size(); ++i) {
-        if (differ(before.punctual[i].intensity, after.punctual[i].intensity)) {
+        if (differ(before.punctual[i].intensity, after.punctual[i].intensity) ||
+            shines_elsewhere(before.punctual[i], after.punctual[i])) {
             return true;
         }
     }

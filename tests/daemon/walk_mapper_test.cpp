@@ -8,7 +8,7 @@
 #include <future>
 #include <map>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/effects/effect_costs.h"
 #include "net/ws/wire_codec.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

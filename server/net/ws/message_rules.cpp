@@ -21,11 +21,15 @@ using Client = v1::ClientMessage;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr double kMaxNumber = 1e9;     ///< metres, seconds, photometric units: keeps squares finite
-constexpr float kMaxNear = 1e9F;       // m, as the coordinates of a Vec3
-constexpr double kMinLength = 1e-6;    ///< of a direction, an axis, a distance
-constexpr float kMinFov = 0.001F;      ///< radians
-constexpr float kMaxFov = 3.14F;       ///< radians
+constexpr double kMaxNumber = 1e9;   ///< metres, seconds, photometric units: keeps squares finite
+constexpr float kMaxNear = 1e9F;     // m, as the coordinates of a Vec3
+constexpr double kMinLength = 1e-6;  ///< of a direction, an axis, a distance
+constexpr float kMinFov = 0.001F;    ///< radians
+constexpr float kMaxFov = 3.14F;     ///< radians
+constexpr float kMaxTurn = 360.0F;   ///< degrees
+constexpr float kMaxCone = 90.0F;    ///< degrees
+constexpr float kMinKelvin = 1000.0F;
+constexpr float kMaxKelvin = 25000.0F;
 constexpr std::size_t kMaxName = 64;   ///< characters
 constexpr std::size_t kMaxText = 500;  ///< characters of a pin
 constexpr std::size_t kMaxToken = 1024;
@@ -175,17 +179,55 @@ void check_body(const v1::MoveObject& move, MessageChecker& check) {
     }
 }
 
+/// Where a light is, how it is turned and how its beam is shaped.
+void check_place(const v1::SetLight& light, MessageChecker& check) {
+    if (light.has_aim()) {
+        check.require(glm::length(to_vector(light.aim())) >= kMinLength, "setLight.aim",
+                      "must not be zero");
+    }
+    check.require(std::abs(light.rotation()) <= kMaxTurn, "setLight.rotation",
+                  "must be -360..360 degrees");
+    const auto is_cone = [](float degrees) { return degrees >= 0.0F && degrees <= kMaxCone; };
+    check.require(is_cone(light.inner_cone()), "setLight.innerCone", "must be 0..90 degrees");
+    check.require(is_cone(light.outer_cone()), "setLight.outerCone", "must be 0..90 degrees");
+    if (light.has_inner_cone() && light.has_outer_cone()) {
+        check.require(light.inner_cone() <= light.outer_cone(), "setLight.innerCone",
+                      "must not be wider than outerCone");
+    }
+}
+
 void check_body(const v1::SetLight& light, MessageChecker& check) {
     check.require(light.light() >= 1, "setLight.light", "is missing");
-    check.require(light.has_intensity() || light.has_on() || light.has_colour(), "setLight",
-                  "changes nothing: needs intensity, on or colour");
+    v1::SetLight number;
+    number.set_light(light.light());
+    check.require(light.ByteSizeLong() > number.ByteSizeLong(), "setLight",
+                  "changes nothing: needs intensity, on, colour or another field");
     check.require(light.intensity() >= 0.0F, "setLight.intensity", "must not be negative");
+    check.require(light.flux() >= 0.0F, "setLight.flux", "must not be negative");
+    check.require(!light.has_flux() || !light.has_intensity(), "setLight.flux",
+                  "stands beside intensity: needs one of them");
+    check.require(!light.has_colour_temperature() || !light.has_colour(),
+                  "setLight.colourTemperature", "stands beside colour: needs one of them");
+    if (light.has_colour_temperature()) {
+        const float kelvin = light.colour_temperature();
+        check.require(kelvin >= kMinKelvin && kelvin <= kMaxKelvin, "setLight.colourTemperature",
+                      "must be 1000..25000 K");
+    }
     if (light.has_colour()) {
         check.colour(light.colour(), static_cast<float>(kMaxNumber), "setLight.colour",
                      "must not be negative");
         check.require(glm::length(to_vector(light.colour())) >= kMinLength, "setLight.colour",
                       "must not be black");
     }
+    check.share(light.dim(), "setLight.dim");
+    if (light.has_maintenance_factor()) {
+        const float factor = light.maintenance_factor();
+        check.require(factor > 0.0F && factor <= 1.0F, "setLight.maintenanceFactor",
+                      "must be above 0 and at most 1");
+    }
+    check.require(characters(light.group()) <= kMaxName, "setLight.group",
+                  "must be at most 64 characters");
+    check_place(light, check);
 }
 
 void check_body(const v1::SetMaterial& material, MessageChecker& check) {

@@ -14,6 +14,15 @@ namespace raybundle {
 
 enum class PunctualKind { point, spot, directional };
 
+/// What people sort and control lights by.
+struct LightControl {
+    std::string group;  ///< empty: none
+    float dim = 1.0F;   ///< 0..1, share of its full light while it is on
+    /// What remains of its light when it is to be serviced, 0..1 (EN 12464-1); for maintained
+    /// values, without effect on the light.
+    float maintenance_factor = 0.8F;
+};
+
 /// What can be changed of a punctual light while a scene is shown.
 struct PunctualSetting {
     glm::vec3 intensity{0.0F};  ///< as PunctualLight::intensity, while it is on
@@ -48,7 +57,8 @@ struct PunctualLight {
     float outer_cosine = 0.0F;    ///< spot: dark outside this one; below inner_cosine
     /// Of a point light: its intensity over direction, whose factor `intensity` is then.
     std::shared_ptr<const IesProfile> profile;
-    /// Once it has been changed; `intensity` is 0 while it is off.
+    LightControl control;
+    /// Once it has been changed; `intensity` is that times control.dim, and 0 while it is off.
     std::optional<PunctualSetting> setting;
 };
 

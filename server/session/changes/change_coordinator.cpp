@@ -10,7 +10,8 @@
 #include "bundle/low_discrepancy.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
-#include "session/scene_messages.h"
+#include "session/messages/light_messages.h"
+#include "session/messages/scene_messages.h"
 #include "session/unix_time.h"
 
 namespace raybundle {
@@ -39,6 +40,12 @@ bool is_dragged(const PendingChange& pending) {
     }
     const v1::MoveObject& last = pending.requests.back().message.move_object();
     return last.has_final() && !last.final();
+}
+
+/// A spot with another cone may need another kind of shadow map.
+bool reshapes_beam(const PendingChange& pending) {
+    const v1::SetLight& light = pending.change.set_light();
+    return light.has_inner_cone() || light.has_outer_cone();
 }
 
 }  // namespace
@@ -120,9 +127,12 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     }
     changed.look_again(parts_.scene.scene(), pending);
     LiveScene& live = parts_.scene;
-    const bool covered = std::all_of(
-        changed.reflecting().begin(), changed.reflecting().end(),
-        [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });
+    const bool reshaped = std::any_of(pending.begin(), pending.end(), reshapes_beam);
+    const bool covered =
+        !reshaped && std::all_of(changed.reflecting().begin(), changed.reflecting().end(),
+                                 [&](std::uint32_t material) {
+                                     return live.solver().covers(live.scene(), material);
+                                 });
     if (covered) {
         gather_all();
         begin_phase(live.solver(), false);
@@ -183,6 +193,9 @@ void ChangeCoordinator::start_undo(const PendingChange& pending) {
 bool ChangeCoordinator::record(PendingChange& pending) {
     Scene& scene = parts_.scene.scene();
     ChangeLog& log = parts_.scene.log();
+    if (pending.change.has_set_light()) {
+        *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
+    }
     const v1::SceneChanged before = state_of(scene, pending.change);
     sign(pending);
     if (!log.record(pending.change, before)) {

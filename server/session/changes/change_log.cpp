@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "session/measure/probed_pixel.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 #include "view/camera_matrices.h"
 #include "view/point_probe.h"
 

@@ -8,7 +8,7 @@
 
 #include "gpu/egl_context.h"
 #include "session/measure/probed_pixel.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 #include "session/unix_time.h"
 #include "view/point_probe.h"
 

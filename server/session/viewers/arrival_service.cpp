@@ -3,7 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

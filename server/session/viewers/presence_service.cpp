@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

@@ -3,7 +3,7 @@
 
 #include "net/ws/wire_codec.h"
 #include "session/memory_room.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 #include "view/picture_limits.h"
 
 namespace raybundle {

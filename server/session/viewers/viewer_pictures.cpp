@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 #include "session/viewers/picture_refusal.h"
 
 namespace raybundle {

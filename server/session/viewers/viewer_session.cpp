@@ -7,7 +7,7 @@
 
 #include "net/server.h"
 #include "session/measure/stated_error.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scheduling/clock.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 

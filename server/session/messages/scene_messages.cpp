@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 #include <algorithm>
 
 #include "journal/change_sum.h"
 #include "scene/effects/effects_plan.h"
-#include "scene/light/light_figures.h"
 #include "scene/object_kind.h"
 #include "scene/object_limits.h"
+#include "session/messages/light_messages.h"
 
 namespace raybundle {
 
@@ -28,21 +28,6 @@ Transform from_message(const v1::Transform& transform) {
         result.scale = from_message(transform.scale());
     }
     return result;
-}
-
-LightEdit from_message(const v1::SetLight& light) {
-    LightEdit edit;
-    edit.light = light.light();
-    if (light.has_intensity()) {
-        edit.intensity = light.intensity();
-    }
-    if (light.has_colour()) {
-        edit.colour = from_message(light.colour());
-    }
-    if (light.has_on()) {
-        edit.on = light.on();
-    }
-    return edit;
 }
 
 MaterialEdit from_message(const v1::SetMaterial& material) {
@@ -114,84 +99,10 @@ Bounds world_bounds(const Object& object) {
 
 namespace {
 
-void describe_figures(const LightFigures& figures, v1::Light* out) {
-    if (figures.flux > 0.0) {
-        out->set_flux(static_cast<float>(figures.flux));
-    }
-    if (figures.peak > 0.0) {
-        out->set_peak(static_cast<float>(figures.peak));
-    }
-    if (figures.watts > 0.0) {
-        out->set_watts(static_cast<float>(figures.watts));
-    }
-}
-
-/// Punctual lights are numbered after the area lights.
-void describe_light(const PunctualLight& light, v1::Scene* message) {
-    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
-    v1::Light* out = message->add_lights();
-    const bool directional = light.kind == PunctualKind::directional;
-    const PunctualSetting setting = setting_of(light);
-    const float unit = intensity_unit(light);
-    const float loaded = luminance(setting.loaded);
-    out->set_id(id);
-    out->set_name(light.name);
-    out->set_kind(directional                        ? v1::Light::DIRECTIONAL
-                  : light.kind == PunctualKind::spot ? v1::Light::SPOT
-                                                     : v1::Light::POINT);
-    out->set_intensity(unit * luminance(setting.intensity));
-    out->set_unit(directional ? v1::Light::LX : light.profile ? v1::Light::LM : v1::Light::CD);
-    to_message(setting.colour, out->mutable_colour());
-    out->set_on(setting.on);
-    out->set_loaded_intensity(unit * loaded);
-    to_message(loaded > 0.0F ? setting.loaded / loaded : light.dark_colour,
-               out->mutable_loaded_colour());
-    describe_figures(loaded_figures(light), out);
-}
-
-/// Comes after all others.
-void describe_light(const SkyLight& light, v1::Scene* message) {
-    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
-    v1::Light* out = message->add_lights();
-    out->set_id(id);
-    out->set_name(light.image ? "surroundings" : "sky");
-    out->set_kind(light.image ? v1::Light::ENVIRONMENT : v1::Light::SKY);
-    out->set_intensity(luminance(light.intensity));
-    out->set_unit(light.in_lux ? v1::Light::LX : v1::Light::CD_PER_M2);
-    to_message(light.colour, out->mutable_colour());
-    out->set_on(light.on);
-    out->set_loaded_intensity(luminance(light.loaded));
-    to_message(light.loaded / luminance(light.loaded), out->mutable_loaded_colour());
-}
-
 void describe_effects(const Scene& scene, v1::Scene* message) {
     for (const Effect& effect : plan_effects(scene, 0).effects) {
         to_message(effect, message->add_effects());
     }
-}
-
-v1::SetLight state_of_light(const Scene& scene, std::uint32_t id) {
-    v1::SetLight state;
-    state.set_light(id);
-    if (const auto punctual = punctual_index(scene, id)) {
-        const PunctualLight& light = scene.punctual_lights[*punctual];
-        const PunctualSetting setting = setting_of(light);
-        state.set_intensity(intensity_unit(light) * luminance(setting.intensity));
-        state.set_on(setting.on);
-        to_message(setting.colour, state.mutable_colour());
-        return state;
-    }
-    if (is_sky_light(scene, id)) {
-        state.set_intensity(luminance(scene.sky_light->intensity));
-        state.set_on(scene.sky_light->on);
-        to_message(scene.sky_light->colour, state.mutable_colour());
-        return state;
-    }
-    const Light& light = scene.lights[id - 1];
-    state.set_intensity(luminance(light.radiance));
-    state.set_on(light.on);
-    to_message(light.colour, state.mutable_colour());
-    return state;
 }
 
 v1::Error error(v1::Error::Code code, const std::string& message) {
@@ -218,14 +129,13 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
                      "moveObject.object: no movable object " + std::to_string(id));
     }
     const bool light = change.has_set_light();
-    const std::string problem = light ? problem_of(scene, from_message(change.set_light()))
+    const std::string problem = light ? problem_of(scene, change.set_light())
                                       : problem_of(scene, from_message(change.set_material()));
     const std::size_t count = light ? light_count(scene) : scene.materials.size();
     const bool known = id >= 1 && id <= count;
-    return problem.empty()
-               ? v1::Error()
-               : error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
-                       (light ? "setLight.light: " : "setMaterial.material: ") + problem);
+    return problem.empty() ? v1::Error()
+                           : error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
+                                   (light ? "setLight." : "setMaterial.material: ") + problem);
 }
 
 v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change) {
@@ -282,28 +192,7 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
             out->add_world_from_parent(object.world_from_parent[i / 4][i % 4]);
         }
     }
-    for (const Light& light : scene.lights) {
-        v1::Light* out = message->add_lights();
-        const float intensity = luminance(light.radiance);
-        out->set_id(light.id);
-        out->set_name(light.name);
-        out->set_kind(v1::Light::AREA);
-        out->set_intensity(intensity);
-        out->set_unit(v1::Light::CD_PER_M2);
-        to_message(light.colour, out->mutable_colour());
-        out->set_on(light.on);
-        const float loaded = luminance(light.loaded);
-        out->set_loaded_intensity(loaded);
-        to_message(loaded > 0.0F ? light.loaded / loaded : light.colour,
-                   out->mutable_loaded_colour());
-        describe_figures(loaded_figures(light), out);
-    }
-    for (const PunctualLight& light : scene.punctual_lights) {
-        describe_light(light, message);
-    }
-    if (scene.sky_light) {
-        describe_light(*scene.sky_light, message);
-    }
+    describe_lights(scene, message);
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();
         out->set_name(camera.name);

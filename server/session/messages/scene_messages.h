@@ -11,7 +11,6 @@ namespace raybundle {
 
 glm::vec3 from_message(const v1::Vec3& v);
 Transform from_message(const v1::Transform& transform);
-LightEdit from_message(const v1::SetLight& light);
 MaterialEdit from_message(const v1::SetMaterial& material);
 void to_message(const glm::vec3& v, v1::Vec3* message);
 void to_message(const glm::uvec2& size, v1::Viewport* message);

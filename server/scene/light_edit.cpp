@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/light_edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+#include "scene/light/environment.h"
+#include "scene/light/light_place.h"
+#include "scene/object_limits.h"
+
+namespace raybundle {
+namespace {
+
+/// What the light's material emits.
+glm::vec3 emission_of(const Light& light) {
+    glm::vec3 emission(0.0F);
+    for (int c = 0; c < 3 && light.on; ++c) {
+        emission[c] = light.texture[c] > 0.0F
+                          ? light.control.dim * light.radiance[c] / light.texture[c]
+                          : 0.0F;
+    }
+    return emission;
+}
+
+void apply_control(LightControl& control, const LightEdit& edit) {
+    control.dim = edit.dim.value_or(control.dim);
+    control.group = edit.group.value_or(control.group);
+    control.maintenance_factor = edit.maintenance_factor.value_or(control.maintenance_factor);
+}
+
+void apply_place(PunctualLight& light, const LightEdit& edit) {
+    if (!edit.position && !edit.aim && !edit.rotation) {
+        return;
+    }
+    LightPlace place = place_of(light);
+    place.position = edit.position.value_or(place.position);
+    place.aim = edit.aim ? glm::normalize(*edit.aim) : place.aim;
+    place.rotation = edit.rotation.value_or(place.rotation);
+    set_place(place, light);
+}
+
+/// A hard edge has both cones at once: it falls within 16 roundings of a cosine.
+void apply_cones(PunctualLight& light, const LightEdit& edit) {
+    constexpr float min_gap = 16.0F * std::numeric_limits<float>::epsilon();
+    if (edit.outer_cone) {
+        light.outer_cosine = std::min(std::cos(glm::radians(*edit.outer_cone)), 1.0F - min_gap);
+    }
+    if (edit.inner_cone) {
+        light.inner_cosine = std::cos(glm::radians(*edit.inner_cone));
+    }
+    if (edit.inner_cone || edit.outer_cone) {
+        light.inner_cosine = std::max(light.inner_cosine, light.outer_cosine + min_gap);
+    }
+}
+
+/// Why something that has no place of its own cannot be placed; empty where that is not asked for.
+std::string place_problem(const LightEdit& edit, const std::string& subject) {
+    if (edit.position || edit.aim || edit.rotation) {
+        return subject + " has the place, which cannot be changed here";
+    }
+    return edit.inner_cone || edit.outer_cone ? "only spots have cones" : "";
+}
+
+std::string problem_of(const Scene& scene, const PunctualLight& light, const LightEdit& edit) {
+    if ((edit.inner_cone || edit.outer_cone) &&
+        (light.kind != PunctualKind::spot || light.profile)) {
+        return "only spots have cones";
+    }
+    if (!edit.position && !edit.aim && !edit.rotation) {
+        return "";
+    }
+    if (light.of_sky) {
+        return "the sky has the place of its suns";
+    }
+    if (light.object != PunctualLight::no_object) {
+        const Object& carrier = scene.objects[static_cast<std::size_t>(light.object)];
+        return fmt::format("light {} is carried by object {} ('{}'): move that", edit.light,
+                           carrier.id, carrier.name);
+    }
+    if (edit.position && light.kind == PunctualKind::directional) {
+        return "a directional light has an aim, but no position";
+    }
+    const double limit = farthest_place(scene);
+    const glm::dvec3 far = edit.position ? glm::abs(glm::dvec3(*edit.position)) : glm::dvec3(0.0);
+    return std::max({far.x, far.y, far.z}) <= limit
+               ? ""
+               : fmt::format("its position may be {:.0f} m away from zero at most", limit);
+}
+
+void apply(PunctualLight& light, const LightEdit& edit) {
+    apply_place(light, edit);
+    apply_cones(light, edit);
+    apply_control(light.control, edit);
+    PunctualSetting setting = setting_of(light);
+    if (edit.colour) {
+        setting.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        const float intensity =
+            edit.intensity ? *edit.intensity / intensity_unit(light) : luminance(setting.intensity);
+        setting.intensity = intensity * setting.colour;
+    }
+    setting.on = edit.on.value_or(setting.on);
+    light.intensity = setting.on ? light.control.dim * setting.intensity : glm::vec3(0.0F);
+    light.setting = setting;
+}
+
+void apply(SkyLight& light, const LightEdit& edit) {
+    if (edit.colour) {
+        light.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        light.intensity = edit.intensity.value_or(luminance(light.intensity)) * light.colour;
+    }
+    light.on = edit.on.value_or(light.on);
+}
+
+}  // namespace
+
+std::size_t light_count(const Scene& scene) {
+    return scene.lights.size() + scene.punctual_lights.size() + (scene.sky_light ? 1 : 0);
+}
+
+bool is_sky_light(const Scene& scene, std::uint32_t light) {
+    return scene.sky_light && light == light_count(scene);
+}
+
+std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light) {
+    const std::size_t first = scene.lights.size() + 1;
+    const bool known = light >= first && light - first < scene.punctual_lights.size();
+    return known ? std::optional(light - first) : std::nullopt;
+}
+
+std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
+    return light >= 1 && light <= scene.lights.size()
+               ? static_cast<std::uint32_t>(scene.lights[light - 1].material)
+               : no_material;
+}
+
+std::string problem_of(const Scene& scene, const LightEdit& edit) {
+    const std::string number = std::to_string(edit.light);
+    if (edit.light < 1 || edit.light > light_count(scene)) {
+        return "no light " + number;
+    }
+    if (is_sky_light(scene, edit.light)) {
+        const bool plain = !edit.dim && !edit.group && !edit.maintenance_factor;
+        return plain ? place_problem(edit, "the sky") : "the sky belongs to no group";
+    }
+    if (const auto punctual = punctual_index(scene, edit.light)) {
+        return problem_of(scene, scene.punctual_lights[*punctual], edit);
+    }
+    if (scene.lights[edit.light - 1].material < 0) {
+        return "light " + number + " cannot be changed";
+    }
+    return place_problem(edit, "light " + number + " is a surface: its object");
+}
+
+const LightControl* control_of(const Scene& scene, std::uint32_t light) {
+    if (const auto punctual = punctual_index(scene, light)) {
+        return &scene.punctual_lights[*punctual].control;
+    }
+    return is_sky_light(scene, light) ? nullptr : &scene.lights[light - 1].control;
+}
+
+double flux_per_intensity(const Scene& scene, std::uint32_t light) {
+    if (const auto punctual = punctual_index(scene, light)) {
+        PunctualLight one = scene.punctual_lights[*punctual];
+        if (one.kind == PunctualKind::directional) {
+            return 0.0;
+        }
+        one.intensity = glm::vec3(1.0F / intensity_unit(one));
+        return place_light(one, glm::mat4(1.0F)).flux().g;
+    }
+    return is_sky_light(scene, light) ? 0.0 : glm::pi<double>() * scene.lights[light - 1].area;
+}
+
+std::uint32_t apply(Scene& scene, const LightEdit& edit) {
+    if (const auto punctual = punctual_index(scene, edit.light)) {
+        apply(scene.punctual_lights[*punctual], edit);
+        if (scene.punctual_lights[*punctual].of_sky) {
+            refresh_sky(scene);
+        }
+        return no_material;
+    }
+    if (is_sky_light(scene, edit.light)) {
+        apply(*scene.sky_light, edit);
+        refresh_sky(scene);
+        return no_material;
+    }
+    Light& light = scene.lights[edit.light - 1];
+    apply_control(light.control, edit);
+    const float intensity = edit.intensity.value_or(luminance(light.radiance));
+    if (edit.colour) {
+        light.colour = *edit.colour / std::max(luminance(*edit.colour), 1e-30F);
+    }
+    if (edit.intensity || edit.colour) {
+        light.radiance = intensity * light.colour;
+    }
+    light.on = edit.on.value_or(light.on);
+    const auto material = static_cast<std::uint32_t>(light.material);
+    scene.materials[material].emission = emission_of(light);
+    return material;
+}
+
+}  // namespace raybundle

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Changes of lights while a scene is being shown.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace raybundle {
+
+/// A light as it shall be; what is absent stays.
+struct LightEdit {
+    /// Light::id; punctual lights are numbered after the others, and the sky after these.
+    std::uint32_t light = 0;
+    /// >= 0: cd/m², or times intensity_unit() of a punctual light, or as SkyLight has it. Of full
+    /// light: LightControl::dim does not count.
+    std::optional<float> intensity;
+    std::optional<glm::vec3> colour;  ///< linear, >= 0, not black; scaled to luminance 1
+    std::optional<bool> on;
+    std::optional<float> dim;                 ///< as in LightControl
+    std::optional<std::string> group;         ///< likewise
+    std::optional<float> maintenance_factor;  ///< likewise
+    /// Of punctual lights that no object carries: in the world, m.
+    std::optional<glm::vec3> position;
+    std::optional<glm::vec3> aim;   ///< not 0
+    std::optional<float> rotation;  ///< about the aim, as in LightPlace, degrees
+    /// Of spots: half of the angles of the cones, degrees; the inner one is no wider.
+    std::optional<float> inner_cone, outer_cone;
+};
+
+/// Why an edit cannot be made, e.g. "no light 7"; empty where it can. Numbers are taken to be in
+/// range.
+std::string problem_of(const Scene& scene, const LightEdit& edit);
+
+/// Index of a punctual light by its number; nothing for other numbers.
+std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light);
+
+/// How many lights have numbers, from 1 on.
+std::size_t light_count(const Scene& scene);
+/// Whether a number is the sky's.
+bool is_sky_light(const Scene& scene, std::uint32_t light);
+
+/// Of a light that is no surface.
+constexpr std::uint32_t no_material = 0xffffffff;
+
+/// Index of the material that emits a light's light, or no_material. light: a number without
+/// problem.
+std::uint32_t material_of_light(const Scene& scene, std::uint32_t light);
+
+/// What a light has beside its light; null for the sky. light: a number without problem.
+const LightControl* control_of(const Scene& scene, std::uint32_t light);
+
+/// Luminous flux in lm of an intensity of 1, in the light's own unit; 0 where lights have none, as
+/// the sky. light: a number without problem.
+double flux_per_intensity(const Scene& scene, std::uint32_t light);
+
+/// Makes an edit without problem. Returns the index of the material that has changed, or
+/// no_material.
+std::uint32_t apply(Scene& scene, const LightEdit& edit);
+
+}  // namespace raybundle
