@@ -19,7 +19,7 @@ class JournalError : public std::runtime_error {
 };
 
 /// What viewers leave in a session besides changes; the numbers are stored.
-enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3 };
+enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3, lighting_scene = 4 };
 
 struct JournalSettings {
     std::string file;

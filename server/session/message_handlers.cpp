@@ -30,6 +30,10 @@ constexpr MessageHandler handlers[] = {
     {Body::kSetLight, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kSetMaterial, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kUndo, call<&S::changes, &ChangeCoordinator::request>},
+    {Body::kSetGroup, call<&S::changes, &ChangeCoordinator::request>},
+    {Body::kApplyLightingScene, call<&S::changes, &ChangeCoordinator::request>},
+    {Body::kSaveLightingScene, call<&S::lighting, &LightingService::save>},
+    {Body::kRemoveLightingScene, call<&S::lighting, &LightingService::remove>},
 
     {Body::kProbe, call<&S::probes, &ProbeService::probe>},
     {Body::kProbeGrid, call<&S::probes, &ProbeService::probe_grid>},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "session/changes/change_coordinator.h"
+#include "session/changes/lighting_service.h"
 #include "session/measure/error_service.h"
 #include "session/measure/probe_service.h"
 #include "session/render_loop_settings.h"
@@ -30,6 +31,7 @@ struct SessionServices {
 
     SnapshotQueue snapshot_queue;
     SnapshotService snapshots;
+    LightingService lighting;
     ChangeCoordinator changes;
     ErrorService errors;
     SolverDriver solver;

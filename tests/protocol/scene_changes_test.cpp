@@ -82,12 +82,57 @@ TEST(ChangeQueue, NothingIsJoinedAcrossAnUndo) {
     queue.add(move(4, 2, 3.0F));
     EXPECT_EQ(queue.take().change.move_object().transform().translation().x(), 1.0F);
     const PendingChange back = queue.take();
-    ASSERT_TRUE(back.is_undo());
-    queue.add_undone({change_of(light(0, 7.0F))}, back);
+    ASSERT_TRUE(back.stands_for_several());
+    queue.add_expanded({change_of(light(0, 7.0F))}, back);
     EXPECT_EQ(queue.front().change.by(), 2U);
     EXPECT_TRUE(queue.take().requests.empty());
-    EXPECT_TRUE(queue.take().undone);
+    EXPECT_TRUE(queue.take().expanded);
     EXPECT_EQ(queue.take().change.move_object().transform().translation().x(), 3.0F);
+}
+
+ClientEvent dim_group(std::uint32_t id, const std::string& name, float dim) {
+    ClientEvent event = request(1, id);
+    event.message.mutable_set_group()->set_group(name);
+    event.message.mutable_set_group()->set_dim(dim);
+    return event;
+}
+
+/// Who drags a slider fills no queue.
+TEST(ChangeQueue, DimmingOfOneGroupIsJoined) {
+    ChangeQueue queue;
+    for (std::uint32_t id = 1; id <= 20; ++id) {
+        queue.add(dim_group(id, "desks", 0.05F * static_cast<float>(id)));
+    }
+    queue.add(dim_group(21, "wall", 0.5F));
+    queue.add(dim_group(22, "desks", 0.1F));
+    ASSERT_EQ(queue.size(), 3U);
+    const PendingChange first = queue.take();
+    EXPECT_EQ(first.requests.size(), 20U);
+    // Nothing joins what has begun.
+    queue.add_expanded({change_of(light(0, 7.0F))}, first);
+    queue.take();
+    EXPECT_TRUE(queue.take().expanded);
+    EXPECT_EQ(queue.size(), 2U);
+}
+
+/// The newer of flux and intensity counts, and of colour and its temperature.
+TEST(ChangeQueue, OneWayToSayItReplacesTheOther) {
+    ChangeQueue queue;
+    ClientEvent flux = request(1, 2);
+    flux.message.mutable_set_light()->set_light(1);
+    flux.message.mutable_set_light()->set_flux(800.0F);
+    flux.message.mutable_set_light()->mutable_aim()->set_z(1.0F);
+    ClientEvent aim = request(1, 3);
+    aim.message.mutable_set_light()->set_light(1);
+    aim.message.mutable_set_light()->mutable_aim()->set_x(1.0F);
+    queue.add(light(1, 5.0F));
+    queue.add(flux);
+    queue.add(aim);
+    const v1::SetLight sum = queue.take().change.set_light();
+    EXPECT_FALSE(sum.has_intensity());
+    EXPECT_EQ(sum.flux(), 800.0F);
+    EXPECT_EQ(sum.aim().x(), 1.0F);
+    EXPECT_EQ(sum.aim().z(), 0.0F);
 }
 
 TEST(ChangeQueue, AllRequestsAreHandedOutWhenTheServerStops) {

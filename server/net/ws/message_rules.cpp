@@ -230,6 +230,31 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
     check_place(light, check);
 }
 
+void check_body(const v1::SetGroup& group, MessageChecker& check) {
+    const std::size_t length = characters(group.group());
+    check.require(length >= 1 && length <= kMaxName, "setGroup.group", "must be 1..64 characters");
+    check.require(group.has_dim() || group.has_on(), "setGroup",
+                  "changes nothing: needs dim or on");
+    check.share(group.dim(), "setGroup.dim");
+}
+
+void check_scene_name(const std::string& name, std::string_view field, MessageChecker& check) {
+    const std::size_t length = characters(name);
+    check.require(length >= 1 && length <= kMaxName, field, "must be 1..64 characters");
+}
+
+void check_body(const v1::SaveLightingScene& scene, MessageChecker& check) {
+    check_scene_name(scene.name(), "saveLightingScene.name", check);
+}
+
+void check_body(const v1::ApplyLightingScene& scene, MessageChecker& check) {
+    check_scene_name(scene.name(), "applyLightingScene.name", check);
+}
+
+void check_body(const v1::RemoveLightingScene& scene, MessageChecker& check) {
+    check_scene_name(scene.name(), "removeLightingScene.name", check);
+}
+
 void check_body(const v1::SetMaterial& material, MessageChecker& check) {
     check.require(material.material() >= 1, "setMaterial.material", "is missing");
     check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
@@ -340,6 +365,12 @@ constexpr MessageRule rules[] = {
     {Client::kMoveObject, v1::EDITOR, Waiting::newest_only, check<&Client::move_object>},
     {Client::kSetLight, v1::EDITOR, Waiting::queued, check<&Client::set_light>},
     {Client::kSetMaterial, v1::EDITOR, Waiting::queued, check<&Client::set_material>},
+    {Client::kSetGroup, v1::EDITOR, Waiting::queued, check<&Client::set_group>},
+    {Client::kSaveLightingScene, v1::EDITOR, Waiting::queued, check<&Client::save_lighting_scene>},
+    {Client::kApplyLightingScene, v1::EDITOR, Waiting::queued,
+     check<&Client::apply_lighting_scene>},
+    {Client::kRemoveLightingScene, v1::EDITOR, Waiting::queued,
+     check<&Client::remove_lighting_scene>},
     {Client::kUndo, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kListScenes, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kOpenScene, v1::EDITOR, Waiting::queued, check<&Client::open_scene>},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bundle/low_discrepancy.h"
+#include "session/changes/change_expansion.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
 #include "session/messages/light_messages.h"
@@ -23,7 +24,7 @@ constexpr const char* not_saved = "the change could not be saved, so it was not 
 /// Whether a change can be worked in together with those that come before it.
 bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
     const bool moving = pending.front().change.has_move_object();
-    if (next.is_undo() || next.change.has_move_object() != moving) {
+    if (next.stands_for_several() || next.change.has_move_object() != moving) {
         return false;
     }
     const auto same = [&next](const PendingChange& p) {
@@ -69,8 +70,8 @@ void ChangeCoordinator::start_pending() {
         return;
     }
     PendingChange first = queue_.take();
-    if (first.is_undo()) {
-        start_undo(first);
+    if (first.stands_for_several()) {
+        start_several(first);
         return;
     }
     const TimePoint begun = parts_.policy.clock().now();
@@ -161,31 +162,25 @@ void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
     spdlog::info("shaders have been planned anew for a changed material");
 }
 
-void ChangeCoordinator::start_undo(const PendingChange& pending) {
-    const ClientEvent& request = pending.requests.front();
-    const std::uint32_t epoch = request.message.undo().epoch();
-    const SceneHistory& history = parts_.scene.log().history();
-    if (pending.undone) {
-        if (undo_failed_) {
-            parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved);
-        } else {
-            parts_.server.reply_ok(request);
+/// Puts the changes that a request stands for where their turn is next, or answers it once they
+/// have been made.
+void ChangeCoordinator::start_several(const PendingChange& pending) {
+    if (pending.expanded) {
+        for (const ClientEvent& request : pending.requests) {
+            some_failed_ ? parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved)
+                         : parts_.server.reply_ok(request);
         }
         return;
     }
-    undo_failed_ = false;
-    if (const auto changes = history.back_to(epoch); changes && changes->empty()) {
-        parts_.server.reply_ok(request);
-    } else if (changes) {
-        queue_.add_undone(*changes, pending);
-    } else if (epoch > parts_.scene.epoch()) {
-        parts_.server.reply_error(request, v1::Error::INVALID_ARGUMENT,
-                                  "undo.epoch: there have been only " +
-                                      std::to_string(parts_.scene.epoch()) + " changes");
-    } else {
-        parts_.server.reply_error(request, v1::Error::NOT_FOUND,
-                                  "undo.epoch: what was before change " +
-                                      std::to_string(history.oldest()) + " is not known any more");
+    some_failed_ = false;
+    const Expansion expansion =
+        expand(pending, parts_.scene.scene(), parts_.scene.log(), parts_.lighting);
+    if (expansion.problem.code() == v1::Error::CODE_UNSPECIFIED) {
+        queue_.add_expanded(expansion.changes, pending);
+        return;
+    }
+    for (const ClientEvent& request : pending.requests) {
+        parts_.server.reply_error(request, expansion.problem.code(), expansion.problem.message());
     }
 }
 
@@ -199,7 +194,7 @@ bool ChangeCoordinator::record(PendingChange& pending) {
     const v1::SceneChanged before = state_of(scene, pending.change);
     sign(pending);
     if (!log.record(pending.change, before)) {
-        undo_failed_ = true;
+        some_failed_ = true;
         for (const ClientEvent& request : pending.requests) {
             parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved);
         }
@@ -266,7 +261,7 @@ void ChangeCoordinator::announce(const PendingChange& pending) {
     for (const ClientEvent& request : pending.requests) {
         parts_.server.reply(request, message);
     }
-    // An undo is broadcast to its requester, too.
+    // What stands for several changes is answered apart: its requester hears of each, too.
     parts_.server.broadcast(message, pending.requests.empty() ? 0 : pending.change.by());
     for (const auto& [id, session] : parts_.viewers) {
         session->note_change();

@@ -8,6 +8,7 @@
 #include "net/server.h"
 #include "scheduling/change_policy.h"
 #include "session/changes/change_queue.h"
+#include "session/changes/lighting_scenes.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
@@ -29,6 +30,7 @@ class ChangeCoordinator {
         ViewerPictures& pictures;
         ReceiverList& receivers;
         SnapshotQueue& snapshots;
+        const LightingScenes& lighting;
         const SolverDemand& demand;
         ChangePolicy& policy;
         Server& server;
@@ -36,8 +38,9 @@ class ChangeCoordinator {
     };
     explicit ChangeCoordinator(const Parts& parts) : parts_(parts) {}
 
-    /// Handles moveObject, setLight, setMaterial and undo: each waits for its turn, and is answered
-    /// when it has been made.
+    /// Handles moveObject, setLight, setMaterial, and what stands for several of them (undo,
+    /// setGroup, applyLightingScene): each waits for its turn, and is answered when it has been
+    /// made.
     HandlerResult request(ViewerSession& session, const ClientEvent& event);
 
     /// Makes the change that waits longest, with those right behind it that one special phase can
@@ -55,7 +58,7 @@ class ChangeCoordinator {
     bool start(std::vector<PendingChange> pending);
     bool start_moves(std::vector<PendingChange>& pending);
     bool start_surfaces(std::vector<PendingChange>& pending);
-    void start_undo(const PendingChange& pending);
+    void start_several(const PendingChange& pending);
     bool record(PendingChange& pending);
     void sign(PendingChange& pending) const;
     void gather_all();
@@ -67,7 +70,7 @@ class ChangeCoordinator {
 
     Parts parts_;
     ChangeQueue queue_;
-    bool undo_failed_ = false;  // a change of the running undo could not be saved
+    bool some_failed_ = false;  // of the changes that one request stands for: not saved
     std::uint64_t replans_ = 0;
 };
 

@@ -23,18 +23,32 @@ v1::SceneChanged change_of(const ClientEvent& event) {
     return change;
 }
 
+/// Whether a request goes on where one that waits last has begun: a group that is being dimmed.
+bool ChangeQueue::joins_last(const ClientEvent& event) const {
+    const auto group_of = [](const ClientEvent& e) { return e.message.set_group().group(); };
+    return event.message.has_set_group() && !pending_.empty() &&
+           pending_.back().stands_for_several() && !pending_.back().expanded &&
+           pending_.back().requests.size() < max_requests &&
+           pending_.back().requests.front().message.has_set_group() &&
+           group_of(pending_.back().requests.front()) == group_of(event);
+}
+
 void ChangeQueue::add(const ClientEvent& event) {
     const v1::SceneChanged change = change_of(event);
+    if (joins_last(event)) {
+        pending_.back().requests.push_back(event);
+        return;
+    }
     PendingChange* waiting = nullptr;
     for (PendingChange& pending : pending_) {
-        if (pending.is_undo()) {
+        if (pending.stands_for_several()) {
             waiting = nullptr;
         } else if (subject_of(pending.change) == subject_of(change)) {
             waiting = &pending;
         }
     }
-    const bool undo = change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
-    if (undo || waiting == nullptr || waiting->requests.size() >= max_requests) {
+    const bool several = change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
+    if (several || waiting == nullptr || waiting->requests.size() >= max_requests) {
         pending_.push_back({change, {event}, false});
         return;
     }
@@ -42,13 +56,13 @@ void ChangeQueue::add(const ClientEvent& event) {
     waiting->requests.push_back(event);
 }
 
-void ChangeQueue::add_undone(const std::vector<v1::SceneChanged>& changes,
-                             const PendingChange& undo) {
-    pending_.push_front(undo);
-    pending_.front().undone = true;
+void ChangeQueue::add_expanded(const std::vector<v1::SceneChanged>& changes,
+                               const PendingChange& request) {
+    pending_.push_front(request);
+    pending_.front().expanded = true;
     for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
         pending_.push_front({*change, {}, false});
-        pending_.front().change.set_by(undo.change.by());
+        pending_.front().change.set_by(request.requests.back().viewer);
     }
 }
 

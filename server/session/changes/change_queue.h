@@ -12,24 +12,27 @@ namespace raybundle {
 
 /// A change of the scene that waits to be made, and everyone who asked for a part of it.
 struct PendingChange {
-    v1::SceneChanged change;  ///< without epoch; not set: an undo
+    v1::SceneChanged change;  ///< without epoch; not set: stands for several ones
     std::vector<ClientEvent> requests;
-    bool undone = false;  ///< of an undo: its changes have been made, it is to be answered
+    bool expanded = false;  ///< of several ones: they have been made, it is to be answered
 
-    [[nodiscard]] bool is_undo() const {
+    /// An undo, a group of lights, a lighting scene: which changes these are is found out when it
+    /// is their turn.
+    [[nodiscard]] bool stands_for_several() const {
         return change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
     }
 };
 
 /// Changes in the order in which their subjects were first asked for. What is asked for of a
-/// subject that waits already joins it, so that nothing is lost and nothing is made twice; an undo
-/// stands between what comes before it and after it.
+/// subject that waits already joins it, so that nothing is lost and nothing is made twice; what
+/// stands for several changes stands between what comes before it and after it.
 class ChangeQueue {
   public:
-    /// A request of kind moveObject, setLight, setMaterial or undo.
+    /// A request for a change, or for what stands for several.
     void add(const ClientEvent& event);
-    /// Puts the changes of an undo in front, and the undo itself, now `undone`, behind them.
-    void add_undone(const std::vector<v1::SceneChanged>& changes, const PendingChange& undo);
+    /// Puts the changes that a request stands for in front, and itself, now `expanded`, behind
+    /// them.
+    void add_expanded(const std::vector<v1::SceneChanged>& changes, const PendingChange& request);
     [[nodiscard]] bool empty() const { return pending_.empty(); }
     [[nodiscard]] std::size_t size() const { return pending_.size(); }
     [[nodiscard]] const PendingChange& front() const { return pending_.front(); }
@@ -38,10 +41,12 @@ class ChangeQueue {
     std::vector<ClientEvent> take_requests();
 
   private:
+    [[nodiscard]] bool joins_last(const ClientEvent& event) const;
+
     std::deque<PendingChange> pending_;
 };
 
-/// The change that a request asks for; empty for an undo.
+/// The change that a request asks for; empty for what stands for several.
 v1::SceneChanged change_of(const ClientEvent& event);
 
 }  // namespace raybundle

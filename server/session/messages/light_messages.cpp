@@ -2,6 +2,7 @@
 #include "session/messages/light_messages.h"
 
 #include <cmath>
+#include <map>
 
 #include "scene/light/colour_temperature.h"
 #include "scene/light/light_figures.h"
@@ -232,6 +233,16 @@ void describe_lights(const Scene& scene, v1::Scene* message) {
     }
     if (scene.sky_light) {
         describe_light(*scene.sky_light, message);
+    }
+    std::map<std::string, v1::LightGroup> groups;
+    for (const v1::Light& light : message->lights()) {
+        if (!light.group().empty()) {
+            groups[light.group()].add_lights(light.id());
+        }
+    }
+    for (auto& [name, group] : groups) {
+        group.set_name(name);
+        *message->add_groups() = group;
     }
 }
 

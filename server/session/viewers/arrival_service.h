@@ -5,6 +5,7 @@
 #include <string>
 
 #include "net/server.h"
+#include "session/changes/lighting_scenes.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
 #include "session/review/review_service.h"
@@ -31,6 +32,7 @@ class ArrivalService {
         const ViewerAdmission& admission;
         const ViewService& views;
         const ReviewService& review;
+        const LightingScenes& lighting;
         PresenceService& presence;
         Server& server;
         LoopMetrics& metrics;

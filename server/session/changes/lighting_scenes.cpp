@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/changes/lighting_scenes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "session/messages/light_messages.h"
+
+namespace raybundle {
+namespace {
+
+/// What a lighting scene sets: not where lights are, nor what groups they belong to.
+v1::SetLight setting_of_light(const Scene& scene, std::uint32_t id) {
+    const v1::SetLight state = state_of_light(scene, id);
+    v1::SetLight setting;
+    setting.set_light(id);
+    setting.set_intensity(state.intensity());
+    *setting.mutable_colour() = state.colour();
+    setting.set_on(state.on());
+    if (state.has_dim()) {
+        setting.set_dim(state.dim());
+    }
+    return setting;
+}
+
+}  // namespace
+
+LightingScenes::LightingScenes(ChangeLog& log) : log_(log) {
+    for (const std::string& body : log.notes(NoteKind::lighting_scene)) {
+        v1::JournalLightingScene content;
+        if (content.ParseFromString(body)) {
+            next_number_ = std::max(next_number_, content.number() + 1);
+            const std::string name = content.scene().name();
+            scenes_[name] = std::move(content);
+        }
+    }
+}
+
+bool LightingScenes::refuse(v1::Error::Code code, const std::string& reason) {
+    refusal_.set_code(code);
+    refusal_.set_message(reason);
+    return false;
+}
+
+bool LightingScenes::save(const std::string& name, const std::string& by_name, const Scene& scene) {
+    const auto known = scenes_.find(name);
+    if (known == scenes_.end() && scenes_.size() >= max_scenes) {
+        return refuse(v1::Error::RESOURCE_EXHAUSTED,
+                      "saveLightingScene: there are 64, remove some");
+    }
+    v1::JournalLightingScene saved;
+    saved.set_number(known == scenes_.end() ? next_number_ : known->second.number());
+    saved.mutable_scene()->set_name(name);
+    saved.mutable_scene()->set_by_name(by_name);
+    for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
+        *saved.add_lights() = setting_of_light(scene, id);
+    }
+    if (!log_.keep_note(NoteKind::lighting_scene, saved.number(), saved.SerializeAsString())) {
+        return refuse(v1::Error::INTERNAL, "the lighting scene could not be saved");
+    }
+    next_number_ = std::max(next_number_, saved.number() + 1);
+    scenes_[name] = std::move(saved);
+    return true;
+}
+
+bool LightingScenes::remove(const std::string& name) {
+    const auto known = scenes_.find(name);
+    if (known == scenes_.end()) {
+        return refuse(v1::Error::NOT_FOUND,
+                      "removeLightingScene.name: no lighting scene '" + name + "'");
+    }
+    if (!log_.keep_note(NoteKind::lighting_scene, known->second.number(), {})) {
+        return refuse(v1::Error::INTERNAL, "the removal could not be saved");
+    }
+    scenes_.erase(known);
+    return true;
+}
+
+std::optional<std::vector<v1::SceneChanged>> LightingScenes::changes_to(const std::string& name,
+                                                                        const Scene& scene) const {
+    const auto known = scenes_.find(name);
+    if (known == scenes_.end()) {
+        return std::nullopt;
+    }
+    std::vector<v1::SceneChanged> changes;
+    for (const v1::SetLight& wanted : known->second.lights()) {
+        const bool exists = wanted.light() >= 1 && wanted.light() <= light_count(scene);
+        if (!exists || !problem_of(scene, wanted).empty() ||
+            setting_of_light(scene, wanted.light()).SerializeAsString() ==
+                wanted.SerializeAsString()) {
+            continue;
+        }
+        *changes.emplace_back().mutable_set_light() = wanted;
+    }
+    return changes;
+}
+
+void LightingScenes::describe(v1::Scene* message) const {
+    for (const auto& [name, saved] : scenes_) {
+        *message->add_lighting_scenes() = saved.scene();
+    }
+}
+
+}  // namespace raybundle

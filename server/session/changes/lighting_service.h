@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "net/server.h"
+#include "session/changes/lighting_scenes.h"
+#include "session/handler_result.h"
+#include "session/live_scene.h"
+#include "session/viewers/viewers.h"
+
+namespace raybundle {
+
+/// Handles what people save of the lights. ChangeCoordinator brings it back.
+class LightingService {
+  public:
+    struct Parts {
+        LiveScene& scene;
+        const Viewers& viewers;
+        Server& server;
+    };
+    explicit LightingService(const Parts& parts) : parts_(parts), scenes_(parts.scene.log()) {}
+
+    HandlerResult save(ViewerSession& session, const ClientEvent& event);
+    HandlerResult remove(ViewerSession& session, const ClientEvent& event);
+
+    [[nodiscard]] const LightingScenes& scenes() const { return scenes_; }
+
+  private:
+    HandlerResult answer(const ClientEvent& event, bool done, v1::ServerMessage& message);
+
+    Parts parts_;
+    LightingScenes scenes_;
+};
+
+}  // namespace raybundle
