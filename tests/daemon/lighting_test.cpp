@@ -113,9 +113,12 @@ TEST_F(Lighting, SaysWhyALightCannotBePlaced) {
 
 TEST_F(Lighting, GroupIsDimmedAndSwitchedAsOne) {
     begin();
-    for (const char* name : {"bulb", "panel"}) {
-        ASSERT_TRUE(set(name, {{"group", "desks"}}).contains("sceneChanged"));
-    }
+    const auto number = [this](const char* name) { return light_in(scene_, name).at("id"); };
+    ASSERT_TRUE(set("bulb", {{"group", "desks"}}).contains("sceneChanged"));
+    ASSERT_TRUE(
+        ask("setGroup", {{"group", "desks"}, {"lights", {number("panel")}}}).contains("ok"));
+    EXPECT_EQ(ask("setGroup", {{"group", "desks"}, {"lights", {99}}}).at("error").at("message"),
+              "setGroup.lights: light: no light 99");
     EXPECT_EQ(
         scene_now().at("groups"),
         Json::array({{{"name", "desks"},

@@ -26,8 +26,9 @@ constexpr float kMaxNear = 1e9F;     // m, as the coordinates of a Vec3
 constexpr double kMinLength = 1e-6;  ///< of a direction, an axis, a distance
 constexpr float kMinFov = 0.001F;    ///< radians
 constexpr float kMaxFov = 3.14F;     ///< radians
-constexpr float kMaxTurn = 360.0F;   ///< degrees
-constexpr float kMaxCone = 90.0F;    ///< degrees
+constexpr int kMaxGroupLights = 4096;
+constexpr float kMaxTurn = 360.0F;  ///< degrees
+constexpr float kMaxCone = 90.0F;   ///< degrees
 constexpr float kMinKelvin = 1000.0F;
 constexpr float kMaxKelvin = 25000.0F;
 constexpr std::size_t kMaxName = 64;   ///< characters
@@ -233,8 +234,10 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
 void check_body(const v1::SetGroup& group, MessageChecker& check) {
     const std::size_t length = characters(group.group());
     check.require(length >= 1 && length <= kMaxName, "setGroup.group", "must be 1..64 characters");
-    check.require(group.has_dim() || group.has_on(), "setGroup",
-                  "changes nothing: needs dim or on");
+    check.require(group.has_dim() || group.has_on() || group.lights_size() > 0, "setGroup",
+                  "changes nothing: needs dim, on or lights");
+    check.require(group.lights_size() <= kMaxGroupLights, "setGroup.lights",
+                  "must be at most 4096 numbers");
     check.share(group.dim(), "setGroup.dim");
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/changes/change_expansion.h"
 
+#include <set>
 #include <string>
 #include <utility>
 
 #include "scene/light_edit.h"
+#include "session/messages/light_messages.h"
 
 namespace raybundle {
 namespace {
@@ -30,20 +32,41 @@ Expansion undo_to(std::uint32_t epoch, const ChangeLog& log) {
                                              " is not known any more");
 }
 
+/// Why lights cannot join a group; empty where they can.
+std::string joining_problem(const v1::SetGroup& group, const Scene& scene) {
+    for (const std::uint32_t id : group.lights()) {
+        v1::SetLight light;
+        light.set_light(id);
+        light.set_group(group.group());
+        if (const std::string problem = problem_of(scene, light); !problem.empty()) {
+            return "setGroup.lights: " + problem;
+        }
+    }
+    return "";
+}
+
 /// The newest of several requests for one group counts, by fields.
 Expansion set_group(const PendingChange& pending, const Scene& scene) {
     v1::SetGroup sum;
     for (const ClientEvent& request : pending.requests) {
         sum.MergeFrom(request.message.set_group());
     }
+    if (const std::string problem = joining_problem(sum, scene); !problem.empty()) {
+        return refused(v1::Error::NOT_FOUND, problem);
+    }
+    const std::set<std::uint32_t> joining(sum.lights().begin(), sum.lights().end());
     Expansion result;
     for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
         const LightControl* const control = control_of(scene, id);
-        if (control == nullptr || control->group != sum.group()) {
+        const bool member = control != nullptr && control->group == sum.group();
+        if (!member && !joining.contains(id)) {
             continue;
         }
         v1::SetLight& light = *result.changes.emplace_back().mutable_set_light();
         light.set_light(id);
+        if (!member) {
+            light.set_group(sum.group());
+        }
         if (sum.has_dim()) {
             light.set_dim(sum.dim());
         }
