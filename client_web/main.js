@@ -15,6 +15,7 @@ import {ChangeList} from './review/change_list.js';
 import {History, addHistory, subjectOf} from './scene/history.js';
 import {IsolineNumbers} from './measure/isolines.js';
 import {addKeys} from './app/keys.js';
+import {LightGroups} from './scene/light_groups.js';
 import {LightPanel} from './scene/light_panel.js';
 import {Lost} from './camera/lost.js';
 import {Marks} from './picture/marks.js';
@@ -94,6 +95,7 @@ const lightPanel = new LightPanel(app, history, () => {
     setPanel(true);
     showTab('tab-light');
 });
+new LightGroups(app);
 new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);
@@ -128,6 +130,8 @@ async function clickAt(at) {
         await measuring.measureAt(at);
     } else if (app.tool === 'pin') {
         await pins.askAt(at);
+    } else if (app.tool === 'aim') {
+        await lightPanel.aiming.clickAt(at);
     } else {
         selectedBefore = [...selectedBefore.slice(-1), app.selected?.id ?? null];
         const click = ++clicks;
@@ -346,7 +350,7 @@ addKeys({
         const {clientWidth, clientHeight} = app.picture.element;
         clickAt({x: clientWidth / 2, y: clientHeight / 2});
     },
-    cancel: () => pins.cancel() || gizmo.cancel() || pointers.cancel() || compare.close(),
+    cancel: () => pins.cancel() || lightPanel.aiming.cancel() || gizmo.cancel() || pointers.cancel() || compare.close(),
     showKeys,
     leave,
 });

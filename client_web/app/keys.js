@@ -34,6 +34,7 @@ const AIMS = {
     select: 'Enter selects this',
     measure: 'Enter measures here',
     pin: 'Enter leaves a note here',
+    aim: 'Enter aims the light here',
 };
 
 /** @type {Map<string, (targets: KeyTargets) => void>} */

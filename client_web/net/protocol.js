@@ -59,6 +59,15 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [flux]  lm, at loadedIntensity
  * @property {number} [peak]  largest luminous intensity, cd, at loadedIntensity
  * @property {number} [watts]  as its photometric file states it
+ * @property {string} [group]  empty: none; absent: it can have none
+ * @property {number} [dim]  0..1, share of `intensity` that it shines with
+ * @property {number} [maintenanceFactor]
+ * @property {Vec3} [position]  metres; absent: it has none of its own
+ * @property {Vec3} [aim]  likewise
+ * @property {number} [rotation]  about its aim, degrees
+ * @property {number} [innerCone]  half of its angle, degrees
+ * @property {number} [outerCone]
+ * @property {number} [carrier]  object that carries it
  */
 
 /**
@@ -80,6 +89,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {(View & {name: string})[]} cameras
  * @property {Material[]} materials
  * @property {Effect[]} effects
+ * @property {{name: string, byName: string}[]} [lightingScenes]
  */
 
 /**
@@ -158,7 +168,13 @@ export const SUBPROTOCOL = 'raybundle.v1';
 
 /** @typedef {{object: number, transform: Transform, final?: boolean}} MoveObject */
 
-/** @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3}} SetLight */
+/**
+ * What is absent stays.
+ *
+ * @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3, group?: string, dim?: number,
+ *     maintenanceFactor?: number, position?: Vec3, aim?: Vec3, rotation?: number, innerCone?: number,
+ *     outerCone?: number}} SetLight
+ */
 
 /**
  * @typedef {{material: number, baseColour?: Vec3, roughness?: number, metallic?: number}} SetMaterial

@@ -254,7 +254,40 @@ function describeLight(light, to, from) {
     if (to.colour && from.colour && !sameColour(to.colour, from.colour)) {
         parts.push(`changed the colour of ${name}: ${temperatureOf(from.colour)} → ${temperatureOf(to.colour)} K`);
     }
+    parts.push(...describeControl(name, to, from));
     return parts.join(', ') || `set ${name} as it was`;
+}
+
+/**
+ * What has changed beside the light's own brightness and colour.
+ *
+ * @param {string} name
+ * @param {import('../net/protocol.js').SetLight} to
+ * @param {import('../net/protocol.js').SetLight} from
+ */
+function describeControl(name, to, from) {
+    const parts = [];
+    const percent = (/** @type {number} */ share) => Math.round(100 * share);
+    if (to.dim !== undefined && from.dim !== undefined && !near(to.dim, from.dim)) {
+        parts.push(`set the dimmer of ${name}: ${percent(from.dim)} → ${percent(to.dim)}\u00a0%`);
+    }
+    if (to.position && from.position && length(sub(to.position, from.position)) > SAME) {
+        parts.push(`moved ${name} by ${metres(length(sub(to.position, from.position)))}`);
+    }
+    const turned = to.rotation !== undefined && from.rotation !== undefined && !near(to.rotation, from.rotation);
+    if ((to.aim && from.aim && length(sub(to.aim, from.aim)) > SAME) || turned) {
+        parts.push(`aimed ${name}`);
+    }
+    if ((to.innerCone ?? from.innerCone) !== from.innerCone || (to.outerCone ?? from.outerCone) !== from.outerCone) {
+        parts.push(`changed the beam of ${name}`);
+    }
+    if (to.group !== undefined && to.group !== from.group) {
+        parts.push(to.group ? `put ${name} into the group ${to.group}` : `took ${name} out of its group`);
+    }
+    if ((to.maintenanceFactor ?? from.maintenanceFactor) !== from.maintenanceFactor) {
+        parts.push(`set the maintenance factor of ${name} to ${Number(to.maintenanceFactor?.toFixed(3))}`);
+    }
+    return parts;
 }
 
 /** @type {Record<string, string>} */

@@ -4,6 +4,7 @@
 import {blackBody, temperatureOf} from '../measure/colour.js';
 import {LiveField, field, fieldNote, input} from '../ui/elements.js';
 import {threeDigits} from '../ui/units.js';
+import {LightDetails, hasDetails} from './light_details.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures, sameLight} from './light_values.js';
 
 /**
@@ -53,8 +54,9 @@ export class LightCard {
      * @param {LoadedLight} loaded
      * @param {SurfaceChange} change
      * @param {() => boolean} mayEdit
+     * @param {() => void} aimByClick  the next click in the picture says where it is aimed at
      */
-    constructor(light, loaded, change, mayEdit) {
+    constructor(light, loaded, change, mayEdit, aimByClick) {
         this.light = light;
         this.loaded = loaded;
         this.change = change;
@@ -80,6 +82,7 @@ export class LightCard {
         this.reset.textContent = 'Reset';
         const {dimmer, value, kelvin} = this;
         this.fields = {dimmer: new LiveField(dimmer), value: new LiveField(value), kelvin: new LiveField(kelvin)};
+        this.details = hasDetails(light) ? new LightDetails(light, name, change, aimByClick) : null;
         this.#listen();
         this.element = this.#layOut(name);
     }
@@ -98,7 +101,15 @@ export class LightCard {
             field('Colour', this.kelvin, this.kelvinText),
             this.reset,
         );
+        if (this.details) {
+            card.append(this.details.element);
+        }
         return card;
+    }
+
+    /** What it is reset to; its place and its group stay. */
+    get #original() {
+        return {...this.loaded, on: true, ...(this.light.dim === undefined ? {} : {dim: 1})};
     }
 
     /** Intensity as loaded; 1 of a light that was off. */
@@ -116,7 +127,7 @@ export class LightCard {
         const tinted = () => ({colour: blackBody(Number(kelvin.value))});
         kelvin.addEventListener('input', () => change.going(tinted()));
         kelvin.addEventListener('change', () => change.done(tinted()));
-        this.reset.addEventListener('click', () => change.done({...this.loaded, on: true}));
+        this.reset.addEventListener('click', () => change.done(this.#original));
     }
 
     /** Somebody has typed an intensity. */
@@ -145,6 +156,7 @@ export class LightCard {
         fields.value.show(this.#shown());
         this.figures.textContent = lightFigures(light);
         this.figures.hidden = this.figures.textContent === '';
+        this.details?.show();
         const temperature = temperatureOf(light.colour);
         fields.kelvin.show(String(temperature));
         this.kelvinText.textContent = `${temperature} K`;

@@ -4,6 +4,7 @@
 import {ServerError} from '../net/protocol.js';
 import {byId} from '../ui/elements.js';
 import {sentence} from '../ui/status.js';
+import {LightAiming} from './light_aiming.js';
 import {LightCard, lightName} from './light_card.js';
 import {lampless, loadedLight} from './light_values.js';
 import {byName, materialCard} from './material_card.js';
@@ -32,6 +33,7 @@ export class LightPanel {
     constructor(app, history, open) {
         this.app = app;
         this.history = history;
+        this.aiming = new LightAiming(app);
         byId('picked-material', HTMLButtonElement).addEventListener('click', () => {
             open();
             this.#showPicked();
@@ -80,19 +82,18 @@ export class LightPanel {
      * @param {boolean} allowed
      */
     #allow(within, allowed) {
-        for (const control of within.querySelectorAll('.cards input')) {
-            /** @type {HTMLInputElement} */ (control).disabled = !allowed;
+        for (const control of within.querySelectorAll('.cards input, .light-details button')) {
+            /** @type {HTMLInputElement | HTMLButtonElement} */ (control).disabled = !allowed;
         }
     }
 
     /** @param {Light} light */
     #lightCard(light) {
         const change = this.#change('setLight', [{light: light.id}], lightName(light), () => {
-            const {intensity, on, colour} = light;
-            return {intensity, on, colour};
+            return {...light};
         });
         const loaded = this.#loaded.get(light.id) ?? loadedLight(light);
-        const card = new LightCard(light, loaded, change, () => this.app.mayEdit);
+        const card = new LightCard(light, loaded, change, () => this.app.mayEdit, () => this.aiming.begin(light, change));
         this.#refresh.push(() => card.show());
         return card.element;
     }

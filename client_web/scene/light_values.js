@@ -30,7 +30,7 @@ export function dimmerPosition(share) {
  * @returns {string} empty where nothing is known
  */
 export function lightFigures(light) {
-    const share = light.loadedIntensity ? light.intensity / light.loadedIntensity : 1;
+    const share = (light.dim ?? 1) * (light.loadedIntensity ? light.intensity / light.loadedIntensity : 1);
     const parts = [];
     if (light.flux && light.unit !== 'LM') {
         parts.push(`${threeDigits(share * light.flux)} lm`);
@@ -87,6 +87,7 @@ export function sameLight(light, loaded) {
     const {colour} = light;
     return (
         light.on &&
+        (light.dim ?? 1) === 1 &&
         near(light.intensity, loaded.intensity) &&
         near(colour.x, loaded.colour.x) &&
         near(colour.y, loaded.colour.y) &&

@@ -261,6 +261,7 @@ export class SceneModel {
         this.epoch = epoch;
         this.lights = (scene.lights ?? []).map((light) => ({...light}));
         this.materials = (scene.materials ?? []).map((material) => ({...material}));
+        this.lightingScenes = scene.lightingScenes ?? [];
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
     }
 
@@ -355,9 +356,8 @@ export class SceneModel {
     #applyLight(change) {
         const light = this.lights.find(({id}) => id === change?.light);
         if (light && change) {
-            light.intensity = change.intensity ?? light.intensity;
-            light.on = change.on ?? light.on;
-            light.colour = change.colour ?? light.colour;
+            const {light: _, ...told} = change;
+            Object.assign(light, Object.fromEntries(Object.entries(told).filter(([, value]) => value !== undefined)));
         }
     }
 

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is seldom changed of a light: where it is, where it is aimed, its cones, its group, its maintenance factor.
+
+import {LiveField, field, fieldNote, input} from '../ui/elements.js';
+import {aimOf, anglesOf} from './light_place.js';
+
+/**
+ * @typedef {import('../net/protocol.js').Light} Light
+ * @typedef {import('../net/protocol.js').SetLight} SetLight
+ * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
+ * @typedef {Omit<SetLight, 'light'>} Values
+ */
+
+/** What a number field of a light is about: what it shows, and what a number typed there sets. Degrees and metres. */
+/** @type {{name: string, unit: string, has: (light: Light) => boolean, get: (light: Light) => number, set: (light: Light, value: number) => Values}[]} */
+const NUMBERS = [
+    ...(/** @type {const} */ (['x', 'y', 'z'])).map((axis) => ({
+        name: axis === 'y' ? 'Height y' : axis,
+        unit: 'm',
+        has: (/** @type {Light} */ light) => light.position !== undefined,
+        get: (/** @type {Light} */ light) => light.position?.[axis] ?? 0,
+        set: (/** @type {Light} */ light, /** @type {number} */ value) => ({
+            position: {x: 0, y: 0, z: 0, ...light.position, [axis]: value},
+        }),
+    })),
+    ...(/** @type {const} */ (['tilt', 'heading'])).map((angle) => ({
+        name: angle === 'tilt' ? 'Tilt from down' : 'Heading',
+        unit: '°',
+        has: (/** @type {Light} */ light) => light.aim !== undefined,
+        get: (/** @type {Light} */ light) => (light.aim ? anglesOf(light.aim)[angle] : 0),
+        set: (/** @type {Light} */ light, /** @type {number} */ value) =>
+            light.aim ? {aim: aimOf({...anglesOf(light.aim), [angle]: value})} : {},
+    })),
+    {
+        name: 'Turn about its aim',
+        unit: '°',
+        has: ({rotation}) => rotation !== undefined,
+        get: ({rotation}) => rotation ?? 0,
+        set: (_, rotation) => ({rotation}),
+    },
+    {
+        name: 'Inner cone ±',
+        unit: '°',
+        has: ({innerCone}) => innerCone !== undefined,
+        get: ({innerCone}) => innerCone ?? 0,
+        set: (_, innerCone) => ({innerCone}),
+    },
+    {
+        name: 'Outer cone ±',
+        unit: '°',
+        has: ({outerCone}) => outerCone !== undefined,
+        get: ({outerCone}) => outerCone ?? 0,
+        set: (_, outerCone) => ({outerCone}),
+    },
+    {
+        name: 'Maintenance factor',
+        unit: '',
+        has: ({maintenanceFactor}) => maintenanceFactor !== undefined,
+        get: ({maintenanceFactor}) => maintenanceFactor ?? 1,
+        set: (_, maintenanceFactor) => ({maintenanceFactor}),
+    },
+];
+
+/**
+ * Whether there is anything to set: older servers tell nothing of it, and the sky has none of it.
+ *
+ * @param {Light} light
+ */
+export const hasDetails = (light) => light.group !== undefined || NUMBERS.some(({has}) => has(light));
+
+/** The part of a light's card that unfolds. `show()` brings it up to date. */
+export class LightDetails {
+    /** @type {(() => void)[]} */
+    #refresh = [];
+
+    /**
+     * @param {Light} light  changes as the server says
+     * @param {string} name
+     * @param {SurfaceChange} change
+     * @param {() => void} aimByClick  the next click in the picture says where to
+     */
+    constructor(light, name, change, aimByClick) {
+        this.light = light;
+        this.name = name;
+        this.change = change;
+        this.note = document.createElement('p');
+        this.note.className = 'field-note';
+        this.note.setAttribute('role', 'status');
+        this.note.hidden = true;
+        const title = document.createElement('summary');
+        title.textContent = light.aim || light.position ? 'Place, aim, group' : 'Group';
+        this.element = document.createElement('details');
+        this.element.className = 'light-details';
+        this.element.append(title);
+        if (light.group !== undefined) {
+            this.element.append(this.#groupField());
+        }
+        for (const number of NUMBERS.filter(({has}) => has(light))) {
+            this.element.append(this.#numberField(number));
+        }
+        this.element.append(this.note);
+        if (light.aim && light.position) {
+            this.element.append(this.#aimButton(aimByClick));
+        }
+        if (light.carrier !== undefined) {
+            const carried = document.createElement('p');
+            carried.className = 'hint';
+            carried.textContent = 'It hangs on an object: move or turn that.';
+            this.element.append(carried);
+        }
+    }
+
+    /** @param {() => void} aimByClick */
+    #aimButton(aimByClick) {
+        const button = document.createElement('button');
+        button.type = 'button';
+        button.textContent = 'Aim at a point in the picture';
+        button.addEventListener('click', aimByClick);
+        return button;
+    }
+
+    #groupField() {
+        const text = input('text', {maxlength: '64', list: 'light-group-names', 'aria-label': `${this.name}, group`});
+        const live = new LiveField(text);
+        this.#refresh.push(() => live.show(this.light.group ?? ''));
+        text.addEventListener('change', () => this.change.done({group: text.value.trim()}));
+        return field('Group', text);
+    }
+
+    /** @param {typeof NUMBERS[number]} number */
+    #numberField({name, unit, get, set}) {
+        const typed = input('number', {step: 'any', 'aria-label': `${this.name}, ${name}`});
+        const live = new LiveField(typed);
+        this.#refresh.push(() => live.show(String(Number(get(this.light).toFixed(unit === '°' ? 1 : 3)))));
+        typed.addEventListener('change', () => {
+            const value = typed.valueAsNumber;
+            const refused = (/** @type {string} */ why) => {
+                live.reset();
+                fieldNote(this.note, why, typed);
+            };
+            if (Number.isFinite(value)) {
+                this.change.done(set(this.light, value), refused);
+            } else {
+                refused('Enter a number. Nothing has been changed.');
+            }
+        });
+        const unitText = document.createElement('span');
+        unitText.className = 'unit';
+        unitText.textContent = unit;
+        return field(name, typed, unitText);
+    }
+
+    show() {
+        this.#refresh.forEach((show) => show());
+    }
+}
