@@ -12,6 +12,8 @@ ChangeSubject subject_of(const v1::SceneChanged& change) {
             return {kind, change.set_light().light()};
         case v1::SceneChanged::kSetMaterial:
             return {kind, change.set_material().material()};
+        case v1::SceneChanged::kSetDaylight:
+            return {kind, 0};
         case v1::SceneChanged::CHANGE_NOT_SET:
             break;
     }
@@ -39,6 +41,22 @@ void clear_replaced(const v1::SetLight& newer, v1::SetLight* sum) {
     }
 }
 
+/// Likewise: angles of the sun and the clock.
+void clear_replaced(const v1::SetDaylight& newer, v1::SetDaylight* sum) {
+    if (newer.has_sun_elevation() || newer.has_sun_azimuth()) {
+        sum->clear_time();
+        sum->clear_place();
+    }
+    if (!newer.time().empty() || newer.has_place()) {
+        sum->clear_sun_elevation();
+        sum->clear_sun_azimuth();
+    }
+    if (newer.has_place()) {
+        sum->clear_place();
+    }
+    sum->clear_lights();
+}
+
 }  // namespace
 
 void add_change(const v1::SceneChanged& change, v1::SceneChanged& sum) {
@@ -48,6 +66,9 @@ void add_change(const v1::SceneChanged& change, v1::SceneChanged& sum) {
     }
     if (change.has_set_light() && sum.has_set_light()) {
         clear_replaced(change.set_light(), sum.mutable_set_light());
+    }
+    if (change.has_set_daylight() && sum.has_set_daylight()) {
+        clear_replaced(change.set_daylight(), sum.mutable_set_daylight());
     }
     // Likewise.
     if (change.set_material().has_base_colour() && sum.has_set_material()) {

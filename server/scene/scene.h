@@ -179,6 +179,25 @@ struct SkyLight {
     glm::vec3 uniform{0.0F};  ///< Scene::sky_radiance as the file has it
 };
 
+struct Sky;
+
+/// Daylight that is chosen while a scene is shown. Angles in degrees, in the scene's axes.
+struct DaylightSetting {
+    static constexpr const char* loaded = "loaded";  ///< what the scene was opened with
+    static constexpr const char* none = "none";
+
+    std::string sky = loaded;               ///< one of these, or a name of cie_sky_type()
+    float sun_elevation = 45.0F;            ///< -90..90; at 0 and below it is night
+    float sun_azimuth = 180.0F;             ///< from -Z over +X
+    std::optional<float> zenith_luminance;  ///< cd/m²; else typical of sky and sun's elevation
+    std::optional<float> sun_illuminance;   ///< lx, of a surface that faces it; else typical
+    std::optional<float> turbidity;         ///< luminous, of the air before the sun; else the sky's
+    // Where the sun's angles are from, if not set as angles.
+    std::optional<glm::vec2> place;  ///< latitude and longitude, degrees, north and east positive
+    float north = 0.0F;              ///< of the model, from -Z over +X
+    std::string time;                ///< as parse_time() takes it
+};
+
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
 struct Triangle {
     std::uint32_t vertex[3] = {0, 0, 0};
@@ -218,8 +237,10 @@ struct Scene {
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
     std::optional<SkyLight> sky_light;  ///< none where no sky shines
-    Bounds bounds;                      ///< world space
-    glm::dvec3 origin{0.0};             ///< m, where the file has this scene's zero
+    DaylightSetting daylight;
+    std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
+    Bounds bounds;                          ///< world space
+    glm::dvec3 origin{0.0};                 ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

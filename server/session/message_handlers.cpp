@@ -29,6 +29,7 @@ constexpr MessageHandler handlers[] = {
     {Body::kMoveObject, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kSetLight, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kSetMaterial, call<&S::changes, &ChangeCoordinator::request>},
+    {Body::kSetDaylight, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kUndo, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kSetGroup, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kApplyLightingScene, call<&S::changes, &ChangeCoordinator::request>},

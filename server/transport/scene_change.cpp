@@ -109,7 +109,11 @@ bool sky_left(const Sky& before, const Sky& after, const glm::vec3& scale) {
         return glm::any(
             glm::greaterThan(glm::abs(next - glm::dvec3(scale) * old), rounding * next));
     };
-    // Skies and grounds keep their shape, and images: two directions and the mean tell all.
+    if (before.environment && after.environment &&
+        !after.environment->same_shape(*before.environment)) {
+        return true;
+    }
+    // Skies and grounds of one shape, and images: two directions and the mean tell all.
     const glm::dvec3 up(0.0, 1.0, 0.0);
     return differ(before.mean(), after.mean()) || differ(before.towards(up), after.towards(up)) ||
            differ(before.towards(-up), after.towards(-up));

@@ -86,6 +86,10 @@ class Solver {
     [[nodiscard]] bool covers(const Scene& scene, std::uint32_t material) const {
         return scene_.covers(scene, material);
     }
+    /// Likewise of its lights.
+    [[nodiscard]] bool covers_lights(const Scene& scene) const {
+        return scene_.covers_lights(scene);
+    }
     /// Goes on where another solver is that does not cover some materials as they are now, of the
     /// scene and mesh that this one was made of: keeps its mean irradiance and starts the special
     /// phase for what these reflect otherwise. Requires !other.correcting().

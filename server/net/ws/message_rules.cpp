@@ -241,6 +241,34 @@ void check_body(const v1::SetGroup& group, MessageChecker& check) {
     check.share(group.dim(), "setGroup.dim");
 }
 
+void check_body(const v1::SetDaylight& daylight, MessageChecker& check) {
+    check.require(daylight.ByteSizeLong() > 0, "setDaylight",
+                  "changes nothing: needs sky, time or sunElevation");
+    check.require(daylight.lights_size() == 0, "setDaylight.lights", "is said by the server");
+    check.require(std::abs(daylight.place().latitude()) <= 90.0F, "setDaylight.place.latitude",
+                  "must be -90..90 degrees");
+    check.require(std::abs(daylight.place().longitude()) <= 180.0F, "setDaylight.place.longitude",
+                  "must be -180..180 degrees");
+    check.require(std::abs(daylight.north()) <= kMaxTurn, "setDaylight.north",
+                  "must be -360..360 degrees");
+    check.require(std::abs(daylight.sun_elevation()) <= 90.0F, "setDaylight.sunElevation",
+                  "must be -90..90 degrees");
+    check.require(std::abs(daylight.sun_azimuth()) <= kMaxTurn, "setDaylight.sunAzimuth",
+                  "must be -360..360 degrees");
+    const bool angles = daylight.has_sun_elevation() || daylight.has_sun_azimuth();
+    check.require(!angles || (daylight.time().empty() && !daylight.has_place()),
+                  "setDaylight.sunElevation", "stands beside place or time: needs one of them");
+    check.require(daylight.zenith_luminance() >= 0.0F, "setDaylight.zenithLuminance",
+                  "must not be negative");
+    check.require(daylight.sun_illuminance() >= 0.0F, "setDaylight.sunIlluminance",
+                  "must not be negative");
+    if (daylight.has_turbidity()) {
+        const float turbidity = daylight.turbidity();
+        check.require(turbidity >= 1.0F && turbidity <= 20.0F, "setDaylight.turbidity",
+                      "must be 1..20");
+    }
+}
+
 void check_scene_name(const std::string& name, std::string_view field, MessageChecker& check) {
     const std::size_t length = characters(name);
     check.require(length >= 1 && length <= kMaxName, field, "must be 1..64 characters");
@@ -368,6 +396,7 @@ constexpr MessageRule rules[] = {
     {Client::kMoveObject, v1::EDITOR, Waiting::newest_only, check<&Client::move_object>},
     {Client::kSetLight, v1::EDITOR, Waiting::queued, check<&Client::set_light>},
     {Client::kSetMaterial, v1::EDITOR, Waiting::queued, check<&Client::set_material>},
+    {Client::kSetDaylight, v1::EDITOR, Waiting::queued, check<&Client::set_daylight>},
     {Client::kSetGroup, v1::EDITOR, Waiting::queued, check<&Client::set_group>},
     {Client::kSaveLightingScene, v1::EDITOR, Waiting::queued, check<&Client::save_lighting_scene>},
     {Client::kApplyLightingScene, v1::EDITOR, Waiting::queued,

@@ -98,11 +98,13 @@ double CieSky::typical_illuminance() const {
     return row_of(type).share * extraterrestrial;
 }
 
-double CieSky::typical_sun_illuminance(double elevation) const {
-    const double turbidity = row_of(type).turbidity;
-    if (!(turbidity > 0.0) || type == traditional_overcast) {
+double CieSky::typical_sun_illuminance(double elevation,
+                                       std::optional<double> turbidity_of_air) const {
+    const double own = row_of(type).turbidity;
+    if (!(own > 0.0) || type == traditional_overcast) {
         return 0.0;
     }
+    const double turbidity = turbidity_of_air.value_or(own);
     const double mass = air_mass(elevation);
     return extraterrestrial * std::exp(-turbidity * mass / (9.9 + 0.043 * mass));
 }

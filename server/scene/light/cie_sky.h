@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 namespace raybundle {
@@ -30,8 +31,9 @@ struct CieSky {
     /// Luminance Distributions", table 2).
     [[nodiscard]] double typical_illuminance() const;
     /// Typical illuminance of a surface that faces the sun, lx; 0 where clouds hide it. Same
-    /// source: extinction by the type's luminous turbidity. elevation: radians.
-    [[nodiscard]] double typical_sun_illuminance(double elevation) const;
+    /// source: extinction by the type's luminous turbidity, or by another one. elevation: radians.
+    [[nodiscard]] double typical_sun_illuminance(
+        double elevation, std::optional<double> turbidity = std::nullopt) const;
 };
 
 /// "overcast", "intermediate", "clear", "cie-1" to "cie-15": its type; 0 for any other text.

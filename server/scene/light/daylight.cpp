@@ -30,29 +30,6 @@ void overlay(std::optional<T>& value, const std::optional<T>& more) {
     }
 }
 
-std::shared_ptr<const Environment> make_dome(const Daylight& daylight, const std::string& file) {
-    SkyDomeSettings settings;
-    settings.sky.type = cie_sky_type(*daylight.sky);
-    if (settings.sky.type == 0) {
-        throw SceneError(file, "",
-                         fmt::format("sky '{}' is none of {}", *daylight.sky, cie_sky_names()));
-    }
-    settings.sun_elevation = radians_of(daylight.sun_elevation, 45.0);
-    settings.sun_azimuth = radians_of(daylight.sun_azimuth, 180.0);
-    settings.sun_radius = 0.5 * radians_of(daylight.sun_diameter, sun_diameter);
-    const double elevation = std::max(settings.sun_elevation, glm::radians(lowest_sun));
-    settings.zenith_luminance = daylight.zenith_luminance
-                                    ? static_cast<double>(*daylight.zenith_luminance)
-                                    : typical_zenith_luminance(settings.sky, elevation);
-    settings.sun_illuminance = daylight.sun_illuminance
-                                   ? static_cast<double>(*daylight.sun_illuminance)
-                                   : settings.sky.typical_sun_illuminance(elevation);
-    if (daylight.ground_albedo) {
-        settings.ground_albedo = static_cast<double>(*daylight.ground_albedo);
-    }
-    return std::make_shared<const SkyDome>(settings);
-}
-
 std::shared_ptr<const Environment> make_map(const Daylight& daylight, Scene& scene) {
     EnvironmentMapSettings settings;
     settings.name = *daylight.environment;
@@ -68,6 +45,32 @@ std::shared_ptr<const Environment> make_map(const Daylight& daylight, Scene& sce
 
 }  // namespace
 
+std::shared_ptr<const Environment> make_sky_dome(const Daylight& daylight, const std::string& file,
+                                                 bool keeps_sun) {
+    SkyDomeSettings settings;
+    settings.keeps_sun = keeps_sun;
+    settings.sky.type = cie_sky_type(*daylight.sky);
+    if (settings.sky.type == 0) {
+        throw SceneError(file, "",
+                         fmt::format("sky '{}' is none of {}", *daylight.sky, cie_sky_names()));
+    }
+    settings.sun_elevation = radians_of(daylight.sun_elevation, 45.0);
+    settings.sun_azimuth = radians_of(daylight.sun_azimuth, 180.0);
+    settings.sun_radius = 0.5 * radians_of(daylight.sun_diameter, sun_diameter);
+    const double elevation = std::max(settings.sun_elevation, glm::radians(lowest_sun));
+    settings.zenith_luminance = daylight.zenith_luminance
+                                    ? static_cast<double>(*daylight.zenith_luminance)
+                                    : typical_zenith_luminance(settings.sky, elevation);
+    settings.sun_illuminance =
+        daylight.sun_illuminance
+            ? static_cast<double>(*daylight.sun_illuminance)
+            : settings.sky.typical_sun_illuminance(elevation, daylight.turbidity);
+    if (daylight.ground_albedo) {
+        settings.ground_albedo = static_cast<double>(*daylight.ground_albedo);
+    }
+    return std::make_shared<const SkyDome>(settings);
+}
+
 Daylight overlaid(const Daylight& daylight, const Daylight& more) {
     Daylight result = daylight;
     if (more.given()) {
@@ -80,6 +83,7 @@ Daylight overlaid(const Daylight& daylight, const Daylight& more) {
     overlay(result.sun_azimuth, more.sun_azimuth);
     overlay(result.sun_illuminance, more.sun_illuminance);
     overlay(result.sun_diameter, more.sun_diameter);
+    overlay(result.turbidity, more.turbidity);
     overlay(result.ground_albedo, more.ground_albedo);
     overlay(result.environment_rotation, more.environment_rotation);
     overlay(result.environment_scale, more.environment_scale);
@@ -90,7 +94,7 @@ void apply_daylight(const Daylight& daylight, Scene& scene) {
     if (daylight.environment) {
         set_environment(make_map(daylight, scene), scene);
     } else if (daylight.sky) {
-        set_environment(make_dome(daylight, scene.path), scene);
+        set_environment(make_sky_dome(daylight, scene.path, false), scene);
     }
 }
 

@@ -43,6 +43,9 @@ class Environment {
     [[nodiscard]] virtual std::shared_ptr<const Environment> dimmed(
         const glm::dvec3& sky, std::span<const glm::dvec3> sources) const = 0;
 
+    /// Whether both differ by no more than what dimmed() changes.
+    [[nodiscard]] virtual bool same_shape(const Environment& other) const = 0;
+
   protected:
     Environment() = default;
     Environment(const Environment&) = default;

@@ -79,6 +79,11 @@ EnvironmentMap::EnvironmentMap(EquirectangularImage image, const EnvironmentMapS
     sources_ = pixels_->sources;
 }
 
+bool EnvironmentMap::same_shape(const Environment& other) const {
+    const auto* const map = dynamic_cast<const EnvironmentMap*>(&other);
+    return map != nullptr && map->pixels_ == pixels_;
+}
+
 std::shared_ptr<const Environment> EnvironmentMap::dimmed(
     const glm::dvec3& sky, std::span<const glm::dvec3> sources) const {
     auto copy = std::make_shared<EnvironmentMap>(*this);

@@ -45,6 +45,7 @@ class EnvironmentMap final : public Environment {
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] bool is_image() const override { return true; }
     [[nodiscard]] bool draws_sources() const override { return false; }
+    [[nodiscard]] bool same_shape(const Environment& other) const override;
     [[nodiscard]] std::shared_ptr<const Environment> dimmed(
         const glm::dvec3& sky, std::span<const glm::dvec3> sources) const override;
 

@@ -38,7 +38,7 @@ SkyDome::SkyDome(const SkyDomeSettings& settings)
       sun_(sky_direction(settings.sun_elevation, settings.sun_azimuth)),
       sky_illuminance_(settings.zenith_luminance * settings.sky.relative_illuminance(sun_)),
       mean_luminance_(settings.zenith_luminance * mean_relative_luminance(settings.sky, sun_)) {
-    if (settings.sun_illuminance > 0.0) {
+    if (settings.sun_illuminance > 0.0 || settings.keeps_sun) {
         sources_.push_back({sun_, glm::vec3(0.0F), static_cast<float>(settings.sun_radius)});
     }
     set_light(glm::dvec3(1.0), glm::dvec3(1.0));
@@ -59,6 +59,11 @@ std::shared_ptr<const Environment> SkyDome::dimmed(const glm::dvec3& sky,
     auto copy = std::make_shared<SkyDome>(*this);
     copy->set_light(sky, sources.empty() ? glm::dvec3(1.0) : sources.front());
     return copy;
+}
+
+bool SkyDome::same_shape(const Environment& other) const {
+    const auto* const dome = dynamic_cast<const SkyDome*>(&other);
+    return dome != nullptr && dome->settings_.sky.type == settings_.sky.type && dome->sun_ == sun_;
 }
 
 glm::dvec3 SkyDome::radiance(const glm::dvec3& direction) const {
@@ -84,7 +89,7 @@ std::string SkyDome::description() const {
                                  : fmt::format("CIE sky of type {}", settings_.sky.type);
     std::string text = fmt::format("{}, {:.4g} cd/m² in the zenith, {:.4g} lx", type,
                                    settings_.zenith_luminance, sky_illuminance_);
-    if (!sources_.empty()) {
+    if (settings_.sun_illuminance > 0.0) {
         text += fmt::format("; sun {:.4g} degrees high, {:.4g} lx facing it",
                             glm::degrees(settings_.sun_elevation), settings_.sun_illuminance);
     }

@@ -17,6 +17,7 @@ struct SkyDomeSettings {
     double sun_illuminance = 0.0;        ///< lx, of a surface that faces the sun; 0: no sun
     double sun_radius = 0.004654;        ///< radians, half of its angular diameter
     double ground_albedo = 0.2;          ///< of the plain below the horizon
+    bool keeps_sun = false;              ///< has a sun of 0 lx rather than none
 };
 
 /// A CIE standard sky, white, above an endless Lambert plain, with the sun's disc.
@@ -42,6 +43,7 @@ class SkyDome final : public Environment {
         return static_cast<double>(luminance(glm::vec3(ground_)));
     }
     [[nodiscard]] const SkyDomeSettings& settings() const { return settings_; }
+    [[nodiscard]] bool same_shape(const Environment& other) const override;
 
   private:
     void set_light(const glm::dvec3& sky, const glm::dvec3& sun);

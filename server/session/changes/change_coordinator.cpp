@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "bundle/low_discrepancy.h"
+#include "scene/daylight_edit.h"
 #include "session/changes/change_expansion.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
+#include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
 #include "session/unix_time.h"
@@ -24,7 +26,8 @@ constexpr const char* not_saved = "the change could not be saved, so it was not 
 /// Whether a change can be worked in together with those that come before it.
 bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
     const bool moving = pending.front().change.has_move_object();
-    if (next.stands_for_several() || next.change.has_move_object() != moving) {
+    if (next.stands_for_several() || next.change.has_set_daylight() ||
+        pending.back().change.has_set_daylight() || next.change.has_move_object() != moving) {
         return false;
     }
     const auto same = [&next](const PendingChange& p) {
@@ -77,6 +80,9 @@ void ChangeCoordinator::start_pending() {
     const TimePoint begun = parts_.policy.clock().now();
     std::vector<PendingChange> pending;
     pending.push_back(std::move(first));
+    if (pending.front().change.has_set_daylight()) {
+        undim_sky(pending);
+    }
     while (!queue_.empty() && fits(queue_.front(), pending)) {
         pending.push_back(queue_.take());
     }
@@ -129,11 +135,11 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     changed.look_again(parts_.scene.scene(), pending);
     LiveScene& live = parts_.scene;
     const bool reshaped = std::any_of(pending.begin(), pending.end(), reshapes_beam);
-    const bool covered =
-        !reshaped && std::all_of(changed.reflecting().begin(), changed.reflecting().end(),
-                                 [&](std::uint32_t material) {
-                                     return live.solver().covers(live.scene(), material);
-                                 });
+    const bool covered = !reshaped && live.solver().covers_lights(live.scene()) &&
+                         std::all_of(changed.reflecting().begin(), changed.reflecting().end(),
+                                     [&](std::uint32_t material) {
+                                         return live.solver().covers(live.scene(), material);
+                                     });
     if (covered) {
         gather_all();
         begin_phase(live.solver(), false);
@@ -184,12 +190,35 @@ void ChangeCoordinator::start_several(const PendingChange& pending) {
     }
 }
 
+/// Daylight comes with its sky and suns undimmed: that they were not so is a change of its own,
+/// which an undo takes back.
+void ChangeCoordinator::undim_sky(std::vector<PendingChange>& pending) const {
+    const Scene& scene = parts_.scene.scene();
+    if (!daylight_dimmed(scene)) {
+        return;
+    }
+    v1::SetDaylight sky;
+    describe_sky_lights(scene, &sky);
+    for (const v1::Light& light : sky.lights()) {
+        PendingChange undimmed;
+        undimmed.change.set_by(pending.back().change.by());
+        v1::SetLight& set = *undimmed.change.mutable_set_light();
+        set.set_light(light.id());
+        set.set_on(true);
+        set.set_intensity(light.loaded_intensity());
+        *set.mutable_colour() = light.loaded_colour();
+        pending.insert(pending.end() - 1, std::move(undimmed));
+    }
+}
+
 /// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
 bool ChangeCoordinator::record(PendingChange& pending) {
     Scene& scene = parts_.scene.scene();
     ChangeLog& log = parts_.scene.log();
     if (pending.change.has_set_light()) {
         *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
+    } else if (pending.change.has_set_daylight()) {
+        *pending.change.mutable_set_daylight() = resolved(scene, pending.change.set_daylight());
     }
     const v1::SceneChanged before = state_of(scene, pending.change);
     sign(pending);
@@ -206,6 +235,9 @@ bool ChangeCoordinator::record(PendingChange& pending) {
     log.note_states(before, after);
     set_before(before, pending.change);
     log.records().tell_beginning(pending.change);
+    if (pending.change.has_set_daylight()) {
+        describe_sky_lights(scene, pending.change.mutable_set_daylight());
+    }
     return true;
 }
 

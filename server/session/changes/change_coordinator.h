@@ -58,6 +58,7 @@ class ChangeCoordinator {
     bool start(std::vector<PendingChange> pending);
     bool start_moves(std::vector<PendingChange>& pending);
     bool start_surfaces(std::vector<PendingChange>& pending);
+    void undim_sky(std::vector<PendingChange>& pending) const;
     void start_several(const PendingChange& pending);
     bool record(PendingChange& pending);
     void sign(PendingChange& pending) const;

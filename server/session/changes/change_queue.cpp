@@ -19,6 +19,8 @@ v1::SceneChanged change_of(const ClientEvent& event) {
         *change.mutable_set_light() = message.set_light();
     } else if (message.has_set_material()) {
         *change.mutable_set_material() = message.set_material();
+    } else if (message.has_set_daylight()) {
+        *change.mutable_set_daylight() = message.set_daylight();
     }
     return change;
 }

@@ -29,6 +29,9 @@ void take_before(const v1::SceneChanged& from, v1::SceneChanged& to) {
         case v1::SceneChanged::kMaterialBefore:
             *to.mutable_material_before() = from.material_before();
             return;
+        case v1::SceneChanged::kDaylightBefore:
+            *to.mutable_daylight_before() = from.daylight_before();
+            return;
         case v1::SceneChanged::BEFORE_NOT_SET:
             to.clear_before();
             return;
@@ -79,6 +82,8 @@ void set_before(const v1::SceneChanged& before, v1::SceneChanged& change) {
     if (before.has_move_object()) {
         *change.mutable_object_before() = before.move_object();
         change.mutable_object_before()->clear_final();
+    } else if (before.has_set_daylight()) {
+        *change.mutable_daylight_before() = before.set_daylight();
     } else if (before.has_set_light()) {
         *change.mutable_light_before() = before.set_light();
     } else if (before.has_set_material()) {

@@ -71,6 +71,9 @@ std::optional<std::vector<v1::SceneChanged>> SceneHistory::back_to(std::uint32_t
             changes.push_back(wanted);
         }
     }
+    // It brings its lights undimmed; what they were dimmed to comes after it.
+    std::stable_partition(changes.begin(), changes.end(),
+                          [](const v1::SceneChanged& c) { return c.has_set_daylight(); });
     return changes;
 }
 

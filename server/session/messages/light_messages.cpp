@@ -101,7 +101,8 @@ void describe_light(const SkyLight& light, v1::Scene* message) {
     to_message(light.colour, out->mutable_colour());
     out->set_on(light.on);
     out->set_loaded_intensity(luminance(light.loaded));
-    to_message(light.loaded / luminance(light.loaded), out->mutable_loaded_colour());
+    const float loaded = luminance(light.loaded);
+    to_message(loaded > 0.0F ? light.loaded / loaded : light.colour, out->mutable_loaded_colour());
 }
 
 /// A direction that may be given in any length.

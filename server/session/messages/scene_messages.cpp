@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "journal/change_sum.h"
+#include "scene/daylight_edit.h"
 #include "scene/effects/effects_plan.h"
 #include "scene/object_kind.h"
 #include "scene/object_limits.h"
+#include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 
 namespace raybundle {
@@ -128,6 +130,11 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
         return error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
                      "moveObject.object: no movable object " + std::to_string(id));
     }
+    if (change.has_set_daylight()) {
+        const std::string wrong = problem_of(scene, change.set_daylight());
+        return wrong.empty() ? v1::Error()
+                             : error(v1::Error::INVALID_ARGUMENT, "setDaylight." + wrong);
+    }
     const bool light = change.has_set_light();
     const std::string problem = light ? problem_of(scene, change.set_light())
                                       : problem_of(scene, from_message(change.set_material()));
@@ -145,6 +152,8 @@ v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change) {
         state.mutable_move_object()->set_object(id);
         to_message(scene.objects[id - 1].transform,
                    state.mutable_move_object()->mutable_transform());
+    } else if (change.has_set_daylight()) {
+        *state.mutable_set_daylight() = state_of_daylight(scene);
     } else if (change.has_set_light()) {
         *state.mutable_set_light() = state_of_light(scene, id);
     } else {
@@ -164,6 +173,8 @@ void apply(Scene& scene, const v1::SceneChanged& change) {
     if (change.has_move_object()) {
         const v1::MoveObject& move = change.move_object();
         scene.objects[move.object() - 1].transform = from_message(move.transform());
+    } else if (change.has_set_daylight()) {
+        apply(scene, from_message(change.set_daylight()));
     } else if (change.has_set_light()) {
         apply(scene, from_message(change.set_light()));
     } else {
@@ -193,6 +204,7 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         }
     }
     describe_lights(scene, message);
+    *message->mutable_daylight() = state_of_daylight(scene);
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();
         out->set_name(camera.name);

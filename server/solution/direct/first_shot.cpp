@@ -73,6 +73,13 @@ void FirstShot::remember(const FirstShot& other) {
                              static_cast<GLsizeiptr>(patches_.bytes()));
 }
 
+void FirstShot::remember_darkness() {
+    if (remembered_.bytes() == 0) {
+        remembered_ = Buffer("first shot before", patches_.bytes());
+    }
+    remembered_.clear();
+}
+
 void FirstShot::update(bool radiance_follows) {
     if (many_) {
         bind();

@@ -32,6 +32,8 @@ class FirstShot {
     void update(bool radiance_follows = true);
     /// Keeps what `other`, of the same patches, has found, as what was before a change.
     void remember(const FirstShot& other);
+    /// The same where there were no such lights.
+    void remember_darkness();
     /// For change_source.comp.
     void bind_remembered() const { remembered_.bind_storage(BINDING_OLD_FIRST_SHOT); }
     void bind() const;

@@ -139,6 +139,8 @@ class GpuScene {
     [[nodiscard]] bool many_lamps() const {
         return punctual_lights_.size() > PunctualLight::most_mapped;
     }
+    /// Whether the shaders and buffers made for the first scene fit its lights as they are now.
+    [[nodiscard]] bool covers_lights(const Scene& scene) const;
     /// A punctual light in the shifted world, its object at its present place.
     [[nodiscard]] PlacedLight placed_light(std::size_t light) const;
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }

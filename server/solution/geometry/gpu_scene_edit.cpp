@@ -56,6 +56,12 @@ void GpuScene::update_lights(const Scene& scene) {
     }
 }
 
+bool GpuScene::covers_lights(const Scene& scene) const {
+    return without_discs(scene.punctual_lights).size() == punctual_lights_.size() &&
+           raybundle::has_sky(scene) == has_sky_ &&
+           (scene.environment != nullptr) == (sky_.environment != nullptr);
+}
+
 bool GpuScene::covers(const Scene& scene, std::size_t material) const {
     const SpecularKind kind = specular_kind(scene.materials[material]);
     const bool followed =

@@ -73,6 +73,8 @@ void RadianceStore::bind() const {
 void RadianceStore::remember_first_shot(const RadianceStore& other) {
     if (first_shot_ && other.first_shot_) {
         first_shot_->remember(*other.first_shot_);
+    } else if (first_shot_) {
+        first_shot_->remember_darkness();
     }
 }
 
