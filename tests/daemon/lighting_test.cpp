@@ -3,6 +3,7 @@
 // of them are set.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -158,6 +159,62 @@ TEST_F(Lighting, ScenesComeBackAfterARestart) {
                     .at("lightingSceneChanged")
                     .at("removed"));
     EXPECT_TRUE(scene_now().value("lightingScenes", Json::array()).empty());
+}
+
+/// The floor has the illuminance of the sky and of the sun that `sceneChanged` states, in a scene
+/// that was opened without either; by night it has none.
+TEST_F(Lighting, DaylightComesByTheClockAndGoes) {
+    begin();
+    for (const Json& light : scene_.at("lights")) {
+        viewer_->request({{"setLight", {{"light", light.at("id")}, {"on", false}}}});
+    }
+    ask("setCamera", {{"eye", {{"x", 1.0}, {"y", 2.5}, {"z", 1.0}}},
+                      {"target", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}},
+                      {"up", {{"x", 0.0}, {"y", 0.0}, {"z", -1.0}}}});
+    const auto floor_lux = [&] {
+        viewer_->next([](const Json& message) {
+            return message.contains("solution") && message["solution"].value("iterations", 0) > 0 &&
+                   message["solution"].value("settled", 0.0) > 0.9;
+        });
+        return ask("probe", {{"pixel", {{"x", 32.5}, {"y", 32.5}}}})
+            .at("probeResult")
+            .at("illuminance")
+            .get<double>();
+    };
+    const Json berlin = {{"latitude", 52.52}, {"longitude", 13.4}};
+    EXPECT_EQ(ask("setDaylight", {{"time", "2026-06-21T15:00:00+02:00"}}).at("error").at("code"),
+              "INVALID_ARGUMENT");
+    const Json day =
+        ask("setDaylight",
+            {{"sky", "clear"}, {"place", berlin}, {"time", "2026-06-21T15:00:00+02:00"}});
+    ASSERT_TRUE(day.contains("sceneChanged")) << day;
+    const Json& told = day.at("sceneChanged").at("setDaylight");
+    EXPECT_NEAR(told.at("sunElevation").get<double>(), 55.0, 1.5);
+    const Json sun = light_in(told, "sun");
+    const Json sky = light_in(told, "sky");
+    EXPECT_EQ(sun.at("id"), 6);
+    EXPECT_EQ(sky.at("id"), 7);
+    const double sine = std::sin(told.at("sunElevation").get<double>() * pi / 180.0);
+    const double exact =
+        sky.at("intensity").get<double>() + sine * sun.at("intensity").get<double>();
+    EXPECT_GT(exact, 50'000.0);
+    EXPECT_NEAR(floor_lux(), exact, 0.03 * exact);
+    ask("setLight", {{"light", 6}, {"on", false}});
+    const Json night = ask("setDaylight", {{"time", "2026-06-21T23:30:00+02:00"}});
+    EXPECT_LT(night.at("sceneChanged").at("setDaylight").at("sunElevation").get<double>(), 0.0);
+    EXPECT_EQ(scene_now().at("daylight").at("place"), berlin);
+    restart();
+    EXPECT_EQ(scene_.at("daylight").at("time"), "2026-06-21T23:30:00+02:00");
+    const auto sky_sun = [](const Json& scene) { return scene.at("lights").at(5); };
+    EXPECT_EQ(sky_sun(scene_).at("intensity"), 0.0);
+    // Back to the afternoon without its sun, then to the scene as it was opened.
+    ASSERT_TRUE(ask("undo", {{"epoch", 7}}).contains("ok"));
+    EXPECT_EQ(sky_sun(scene_now()).at("on"), false);
+    EXPECT_NEAR(sky_sun(scene_now()).at("intensity").get<double>(),
+                sun.at("intensity").get<double>(), 1.0);
+    ASSERT_TRUE(ask("undo", {{"epoch", 5}}).contains("ok"));
+    EXPECT_EQ(scene_now().at("daylight").at("sky"), "loaded");
+    EXPECT_EQ(light_now("sky").at("intensity"), 0.0);
 }
 
 TEST(LightingScenes, AreBoundedAndReplacedByName) {
