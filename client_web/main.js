@@ -15,6 +15,7 @@ import {ChangeList} from './review/change_list.js';
 import {History, addHistory, subjectOf} from './scene/history.js';
 import {IsolineNumbers} from './measure/isolines.js';
 import {addKeys} from './app/keys.js';
+import {DaylightPanel} from './scene/daylight_panel.js';
 import {LightGroups} from './scene/light_groups.js';
 import {LightPanel} from './scene/light_panel.js';
 import {Lost} from './camera/lost.js';
@@ -96,6 +97,7 @@ const lightPanel = new LightPanel(app, history, () => {
     showTab('tab-light');
 });
 new LightGroups(app);
+new DaylightPanel(app, history);
 new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);

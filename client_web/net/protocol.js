@@ -90,6 +90,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Material[]} materials
  * @property {Effect[]} effects
  * @property {{name: string, byName: string}[]} [lightingScenes]
+ * @property {SetDaylight} [daylight]
  */
 
 /**
@@ -177,6 +178,17 @@ export const SUBPROTOCOL = 'raybundle.v1';
  */
 
 /**
+ * @typedef {object} SetDaylight
+ * @property {string} [sky]
+ * @property {{latitude: number, longitude: number}} [place]
+ * @property {number} [north]
+ * @property {string} [time]
+ * @property {number} [sunElevation]
+ * @property {number} [sunAzimuth]
+ * @property {Light[]} [lights]  from the server: in place of those from the first one's id on
+ */
+
+/**
  * @typedef {{material: number, baseColour?: Vec3, roughness?: number, metallic?: number}} SetMaterial
  */
 
@@ -186,6 +198,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} by
  * @property {MoveObject} [moveObject]
  * @property {SetLight} [setLight]
+ * @property {SetDaylight} [setDaylight]
+ * @property {SetDaylight} [daylightBefore]
  * @property {SetMaterial} [setMaterial]
  * @property {string} [byName]
  * @property {number} [atMs]  Unix time

@@ -136,8 +136,8 @@ export class ChangeList extends EventTarget {
         const inHand = !change.moveObject && last === this.#changes.at(-1) && sinceOf(last, change) < IN_HAND_MS;
         if (last && last.by === change.by && (last.moveObject?.final === false || inHand)) {
             this.#changes.splice(this.#changes.indexOf(last), 1);
-            const {objectBefore, lightBefore, materialBefore} = last;
-            change = {...change, objectBefore, lightBefore, materialBefore, firstEpoch: last.firstEpoch ?? last.epoch};
+            const {objectBefore, lightBefore, materialBefore, daylightBefore} = last;
+            change = {...change, objectBefore, lightBefore, materialBefore, daylightBefore, firstEpoch: last.firstEpoch ?? last.epoch};
         }
         this.#changes.push(change);
         this.#changes.splice(0, this.#changes.length - MAX_ENTRIES);
@@ -183,7 +183,10 @@ export function timeText(time) {
  * @returns {string} e.g. "dimmed LED panel: 100 → 50 %"
  */
 export function describeChange(scene, change, loaded) {
-    const {moveObject, setLight, setMaterial, objectBefore, lightBefore, materialBefore} = change;
+    const {moveObject, setLight, setMaterial, setDaylight, objectBefore, lightBefore, materialBefore} = change;
+    if (setDaylight) {
+        return describeDaylight(setDaylight);
+    }
     if (moveObject) {
         return describeMove(scene?.object(moveObject.object) ?? null, moveObject, objectBefore, loaded);
     }
@@ -226,6 +229,14 @@ function describeMove(object, to, from, loaded) {
     };
     const by = length(matrixVector(object.worldFromParent, sub(after.translation, before.translation)));
     return `moved ${object.name} by ${metres(by)}: ${place(before)} → ${place(after)}\u00a0m`;
+}
+
+/** @param {import('../net/protocol.js').SetDaylight} to */
+function describeDaylight({sky, time}) {
+    if (sky === 'loaded' || sky === 'none') {
+        return sky === 'none' ? 'took the daylight away' : 'set the daylight as it was';
+    }
+    return `set the daylight: ${sky}${time ? `, ${time.slice(0, 16).replace('T', ' ')}` : ''}`;
 }
 
 /**

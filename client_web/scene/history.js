@@ -16,7 +16,8 @@ import {deedOf} from './placement.js';
  */
 
 const MAX_STEPS = 200;
-/** @typedef {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number}}} Subject */
+/** @typedef {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number},
+ *     setDaylight?: object}} Subject */
 
 /**
  * What a change is of.
@@ -24,7 +25,10 @@ const MAX_STEPS = 200;
  * @param {Subject} change
  * @returns {string} e.g. "object 2"
  */
-export function subjectOf({moveObject, setLight, setMaterial}) {
+export function subjectOf({moveObject, setLight, setMaterial, setDaylight}) {
+    if (setDaylight) {
+        return 'daylight';
+    }
     return moveObject
         ? `object ${moveObject.object}`
         : setLight

@@ -45,7 +45,13 @@ export class LightPanel {
         // Of what has been clicked; not of what is chosen from a list.
         app.on('selection', () => this.pick(null));
         app.on('welcome', () => this.#showScene());
-        app.on('sceneChanged', () => this.#refresh.forEach((show) => show()));
+        app.on('sceneChanged', ({setDaylight}) => {
+            if (setDaylight) {
+                this.#showScene();  // with other lights
+            } else {
+                this.#refresh.forEach((show) => show());
+            }
+        });
     }
 
     #showScene() {

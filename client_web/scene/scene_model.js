@@ -261,6 +261,7 @@ export class SceneModel {
         this.epoch = epoch;
         this.lights = (scene.lights ?? []).map((light) => ({...light}));
         this.materials = (scene.materials ?? []).map((material) => ({...material}));
+        this.daylight = scene.daylight;
         this.lightingScenes = scene.lightingScenes ?? [];
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
     }
@@ -340,6 +341,7 @@ export class SceneModel {
     apply(change, held) {
         this.epoch = change.epoch;
         this.#applyLight(change.setLight);
+        this.#applyDaylight(change.setDaylight);
         this.#applyMaterial(change.setMaterial);
         const move = change.moveObject;
         const object = move ? this.object(move.object) : null;
@@ -358,6 +360,16 @@ export class SceneModel {
         if (light && change) {
             const {light: _, ...told} = change;
             Object.assign(light, Object.fromEntries(Object.entries(told).filter(([, value]) => value !== undefined)));
+        }
+    }
+
+    /** @param {import('../net/protocol.js').SetDaylight | undefined} change */
+    #applyDaylight(change) {
+        if (change) {
+            const {lights = [], ...daylight} = change;
+            const first = lights[0]?.id ?? Infinity;
+            this.daylight = daylight;
+            this.lights = [...this.lights.filter(({id}) => id < first), ...lights.map((light) => ({...light}))];
         }
     }
 

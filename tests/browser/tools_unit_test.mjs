@@ -16,6 +16,10 @@ import {
 import {stateOf} from '../../client_web/measure/grid_panel.js';
 import {History, subjectOf} from '../../client_web/scene/history.js';
 import {layOutStrip} from '../../client_web/measure/legend.js';
+import {partsOf, timeAt, zoneOf} from '../../client_web/scene/day_time.js';
+import {sunText} from '../../client_web/scene/daylight_panel.js';
+import {groupState, groupsOf} from '../../client_web/scene/light_groups.js';
+import {aimAt, aimOf, anglesOf} from '../../client_web/scene/light_place.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_values.js';
 import {lightState} from '../../client_web/scene/light_state.js';
 import {DarkViews} from '../../client_web/camera/lost.js';
@@ -809,5 +813,49 @@ describe('lightState', () => {
     it('says first what a change still brings', () => {
         assert.deepEqual(state(0.5, 0.05, 0.08), {mark: 'no', text: 'Light is settling, 50 %'});
         assert.deepEqual(state(0, null, null, false), {mark: 'no', text: 'Waiting for light'});
+    });
+});
+
+describe('places and aims of lights', () => {
+    it('say an aim by tilt and heading, and take it back', () => {
+        for (const [tilt, heading] of [[0, 0], [30, 0], [90, 90], [45, 200], [180, 0]]) {
+            const angles = anglesOf(aimOf({tilt, heading}));
+            close(angles.tilt, tilt, 1e-6);
+            close(angles.heading, heading, 1e-6);
+        }
+        const {x, y, z} = aimOf({tilt: 90, heading: 90});  // level, to the east
+        assert.deepEqual([Math.round(x), Math.round(y), Math.round(z)].map(Math.abs), [1, 0, 0]);
+        assert.equal(aimAt({x: 1, y: 2, z: 3}, {x: 1, y: 2, z: 3}), null);
+        assert.deepEqual(aimAt({x: 1, y: 2, z: 3}, {x: 1, y: 0, z: 3}), {x: 0, y: -2, z: 0});
+    });
+
+    it('are sorted into groups, which may be mixed', () => {
+        const light = (/** @type {number} */ id, /** @type {string} */ group, /** @type {number} */ dim, on = true) =>
+            ({id, name: `l${id}`, kind: 'POINT', unit: 'CD', intensity: 1, colour: {x: 1, y: 1, z: 1}, on, group, dim});
+        const groups = groupsOf([light(1, 'wall', 1), light(2, '', 1), light(3, 'desk', 0.5), light(4, 'wall', 0.2, false)]);
+        assert.deepEqual(groups.map(({name, lights}) => [name, lights.length]), [['desk', 1], ['wall', 2]]);
+        assert.deepEqual(groupState(groups[0]), {on: true, mixed: false, dim: 0.5});
+        assert.deepEqual(groupState(groups[1]), {on: true, mixed: true, dim: null});
+    });
+});
+
+describe('times of daylight', () => {
+    it('carry the zone of the place, summer time included', () => {
+        assert.equal(timeAt('2026-06-21', 900, 'Europe/Berlin'), '2026-06-21T15:00:00+02:00');
+        assert.equal(timeAt('2026-12-21', 905, 'Europe/Berlin'), '2026-12-21T15:05:00+01:00');
+        assert.equal(timeAt('2026-01-01', 60, 'Asia/Kolkata'), '2026-01-01T01:00:00+05:30');
+        assert.equal(timeAt('2026-07-01', 0, 'America/New_York'), '2026-07-01T00:00:00-04:00');
+        // The night when clocks go forward: 12:00 is summer time already.
+        assert.equal(timeAt('2026-03-29', 720, 'Europe/Berlin'), '2026-03-29T12:00:00+02:00');
+        assert.equal(zoneOf({latitude: 52.52, longitude: 13.41}), 'Europe/Berlin');
+        assert.equal(zoneOf({latitude: 0, longitude: -75}), 'Etc/GMT+5');
+        assert.deepEqual(partsOf('2026-06-21T15:20:00+02:00'), {date: '2026-06-21', minute: 920});
+        assert.equal(partsOf(''), null);
+    });
+
+    it('say where the sun stands', () => {
+        assert.equal(sunText({sky: 'clear', sunElevation: 35.65, sunAzimuth: -96.2}), 'Sun 35.6° high, at 264° from −z over +x');
+        assert.equal(sunText({sky: 'clear', sunElevation: -3}), 'The sun has set: the sky is dark.');
+        assert.equal(sunText({sky: 'loaded'}), '');
     });
 });

@@ -165,7 +165,7 @@ void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
     begin_phase(*next, false);
     next->take_over(live.solver(), reflecting, parts_.receivers.list());
     live.replace(std::move(next), std::move(programs));
-    spdlog::info("shaders have been planned anew for a changed material");
+    spdlog::info("shaders have been planned anew for a change of the scene");
 }
 
 /// Puts the changes that a request stands for where their turn is next, or answers it once they

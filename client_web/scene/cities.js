@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A short list of places for daylight: latitude and longitude in degrees, north and east positive, to a hundredth, and the
+// time zone by the IANA's name.
+
+/** @type {[string, number, number, string][]} */
+export const CITIES = [
+    ['Amsterdam', 52.37, 4.9, 'Europe/Amsterdam'],
+    ['Athens', 37.98, 23.73, 'Europe/Athens'],
+    ['Beijing', 39.9, 116.41, 'Asia/Shanghai'],
+    ['Berlin', 52.52, 13.41, 'Europe/Berlin'],
+    ['Budapest', 47.5, 19.04, 'Europe/Budapest'],
+    ['Buenos Aires', -34.6, -58.38, 'America/Argentina/Buenos_Aires'],
+    ['Cairo', 30.04, 31.24, 'Africa/Cairo'],
+    ['Cape Town', -33.92, 18.42, 'Africa/Johannesburg'],
+    ['Chicago', 41.88, -87.63, 'America/Chicago'],
+    ['Copenhagen', 55.68, 12.57, 'Europe/Copenhagen'],
+    ['Delhi', 28.61, 77.21, 'Asia/Kolkata'],
+    ['Dubai', 25.2, 55.27, 'Asia/Dubai'],
+    ['Helsinki', 60.17, 24.94, 'Europe/Helsinki'],
+    ['Istanbul', 41.01, 28.98, 'Europe/Istanbul'],
+    ['Lisbon', 38.72, -9.14, 'Europe/Lisbon'],
+    ['London', 51.51, -0.13, 'Europe/London'],
+    ['Los Angeles', 34.05, -118.24, 'America/Los_Angeles'],
+    ['Madrid', 40.42, -3.7, 'Europe/Madrid'],
+    ['Mexico City', 19.43, -99.13, 'America/Mexico_City'],
+    ['Milan', 45.46, 9.19, 'Europe/Rome'],
+    ['Nairobi', -1.29, 36.82, 'Africa/Nairobi'],
+    ['New York', 40.71, -74.01, 'America/New_York'],
+    ['Oslo', 59.91, 10.75, 'Europe/Oslo'],
+    ['Paris', 48.86, 2.35, 'Europe/Paris'],
+    ['Prague', 50.08, 14.44, 'Europe/Prague'],
+    ['Reykjavik', 64.15, -21.94, 'Atlantic/Reykjavik'],
+    ['Rome', 41.9, 12.5, 'Europe/Rome'],
+    ['São Paulo', -23.55, -46.63, 'America/Sao_Paulo'],
+    ['Singapore', 1.35, 103.82, 'Asia/Singapore'],
+    ['Stockholm', 59.33, 18.07, 'Europe/Stockholm'],
+    ['Sydney', -33.87, 151.21, 'Australia/Sydney'],
+    ['Tokyo', 35.68, 139.69, 'Asia/Tokyo'],
+    ['Toronto', 43.65, -79.38, 'America/Toronto'],
+    ['Vienna', 48.21, 16.37, 'Europe/Vienna'],
+    ['Warsaw', 52.23, 21.01, 'Europe/Warsaw'],
+    ['Zurich', 47.38, 8.54, 'Europe/Zurich'],
+];
