@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "reference/sampling/next_event.h"
-#include "reference/specular_walk.h"
 #include "scene/light/environment.h"
 
 namespace raybundle {
@@ -75,6 +73,16 @@ glm::dvec3 PathTracer::irradiance(const SurfacePoint& point, Sampler& sampler) c
     return glm::pi<double>() * reflected({point, Scattering::white(point)}, sampler);
 }
 
+std::optional<PathEnd> PathTracer::end_of(const SpecularWalk& walk, Sampler& sampler) const {
+    if (!walk.hit || walk.hit->absorbs()) {
+        return std::nullopt;
+    }
+    PathEnd end{*walk.hit, Scattering(scene_, *walk.hit, NormalKind::geometric, -walk.direction),
+                walk.weight, 0, walk.passed};
+    end.throughput *= choose_side(end.point, end.scattering, sampler);
+    return end;
+}
+
 glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit,
                                const glm::dvec3& direction) const {
     return hit ? scene_.emission(*hit) : sky_towards(scene_.scene(), direction);
@@ -91,7 +99,8 @@ bool PathTracer::advance(PathEnd& end, glm::dvec3& sum, Sampler& sampler) const 
     const int samples = settings_.next_event ? light_samples(end) : 0;
     for (int i = 0; i < samples; ++i) {
         sum += end.throughput *
-               next_event(lights_, end.point, end.scattering, 1.0 / samples, sampler) /
+               next_event(lights_, end.point, end.scattering, 1.0 / samples, sampler,
+                          settings_.panes) /
                static_cast<double>(samples);
     }
     const glm::dvec2 u = sampler.next_pair();

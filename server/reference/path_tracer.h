@@ -7,10 +7,12 @@
 #include "reference/albedo_tables.h"
 #include "reference/ray_scene.h"
 #include "reference/sampling/light_sampling.h"
+#include "reference/sampling/next_event.h"
 #include "reference/sampling/random.h"
 #include "reference/sampling/roulette.h"
 #include "reference/sampling/russian_roulette.h"
 #include "reference/scattering.h"
+#include "reference/specular_walk.h"
 
 namespace raybundle {
 
@@ -21,6 +23,7 @@ struct PathSettings {
     int first_light_samples = 1;  ///< for next-event estimation where a path begins
     Survival survival = Survival::throughput;
     double survival_probability = 0.5;  ///< of Survival::fixed, in (0, 1); see optimal_survival()
+    Panes panes = Panes::block;         ///< for the light of punctual lights
 };
 
 /// A path at a surface, on its way from the eye to the lights.
@@ -40,8 +43,8 @@ struct Seen {
 
 /// Path tracing (Kajiya 1986; ch. 2.4) with next-event estimation, which glass blocks: light that
 /// comes through glass or from ideal mirrors is met by the paths themselves, that of punctual
-/// lights behind glass not at all. Light that a path meets by itself and light that is sampled are
-/// weighted by the power heuristic.
+/// lights behind glass not at all, unless the settings let it through thin panes. Light that a path
+/// meets by itself and light that is sampled are weighted by the power heuristic.
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,
@@ -53,6 +56,10 @@ class PathTracer {
                                       Sampler& sampler) const;
     /// The same for irradiance: light that arrives at a surface point, lx, cosine included.
     [[nodiscard]] glm::dvec3 irradiance(const SurfacePoint& point, Sampler& sampler) const;
+
+    /// Where a walk ends at a surface that reflects, as light between surfaces knows it; nothing
+    /// where it does not.
+    [[nodiscard]] std::optional<PathEnd> end_of(const SpecularWalk& walk, Sampler& sampler) const;
 
     // The steps that radiance() is made of.
 

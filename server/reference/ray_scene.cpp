@@ -11,6 +11,7 @@
 #include <string>
 
 #include "scene/material/reflectance_grid.h"
+#include "scene/material/specular_surface.h"
 
 namespace raybundle {
 namespace {
@@ -102,6 +103,7 @@ RayScene::RayScene(const Scene& scene, const PatchMesh& mesh)
     for (const Material& material : scene.materials) {
         models_.push_back(reflectance_model(material));
         textured_models_.emplace_back();
+        has_panes_ = has_panes_ || specular_kind(material) == SpecularKind::pane;
         if (has_reflectance_grid(material)) {
             textured_models_.back().emplace(material);
         }
@@ -233,7 +235,11 @@ bool RayScene::sees_point(const SurfacePoint& from, const glm::dvec3& point) con
 }
 
 bool RayScene::sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const {
-    return !occluded(departure(from), glm::vec3(direction), infinity);
+    return open_towards(departure(from), direction);
+}
+
+bool RayScene::open_towards(const glm::vec3& from, const glm::dvec3& direction) const {
+    return !occluded(from, glm::vec3(direction), infinity);
 }
 
 glm::vec3 RayScene::departure(const SurfacePoint& point) const {

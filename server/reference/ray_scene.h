@@ -69,6 +69,11 @@ class RayScene {
     /// Whether a ray from a surface point meets nothing.
     [[nodiscard]] bool sees_sky(const SurfacePoint& from, const glm::dvec3& direction) const;
 
+    /// Whether a ray from a point in space meets nothing.
+    [[nodiscard]] bool open_towards(const glm::vec3& from, const glm::dvec3& direction) const;
+    /// Whether any material is a thin pane of glass.
+    [[nodiscard]] bool has_panes() const { return has_panes_; }
+
     /// Point of a patch at barycentric coordinates (weights of vertices 1 and 2).
     [[nodiscard]] SurfacePoint point_on_patch(std::uint32_t patch,
                                               const glm::dvec2& barycentric) const;
@@ -138,7 +143,8 @@ class RayScene {
     double scale_;                                // own units per metre, a power of two
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, own space; normals not unit
     std::vector<bool> smooth_;                    // triangles whose vertex normals bend
-    std::vector<ReflectanceModel> models_;        // of the materials, as the next
+    bool has_panes_ = false;
+    std::vector<ReflectanceModel> models_;  // of the materials, as the next
     std::vector<std::optional<TexturedReflectance>> textured_models_;
     std::unique_ptr<RTCDeviceTy, DeviceDeleter> device_;
     std::unique_ptr<RTCSceneTy, SceneDeleter> embree_;

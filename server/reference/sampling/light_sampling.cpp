@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/sampling/pane_shares.h"
 #include "scene/light/environment.h"
 
 namespace raybundle {
@@ -90,9 +91,10 @@ LightSampling::LightSampling(const RayScene& scene)
     emitters_ = DiscreteDistribution(weights);
     sky_probability_ = sky_share(scene, total_power);
     choose_punctual_lights(total_power);
+    emitter_probability_ = 1.0 - punctual_probability_ - sky_probability_;
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-        density_per_area_[patches_[i]] = (1.0 - punctual_probability_ - sky_probability_) *
-                                         emitters_.probability(i) / scene.patch_area(patches_[i]);
+        density_per_area_[patches_[i]] =
+            emitter_probability_ * emitters_.probability(i) / scene.patch_area(patches_[i]);
     }
 }
 
@@ -235,8 +237,7 @@ EmittedParticle LightSampling::emit(double choice, const glm::dvec2& at,
     if (emitters_.empty() || others < sky_probability_) {
         return emit_from_sky(at, direction);
     }
-    const double rest =
-        (others - sky_probability_) / (1.0 - punctual_probability_ - sky_probability_);
+    const double rest = (others - sky_probability_) / emitter_probability_;
     const std::uint32_t patch = patches_[emitters_.sample(rest)];
     EmittedParticle particle;
     particle.emitter = scene_.point_on_patch(patch, uniform_triangle(at));
@@ -277,9 +278,12 @@ std::optional<LightSample> LightSampling::sample(const SurfacePoint& from, const
     }
     const double others = choice - punctual_probability_;
     if (others >= sky_probability_) {
-        return sample_emitter(
-            from, (others - sky_probability_) / (1.0 - punctual_probability_ - sky_probability_),
-            at);
+        std::optional<LightSample> light =
+            sample_emitter(from, (others - sky_probability_) / emitter_probability_, at);
+        if (light) {
+            light->density *= emitter_probability_;
+        }
+        return light;
     }
     LightSample light;
     const double way = others / sky_probability_;  // which of the two ways to draw it
@@ -319,8 +323,20 @@ std::optional<LightSample> LightSampling::sample_emitter(const SurfacePoint& fro
         return std::nullopt;
     }
     light.radiance = scene_.emission(*light.emitter);
-    light.density = density_per_area_[patch] * square / cosine;
+    light.density = density_per_area_[patch] * square / (cosine * emitter_probability_);
     return light;
+}
+
+double LightSampling::emitter_density(const SurfacePoint& from, const glm::dvec3& direction,
+                                      const SurfacePoint& emitter) const {
+    if (emitter.absorbs() || density_per_area_[emitter.patch] <= 0.0) {
+        return 0.0;
+    }
+    const glm::dvec3 offset = emitter.position - from.position;
+    const double cosine = -glm::dot(direction, emitter.normal);
+    return cosine > 0.0 ? density_per_area_[emitter.patch] * glm::dot(offset, offset) /
+                              (cosine * emitter_probability_)
+                        : 0.0;
 }
 
 bool LightSampling::arrives(const SurfacePoint& from, const LightSample& light) const {
@@ -331,18 +347,20 @@ bool LightSampling::arrives(const SurfacePoint& from, const LightSample& light) 
                          : scene_.sees_sky(from, light.direction);
 }
 
+glm::dvec3 LightSampling::arriving_share(const SurfacePoint& from, const LightSample& light) const {
+    if (light.punctual == LightSample::no_light) {
+        return glm::dvec3(arrives(from, light) ? 1.0 : 0.0);
+    }
+    const glm::dvec3 start(scene_.departure(from));
+    return light.origin ? share_through_panes(scene_, start, *light.origin)
+                        : share_through_panes_from_sky(scene_, start, light.direction);
+}
+
 double LightSampling::density(const SurfacePoint& from, const Frame& receiver,
                               const glm::dvec3& direction,
                               const std::optional<SurfacePoint>& hit) const {
-    if (!hit) {
-        return sky_density(receiver, direction);
-    }
-    if (hit->absorbs() || density_per_area_[hit->patch] <= 0.0) {
-        return 0.0;
-    }
-    const glm::dvec3 offset = hit->position - from.position;
-    const double cosine = -glm::dot(direction, hit->normal);
-    return cosine > 0.0 ? density_per_area_[hit->patch] * glm::dot(offset, offset) / cosine : 0.0;
+    return hit ? emitter_probability_ * emitter_density(from, direction, *hit)
+               : sky_density(receiver, direction);
 }
 
 }  // namespace raybundle

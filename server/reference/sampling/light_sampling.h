@@ -75,6 +75,16 @@ class LightSampling {
                                                     double choice, const glm::dvec2& at) const;
     /// Whether the sample's light arrives.
     [[nodiscard]] bool arrives(const SurfacePoint& from, const LightSample& light) const;
+    /// Share that arrives where thin panes let the light of punctual lights straight through.
+    [[nodiscard]] glm::dvec3 arriving_share(const SurfacePoint& from,
+                                            const LightSample& light) const;
+    /// For next-event estimation by emitters alone; `from`: any point, its position counts.
+    [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
+                                                            const glm::dvec2& at) const;
+    /// Of sample_emitter(), 1/sr, where it is not occluded.
+    [[nodiscard]] double emitter_density(const SurfacePoint& from, const glm::dvec3& direction,
+                                         const SurfacePoint& emitter) const;
+    [[nodiscard]] bool has_emitters() const { return !emitters_.empty(); }
     /// Density, 1/sr, with which sample() would have found the direction from a point to one that
     /// a ray has hit, or to the sky (hit is empty).
     [[nodiscard]] double density(const SurfacePoint& from, const Frame& receiver,
@@ -104,8 +114,6 @@ class LightSampling {
     void choose_punctual_lights(double emitted);
     [[nodiscard]] EmittedParticle emit_from_sky(const glm::dvec2& at,
                                                 const glm::dvec2& direction) const;
-    [[nodiscard]] std::optional<LightSample> sample_emitter(const SurfacePoint& from, double choice,
-                                                            const glm::dvec2& at) const;
     struct ChosenLight {
         std::size_t index;  ///< into punctual_
         double probability;
@@ -130,6 +138,7 @@ class LightSampling {
     std::vector<std::uint32_t> patches_;    // that emit
     DiscreteDistribution emitters_;         // over patches_
     std::vector<double> density_per_area_;  // of all patches, 1/area; 0: not chosen
+    double emitter_probability_ = 1.0;
     double sky_probability_ = 0.0;
     SkyDistribution sky_;
     std::vector<PlacedLight> punctual_;
