@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/interval.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace raybundle {
+namespace {
+
+/// P(-t < T < t); finite sums of Abramowitz, Stegun, 26.7.3 and 26.7.4.
+double two_sided(double t, std::size_t degrees) {
+    const double angle = std::atan(t / std::sqrt(static_cast<double>(degrees)));
+    const double square = std::cos(angle) * std::cos(angle);
+    const bool odd = degrees % 2 == 1;
+    double term = odd ? std::cos(angle) : 1.0;
+    double sum = odd && degrees == 1 ? 0.0 : term;
+    for (std::size_t k = odd ? 3 : 2; k + 1 < degrees; k += 2) {
+        term *= square * (static_cast<double>(k) - 1.0) / static_cast<double>(k);
+        sum += term;
+    }
+    return odd ? 2.0 / std::numbers::pi * (angle + std::sin(angle) * sum) : std::sin(angle) * sum;
+}
+
+}  // namespace
+
+double student_quantile(double probability, std::size_t degrees_of_freedom) {
+    const double wanted = 2.0 * probability - 1.0;
+    double low = 0.0;
+    double high = 1.0;
+    while (two_sided(high, degrees_of_freedom) < wanted && high < 1e6) {
+        low = high;
+        high *= 2.0;
+    }
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (two_sided(middle, degrees_of_freedom) < wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace raybundle

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/point_measurement.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "measure/solid_test.h"
+
+namespace raybundle {
+namespace {
+
+constexpr double outside = 0.025;  // of each end of an interval
+
+constexpr std::size_t degrees = PointMeasurement::batches - 1;
+
+Interval around(double value, double half) {
+    return {value, std::max(value - half, 0.0), value + half};
+}
+
+/// Of two intervals of numbers that are not negative.
+Interval ratio(const Interval& part, const Interval& whole) {
+    if (!(whole.value > 0.0)) {
+        return {0.0, 0.0, 1.0};
+    }
+    return {part.value / whole.value, whole.high > 0.0 ? part.low / whole.high : 0.0,
+            whole.low > 0.0 ? std::min(part.high / whole.low, 1.0) : 1.0};
+}
+
+}  // namespace
+
+PointMeasurement::PointMeasurement(std::shared_ptr<const MeasuredScene> scene,
+                                   std::vector<CalculationPoint> points,
+                                   const MeasurementSettings& settings)
+    : scene_(std::move(scene)),
+      points_(std::move(points)),
+      settings_(settings),
+      inside_(points_.size()),
+      fixed_(points_.size()),
+      sums_(points_.size() * batches) {
+    if (points_.empty() || points_.size() > most_points) {
+        throw std::invalid_argument("a measurement has 1 to 4096 points");
+    }
+    for (const CalculationPoint& point : points_) {
+        receivers_.emplace_back(settings.quantity, point.direction);
+        places_.push_back(scene_->rays.from_world(point.position));
+    }
+    const PointPaths paths(*scene_);
+    tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
+        inside_[i] = inside_solid(scene_->rays, places_[i]) ? 1 : 0;
+        fixed_[i] = inside_[i] != 0 ? 0.0 : paths.fixed(places_[i], receivers_[i]);
+    });
+    measured_ = static_cast<std::size_t>(std::count(inside_.begin(), inside_.end(), 0));
+}
+
+void PointMeasurement::add_samples(std::size_t count) {
+    const std::uint64_t first = steps_;
+    const std::size_t all = points_.size();
+    // Of one point at a time only one round runs, so that sums are added in order.
+    for (std::uint64_t begin = first; begin < first + count;) {
+        const std::uint64_t end = std::min(first + count, (begin / all + 1) * all);
+        tbb::parallel_for(begin, end,
+                          [&](std::uint64_t step) { add_sample(step % all, step / all); });
+        begin = end;
+    }
+    steps_ = first + count;
+}
+
+void PointMeasurement::add_sample(std::size_t point, std::uint64_t round) {
+    if (inside(point)) {
+        return;
+    }
+    const PointPaths paths(*scene_);
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        PixelSampler sampler(settings_.seed, static_cast<std::uint32_t>(point), batch,
+                             static_cast<std::uint32_t>(round));
+        const double value =
+            paths.sample(places_[point], receivers_[point], !settings_.direct, sampler);
+        sums_[point * batches + batch] += std::isfinite(value) ? value : 0.0;
+    }
+}
+
+double PointMeasurement::batch_mean(std::size_t point, std::uint32_t batch) const {
+    const auto count = static_cast<double>(std::max<std::uint64_t>(rounds_of(point), 1));
+    return settings_.factor * (fixed_[point] + sums_[point * batches + batch] / count);
+}
+
+PointMeasurement::Scatter PointMeasurement::scatter(std::size_t point) const {
+    double sum = 0.0;
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        sum += batch_mean(point, batch);
+    }
+    Scatter result{sum / batches, 0.0};
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        const double deviation = batch_mean(point, batch) - result.mean;
+        result.error += deviation * deviation;
+    }
+    result.error = std::sqrt(result.error / (double{batches} * degrees));
+    return result;
+}
+
+PointMeasurement::Scatter PointMeasurement::scatter_of_mean() const {
+    std::vector<double> means(batches, 0.0);
+    Scatter result;
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        for (std::size_t point = 0; point < points_.size(); ++point) {
+            means[batch] += inside(point) ? 0.0 : batch_mean(point, batch);
+        }
+        means[batch] /= static_cast<double>(measured_);
+        result.mean += means[batch] / batches;
+    }
+    for (const double mean : means) {
+        result.error += (mean - result.mean) * (mean - result.mean);
+    }
+    result.error = std::sqrt(result.error / (double{batches} * degrees));
+    return result;
+}
+
+Interval PointMeasurement::value(std::size_t point) const {
+    const Scatter found = scatter(point);
+    return around(found.mean, student_quantile(1.0 - outside, degrees) * found.error);
+}
+
+PointMeasurement::Extremes PointMeasurement::extremes(double beyond) const {
+    const double one = student_quantile(1.0 - beyond, degrees);
+    const double all = student_quantile(1.0 - beyond / static_cast<double>(measured_), degrees);
+    constexpr double most = std::numeric_limits<double>::max();
+    Extremes result{{}, {most, most, most}, {}};
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+        if (inside(point)) {
+            continue;
+        }
+        const Scatter found = scatter(point);
+        Interval& low = result.minimum;
+        low.value = std::min(low.value, found.mean);
+        low.low = std::min(low.low, std::max(found.mean - one * found.error, 0.0));
+        low.high = std::min(low.high, found.mean + all * found.error);
+        Interval& high = result.maximum;
+        high.value = std::max(high.value, found.mean);
+        high.low = std::max(high.low, found.mean - all * found.error);
+        high.high = std::max(high.high, found.mean + one * found.error);
+    }
+    const Scatter mean = scatter_of_mean();
+    result.mean = around(mean.mean, one * mean.error);
+    return result;
+}
+
+MeasurementSummary PointMeasurement::summary() const {
+    const Extremes single = extremes(outside);
+    const Extremes joint = extremes(0.5 * outside);
+    return {single.mean, single.minimum, single.maximum, ratio(joint.minimum, joint.mean),
+            ratio(joint.minimum, joint.maximum)};
+}
+
+double PointMeasurement::relative_error() const {
+    const double mean = rounds() < 2 || measured_ == 0 ? 0.0 : scatter_of_mean().mean;
+    if (!(mean > 0.0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double widest = 0.0;
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+        widest = inside(point) ? widest : std::max(widest, scatter(point).error);
+    }
+    return student_quantile(1.0 - outside, degrees) * widest / mean;
+}
+
+}  // namespace raybundle

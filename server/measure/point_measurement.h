@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "measure/interval.h"
+#include "measure/point_paths.h"
+
+namespace raybundle {
+
+struct CalculationPoint {
+    glm::dvec3 position{0.0};   ///< world space, m
+    glm::dvec3 direction{0.0};  ///< that it faces, where the quantity has one; any length but 0
+};
+
+struct MeasurementSettings {
+    Quantity quantity = Quantity::horizontal;
+    bool direct = false;  ///< without light that surfaces have reflected
+    double factor = 1.0;  ///< of all values, as a maintenance factor, or % per lx
+    std::uint64_t seed = 1;
+};
+
+/// What all points together say, with 95 % intervals.
+struct MeasurementSummary {
+    Interval mean;     ///< of the points
+    Interval minimum;  ///< of the points
+    Interval maximum;
+    Interval uniformity;  ///< Uo, minimum over mean
+    Interval diversity;   ///< Ud, minimum over maximum
+};
+
+/// Calculation points that gather light path by path. The samples of a point form independently
+/// randomised batches, each a low-discrepancy sequence of its own, whose scatter gives the
+/// intervals by Student's t. What comes out depends on the seed and the number of rounds alone.
+class PointMeasurement {
+  public:
+    static constexpr std::size_t most_points = 4096;
+    static constexpr std::uint32_t batches = 16;
+
+    /// Throws std::invalid_argument where there are no points or more than most_points.
+    PointMeasurement(std::shared_ptr<const MeasuredScene> scene,
+                     std::vector<CalculationPoint> points, const MeasurementSettings& settings);
+
+    /// One more sample of each batch for the next `count` points, on all threads: around the
+    /// points, so that each is at most a round ahead of the others.
+    void add_samples(std::size_t count);
+    /// For all points.
+    void add_round() { add_samples(points_.size()); }
+
+    /// Rounds that all points have.
+    [[nodiscard]] std::uint64_t rounds() const { return steps_ / points_.size(); }
+    [[nodiscard]] std::span<const CalculationPoint> points() const { return points_; }
+    /// Points that lie in a solid: nothing is measured there.
+    [[nodiscard]] bool inside(std::size_t point) const { return inside_[point]; }
+    [[nodiscard]] std::size_t measured() const { return measured_; }
+
+    /// At a point, 95 %; before the first round nothing is known.
+    [[nodiscard]] Interval value(std::size_t point) const;
+    /// Of all that are measured: there is one at least, and a round.
+    ///
+    /// The true minimum lies with 97.5 % above the smallest of the points' one-sided 97.5 % lower
+    /// bounds, since the bound of the darkest point holds so often. Below the smallest upper bound
+    /// it lies so often only where all of them hold, so each has 1 - 2.5 %/n (Bonferroni). The
+    /// maximum is alike. Ratios take the ends of both intervals, each with half of the 5 %.
+    [[nodiscard]] MeasurementSummary summary() const;
+    /// Half of the widest interval over the mean of all points; infinite before two rounds.
+    [[nodiscard]] double relative_error() const;
+
+  private:
+    /// Mean and standard error of numbers, one of each batch.
+    struct Scatter {
+        double mean = 0.0;
+        double error = 0.0;
+    };
+    struct Extremes {
+        Interval mean, minimum, maximum;
+    };
+    [[nodiscard]] Scatter scatter(std::size_t point) const;
+    /// beyond: probability with which the truth lies beyond each end.
+    [[nodiscard]] Extremes extremes(double beyond) const;
+    [[nodiscard]] Scatter scatter_of_mean() const;
+    [[nodiscard]] double batch_mean(std::size_t point, std::uint32_t batch) const;
+    [[nodiscard]] std::uint64_t rounds_of(std::size_t point) const {
+        return rounds() + (point < steps_ % points_.size() ? 1 : 0);
+    }
+    void add_sample(std::size_t point, std::uint64_t round);
+
+    std::shared_ptr<const MeasuredScene> scene_;
+    std::vector<CalculationPoint> points_;
+    MeasurementSettings settings_;
+    std::vector<Receiver> receivers_;
+    std::vector<glm::dvec3> places_;  // own space
+    std::vector<char> inside_;
+    std::vector<double> fixed_;  // lx, exact
+    std::vector<double> sums_;   // [point * batches + batch]
+    std::uint64_t steps_ = 0;    // rounds of single points
+    std::size_t measured_ = 0;
+};
+
+}  // namespace raybundle

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "measure/receiver.h"
+#include "reference/path_tracer.h"
+#include "reference/ray_scene.h"
+#include "reference/sampling/light_sampling.h"
+
+namespace raybundle {
+
+/// A scene as calculation points see it; scene and mesh must outlive it.
+struct MeasuredScene {
+    MeasuredScene(const Scene& scene, const PatchMesh& mesh);
+
+    RayScene rays;
+    LightSampling lights;
+    PathTracer paths;
+    std::vector<PlacedLight> punctual;
+};
+
+/// Light that arrives at points in space, by independent paths. A sample is one path in a direction
+/// drawn in proportion to the receiver's weight, and some points of emitters; what both find is
+/// weighted by the power heuristic. Punctual lights are taken all, once for each point, those with
+/// a disc at another point of it for each sample. Values are luminances, lx.
+///
+/// Emission that comes straight, through glass or by ideal mirrors is direct light. Light of
+/// punctual lights comes through thin panes, not by way of bodies of glass or of mirrors.
+class PointPaths {
+  public:
+    explicit PointPaths(const MeasuredScene& scene) : scene_(scene) {}
+
+    /// What lights without extent bring without any reflection: exact. position: own space of the
+    /// ray scene.
+    [[nodiscard]] double fixed(const glm::dvec3& position, const Receiver& receiver) const;
+    /// Unbiased estimate of the rest. reflected: include light that surfaces have reflected.
+    [[nodiscard]] double sample(const glm::dvec3& position, const Receiver& receiver,
+                                bool reflected, Sampler& sampler) const;
+
+  private:
+    [[nodiscard]] double discs(const glm::dvec3& position, const Receiver& receiver,
+                               Sampler& sampler) const;
+    [[nodiscard]] double emitters(const SurfacePoint& at, const Receiver& receiver,
+                                  Sampler& sampler) const;
+    [[nodiscard]] double along_path(const SurfacePoint& at, const Receiver& receiver,
+                                    bool reflected, Sampler& sampler) const;
+
+    const MeasuredScene& scene_;
+};
+
+}  // namespace raybundle
