@@ -55,6 +55,8 @@ int run(const Options& options, const CLI::App& app) {
             return raybundle::run_inspect(options);
         case Options::Command::bench:
             return raybundle::run_bench(options);
+        case Options::Command::measure:
+            return raybundle::run_measure(options);
         case Options::Command::selftest:
             return raybundle::run_selftest(options);
         case Options::Command::token:

@@ -18,6 +18,7 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
 int run_accuracy(const Options& options);
 int run_inspect(const Options& options);
 int run_bench(const Options& options);
+int run_measure(const Options& options);
 int run_selftest(const Options& options);
 int run_token(const Options& options);
 

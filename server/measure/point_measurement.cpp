@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +22,21 @@ constexpr std::size_t degrees = PointMeasurement::batches - 1;
 
 Interval around(double value, double half) {
     return {value, std::max(value - half, 0.0), value + half};
+}
+
+using BatchNumbers = std::array<double, PointMeasurement::batches>;
+
+double mean_of(const BatchNumbers& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), 0.0) / PointMeasurement::batches;
+}
+
+double variance_of_mean(const BatchNumbers& numbers) {
+    const double mean = mean_of(numbers);
+    double sum = 0.0;
+    for (const double number : numbers) {
+        sum += (number - mean) * (number - mean);
+    }
+    return sum / (double{PointMeasurement::batches} * degrees);
 }
 
 /// Of two intervals of numbers that are not negative.
@@ -78,51 +95,71 @@ void PointMeasurement::add_sample(std::size_t point, std::uint64_t round) {
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         PixelSampler sampler(settings_.seed, static_cast<std::uint32_t>(point), batch,
                              static_cast<std::uint32_t>(round));
-        const double value =
+        const ArrivedLight light =
             paths.sample(places_[point], receivers_[point], !settings_.direct, sampler);
-        sums_[point * batches + batch] += std::isfinite(value) ? value : 0.0;
+        if (std::isfinite(light.direct) && std::isfinite(light.reflected)) {
+            ArrivedLight& sum = sums_[point * batches + batch];
+            sum.direct += light.direct;
+            sum.reflected += light.reflected;
+        }
     }
 }
 
-double PointMeasurement::batch_mean(std::size_t point, std::uint32_t batch) const {
-    const auto count = static_cast<double>(std::max<std::uint64_t>(rounds_of(point), 1));
-    return settings_.factor * (fixed_[point] + sums_[point * batches + batch] / count);
+ArrivedLight PointMeasurement::batch_mean(std::size_t point, std::uint32_t batch) const {
+    const double share =
+        settings_.factor / static_cast<double>(std::max<std::uint64_t>(rounds_of(point), 1));
+    const ArrivedLight& sum = sums_[point * batches + batch];
+    return {settings_.factor * fixed_[point] + share * sum.direct, share * sum.reflected};
 }
 
 PointMeasurement::Scatter PointMeasurement::scatter(std::size_t point) const {
-    double sum = 0.0;
+    std::array<double, batches> direct{};
+    std::array<double, batches> reflected{};
+    std::array<double, batches> all{};
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
-        sum += batch_mean(point, batch);
+        const ArrivedLight light = batch_mean(point, batch);
+        direct[batch] = light.direct;
+        reflected[batch] = light.reflected;
+        all[batch] = light.direct + light.reflected;
     }
-    Scatter result{sum / batches, 0.0};
-    for (std::uint32_t batch = 0; batch < batches; ++batch) {
-        const double deviation = batch_mean(point, batch) - result.mean;
-        result.error += deviation * deviation;
+    return {mean_of(all), variance_of_mean(all), variance_of_mean(direct),
+            variance_of_mean(reflected)};
+}
+
+/// Where reflected light has less variance than that of all points it gets theirs.
+std::vector<PointMeasurement::Scatter> PointMeasurement::scatters() const {
+    std::vector<Scatter> result(points_.size());
+    double common = 0.0;
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+        if (!inside(point)) {
+            result[point] = scatter(point);
+            common += result[point].reflected / static_cast<double>(measured_);
+        }
     }
-    result.error = std::sqrt(result.error / (double{batches} * degrees));
+    for (Scatter& found : result) {
+        found.variance = std::max(found.variance, found.direct + common);
+    }
     return result;
 }
 
 PointMeasurement::Scatter PointMeasurement::scatter_of_mean() const {
-    std::vector<double> means(batches, 0.0);
-    Scatter result;
+    std::array<double, batches> means{};
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         for (std::size_t point = 0; point < points_.size(); ++point) {
-            means[batch] += inside(point) ? 0.0 : batch_mean(point, batch);
+            const ArrivedLight light = inside(point) ? ArrivedLight{} : batch_mean(point, batch);
+            means[batch] += (light.direct + light.reflected) / static_cast<double>(measured_);
         }
-        means[batch] /= static_cast<double>(measured_);
-        result.mean += means[batch] / batches;
     }
-    for (const double mean : means) {
-        result.error += (mean - result.mean) * (mean - result.mean);
-    }
-    result.error = std::sqrt(result.error / (double{batches} * degrees));
-    return result;
+    return {mean_of(means), variance_of_mean(means), 0.0, 0.0};
 }
 
-Interval PointMeasurement::value(std::size_t point) const {
-    const Scatter found = scatter(point);
-    return around(found.mean, student_quantile(1.0 - outside, degrees) * found.error);
+std::vector<Interval> PointMeasurement::values() const {
+    const double quantile = student_quantile(1.0 - outside, degrees);
+    std::vector<Interval> result;
+    for (const Scatter& found : scatters()) {
+        result.push_back(around(found.mean, quantile * found.error()));
+    }
+    return result;
 }
 
 PointMeasurement::Extremes PointMeasurement::extremes(double beyond) const {
@@ -130,22 +167,23 @@ PointMeasurement::Extremes PointMeasurement::extremes(double beyond) const {
     const double all = student_quantile(1.0 - beyond / static_cast<double>(measured_), degrees);
     constexpr double most = std::numeric_limits<double>::max();
     Extremes result{{}, {most, most, most}, {}};
+    const std::vector<Scatter> all_points = scatters();
     for (std::size_t point = 0; point < points_.size(); ++point) {
         if (inside(point)) {
             continue;
         }
-        const Scatter found = scatter(point);
+        const Scatter& found = all_points[point];
         Interval& low = result.minimum;
         low.value = std::min(low.value, found.mean);
-        low.low = std::min(low.low, std::max(found.mean - one * found.error, 0.0));
-        low.high = std::min(low.high, found.mean + all * found.error);
+        low.low = std::min(low.low, std::max(found.mean - one * found.error(), 0.0));
+        low.high = std::min(low.high, found.mean + all * found.error());
         Interval& high = result.maximum;
         high.value = std::max(high.value, found.mean);
-        high.low = std::max(high.low, found.mean - all * found.error);
-        high.high = std::max(high.high, found.mean + one * found.error);
+        high.low = std::max(high.low, found.mean - all * found.error());
+        high.high = std::max(high.high, found.mean + one * found.error());
     }
     const Scatter mean = scatter_of_mean();
-    result.mean = around(mean.mean, one * mean.error);
+    result.mean = around(mean.mean, one * mean.error());
     return result;
 }
 
@@ -157,13 +195,14 @@ MeasurementSummary PointMeasurement::summary() const {
 }
 
 double PointMeasurement::relative_error() const {
-    const double mean = rounds() < 2 || measured_ == 0 ? 0.0 : scatter_of_mean().mean;
+    const double mean = rounds() < least_rounds || measured_ == 0 ? 0.0 : scatter_of_mean().mean;
     if (!(mean > 0.0)) {
         return std::numeric_limits<double>::infinity();
     }
     double widest = 0.0;
+    const std::vector<Scatter> all_points = scatters();
     for (std::size_t point = 0; point < points_.size(); ++point) {
-        widest = inside(point) ? widest : std::max(widest, scatter(point).error);
+        widest = inside(point) ? widest : std::max(widest, all_points[point].error());
     }
     return student_quantile(1.0 - outside, degrees) * widest / mean;
 }

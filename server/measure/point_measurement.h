@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -36,10 +37,16 @@ struct MeasurementSummary {
 /// Calculation points that gather light path by path. The samples of a point form independently
 /// randomised batches, each a low-discrepancy sequence of its own, whose scatter gives the
 /// intervals by Student's t. What comes out depends on the seed and the number of rounds alone.
+///
+/// Few paths have not met yet what is rare, the inside of a lamp's shade, and a point that has not
+/// scatters little. Reflected light is smooth in the air, and its noise alike at all points of an
+/// area: no point's is taken to be less than the mean of all.
 class PointMeasurement {
   public:
     static constexpr std::size_t most_points = 4096;
     static constexpr std::uint32_t batches = 16;
+    /// Before so many, intervals may be too narrow: what 128 paths have not met is not in them.
+    static constexpr std::uint64_t least_rounds = 8;
 
     /// Throws std::invalid_argument where there are no points or more than most_points.
     PointMeasurement(std::shared_ptr<const MeasuredScene> scene,
@@ -58,8 +65,8 @@ class PointMeasurement {
     [[nodiscard]] bool inside(std::size_t point) const { return inside_[point]; }
     [[nodiscard]] std::size_t measured() const { return measured_; }
 
-    /// At a point, 95 %; before the first round nothing is known.
-    [[nodiscard]] Interval value(std::size_t point) const;
+    /// At each point, 95 %; before the first round nothing is known, nor inside solids.
+    [[nodiscard]] std::vector<Interval> values() const;
     /// Of all that are measured: there is one at least, and a round.
     ///
     /// The true minimum lies with 97.5 % above the smallest of the points' one-sided 97.5 % lower
@@ -67,23 +74,27 @@ class PointMeasurement {
     /// it lies so often only where all of them hold, so each has 1 - 2.5 %/n (Bonferroni). The
     /// maximum is alike. Ratios take the ends of both intervals, each with half of the 5 %.
     [[nodiscard]] MeasurementSummary summary() const;
-    /// Half of the widest interval over the mean of all points; infinite before two rounds.
+    /// Half of the widest interval over the mean of all points; infinite before least_rounds.
     [[nodiscard]] double relative_error() const;
 
   private:
-    /// Mean and standard error of numbers, one of each batch.
+    /// Mean of the batches and its variances.
     struct Scatter {
         double mean = 0.0;
-        double error = 0.0;
+        double variance = 0.0;
+        double direct = 0.0, reflected = 0.0;  ///< of the two parts
+
+        [[nodiscard]] double error() const { return std::sqrt(variance); }
     };
     struct Extremes {
         Interval mean, minimum, maximum;
     };
     [[nodiscard]] Scatter scatter(std::size_t point) const;
+    [[nodiscard]] std::vector<Scatter> scatters() const;
     /// beyond: probability with which the truth lies beyond each end.
     [[nodiscard]] Extremes extremes(double beyond) const;
     [[nodiscard]] Scatter scatter_of_mean() const;
-    [[nodiscard]] double batch_mean(std::size_t point, std::uint32_t batch) const;
+    [[nodiscard]] ArrivedLight batch_mean(std::size_t point, std::uint32_t batch) const;
     [[nodiscard]] std::uint64_t rounds_of(std::size_t point) const {
         return rounds() + (point < steps_ % points_.size() ? 1 : 0);
     }
@@ -95,9 +106,9 @@ class PointMeasurement {
     std::vector<Receiver> receivers_;
     std::vector<glm::dvec3> places_;  // own space
     std::vector<char> inside_;
-    std::vector<double> fixed_;  // lx, exact
-    std::vector<double> sums_;   // [point * batches + batch]
-    std::uint64_t steps_ = 0;    // rounds of single points
+    std::vector<double> fixed_;       // lx, exact
+    std::vector<ArrivedLight> sums_;  // [point * batches + batch]
+    std::uint64_t steps_ = 0;         // rounds of single points
     std::size_t measured_ = 0;
 };
 

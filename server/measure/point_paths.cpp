@@ -83,12 +83,14 @@ double PointPaths::fixed(const glm::dvec3& position, const Receiver& receiver) c
     return sum;
 }
 
-double PointPaths::sample(const glm::dvec3& position, const Receiver& receiver, bool reflected,
-                          Sampler& sampler) const {
+ArrivedLight PointPaths::sample(const glm::dvec3& position, const Receiver& receiver,
+                                bool reflected, Sampler& sampler) const {
     SurfacePoint at;
     at.position = position;
-    return discs(position, receiver, sampler) + emitters(at, receiver, sampler) +
-           along_path(at, receiver, reflected, sampler);
+    const double sampled = discs(position, receiver, sampler) + emitters(at, receiver, sampler);
+    ArrivedLight light = along_path(at, receiver, reflected, sampler);
+    light.direct += sampled;
+    return light;
 }
 
 double PointPaths::discs(const glm::dvec3& position, const Receiver& receiver,
@@ -130,26 +132,26 @@ double PointPaths::emitters(const SurfacePoint& at, const Receiver& receiver,
     return sum;
 }
 
-double PointPaths::along_path(const SurfacePoint& at, const Receiver& receiver, bool reflected,
-                              Sampler& sampler) const {
+ArrivedLight PointPaths::along_path(const SurfacePoint& at, const Receiver& receiver,
+                                    bool reflected, Sampler& sampler) const {
     const glm::dvec3 direction = receiver.sample(sampler);
     const SpecularWalk met = walk_specular(scene_.rays, scene_.rays.trace(at.position, direction),
                                            direction, Carried::radiance, sampler);
-    double sum = 0.0;
+    ArrivedLight light;
     const glm::dvec3 emission =
         met.hit ? scene_.rays.emission(*met.hit) : sky_towards(scene_.rays.scene(), met.direction);
     if (emission != glm::dvec3(0.0)) {
         const double other =
             met.hit && !met.passed ? scene_.lights.emitter_density(at, direction, *met.hit) : 0.0;
-        sum += luminance_of(met.weight * emission) *
-               power_heuristic(receiver.weight(direction) / pi, emitter_samples * other);
+        light.direct = pi * luminance_of(met.weight * emission) *
+                       power_heuristic(receiver.weight(direction) / pi, emitter_samples * other);
     }
     if (reflected) {
         if (const auto end = scene_.paths.end_of(met, sampler)) {
-            sum += luminance_of(scene_.paths.reflected(*end, sampler));
+            light.reflected = pi * luminance_of(scene_.paths.reflected(*end, sampler));
         }
     }
-    return pi * sum;
+    return light;
 }
 
 }  // namespace raybundle

@@ -21,6 +21,12 @@ struct MeasuredScene {
     std::vector<PlacedLight> punctual;
 };
 
+/// Light that arrives at a point, lx.
+struct ArrivedLight {
+    double direct = 0.0;
+    double reflected = 0.0;  ///< by surfaces
+};
+
 /// Light that arrives at points in space, by independent paths. A sample is one path in a direction
 /// drawn in proportion to the receiver's weight, and some points of emitters; what both find is
 /// weighted by the power heuristic. Punctual lights are taken all, once for each point, those with
@@ -36,16 +42,16 @@ class PointPaths {
     /// ray scene.
     [[nodiscard]] double fixed(const glm::dvec3& position, const Receiver& receiver) const;
     /// Unbiased estimate of the rest. reflected: include light that surfaces have reflected.
-    [[nodiscard]] double sample(const glm::dvec3& position, const Receiver& receiver,
-                                bool reflected, Sampler& sampler) const;
+    [[nodiscard]] ArrivedLight sample(const glm::dvec3& position, const Receiver& receiver,
+                                      bool reflected, Sampler& sampler) const;
 
   private:
     [[nodiscard]] double discs(const glm::dvec3& position, const Receiver& receiver,
                                Sampler& sampler) const;
     [[nodiscard]] double emitters(const SurfacePoint& at, const Receiver& receiver,
                                   Sampler& sampler) const;
-    [[nodiscard]] double along_path(const SurfacePoint& at, const Receiver& receiver,
-                                    bool reflected, Sampler& sampler) const;
+    [[nodiscard]] ArrivedLight along_path(const SurfacePoint& at, const Receiver& receiver,
+                                          bool reflected, Sampler& sampler) const;
 
     const MeasuredScene& scene_;
 };

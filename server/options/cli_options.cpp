@@ -29,6 +29,8 @@ constexpr CommandRow command_table[] = {
     {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
      true},
     {"bench", "Measure speed on this machine", Options::Command::bench, false},
+    {"measure", "Measure light at points in the air: illuminance, daylight factor",
+     Options::Command::measure, true},
     {"selftest", "Compare with closed forms on this machine", Options::Command::selftest, false},
     {"token", "Make an access token for serve", Options::Command::token, false},
 };
@@ -239,6 +241,40 @@ void add_accuracy(CLI::App& app, Options& o) {
         ->check(positive());
 }
 
+void add_measure(CLI::App& app, Options& o) {
+    MeasureOptions& m = o.measure;
+    app.add_option("--plane", m.plane,
+                   "Area to measure on: a corner and its two edges, each x,y,z in metres")
+        ->expected(3);
+    app.add_option("--point", m.points, "A point instead, x,y,z in metres; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--quantity", m.quantity,
+                   "HORIZONTAL, VERTICAL, NORMAL, CYLINDRICAL, SEMICYLINDRICAL (lx) or "
+                   "DAYLIGHT_FACTOR (%)")
+        ->capture_default_str();
+    app.add_option("--direction", m.direction,
+                   "That the points face, x,y,z: of VERTICAL, NORMAL and SEMICYLINDRICAL");
+    app.add_option("--grid", m.grid, "Points of the plane: EN12464, or COLUMNSxROWS")
+        ->capture_default_str();
+    app.add_option("--margin", m.margin, "Strip along the plane's edges without points, metres")
+        ->check(number_that([](double value) { return value >= 0.0 && value <= 1e6; },
+                            "a length of 0 to 1e6 m"));
+    app.add_flag("--direct", m.direct, "Without light that surfaces have reflected");
+    app.add_option("--maintenance", m.maintenance,
+                   "Maintenance factor of all values (default: 1, initial values)")
+        ->check(number_that([](double value) { return value > 0.0 && value <= 1.0; },
+                            "a factor above 0 and at most 1"));
+    app.add_option("--error", o.stop.error,
+                   "Stop when each 95 % interval is this share of the mean wide to each side "
+                   "(default: 0.05)")
+        ->check(relative_error());
+    app.add_option("--seconds", o.stop.seconds, "At most so long (default: 60)")->check(positive());
+    app.add_option("--require", m.require,
+                   "Required mean, or mean/uniformity as 500/0.6; exit status 5 where it is not "
+                   "met, 6 where that is not known after --seconds");
+    app.add_flag("--json", m.json_to_stdout, "Print JSON");
+}
+
 float parse_float(const std::string& option, const std::string& text) {
     float value = 0.0F;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -279,6 +315,8 @@ void define_options(CLI::App& app, Options& options) {
             add_render(*command, options);
         } else if (row.command == Options::Command::accuracy) {
             add_accuracy(*command, options);
+        } else if (row.command == Options::Command::measure) {
+            add_measure(*command, options);
         } else if (row.command == Options::Command::inspect) {
             command->add_flag("--json", options.inspect.json_to_stdout, "Print JSON");
             command->add_flag("--costs", options.inspect.costs,

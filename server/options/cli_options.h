@@ -28,6 +28,8 @@ enum ExitStatus : int {
     exit_usage = 2,
     exit_scene_rejected = 3,
     exit_no_gpu = 4,
+    exit_requirement_missed = 5,   ///< measure --require: some true value is too low
+    exit_requirement_unknown = 6,  ///< an interval holds the required value
 };
 
 /// A command line that cannot be understood. Exit status 2.
@@ -154,9 +156,22 @@ struct InspectOptions {
     std::string effect;
 };
 
+struct MeasureOptions {
+    std::vector<std::string> plane;  ///< corner and two edges, each x,y,z in metres
+    std::vector<std::string> points;
+    std::string quantity = "HORIZONTAL";
+    std::string direction;
+    std::string grid = "EN12464";
+    double margin = 0.0;  ///< m
+    bool direct = false;
+    std::optional<double> maintenance;
+    std::string require;  ///< Em or Em/Uo
+    bool json_to_stdout = false;
+};
+
 /// Everything the command line can say.
 struct Options {
-    enum class Command { none, serve, render, accuracy, inspect, bench, selftest, token };
+    enum class Command { none, serve, render, accuracy, inspect, bench, measure, selftest, token };
     Command command = Command::none;
 
     // All commands but token.
@@ -171,11 +186,12 @@ struct Options {
     ServeOptions serve;
 
     CameraOptions camera;  // render, accuracy
-    StopOptions stop;      // render, accuracy, inspect, bench
+    StopOptions stop;      // render, accuracy, inspect, bench, measure
     OutputOptions output;  // render, accuracy, bench, selftest
     RenderOptions render;
     AccuracyOptions accuracy;
     InspectOptions inspect;
+    MeasureOptions measure;
     TokenOptions token;
 };
 

@@ -46,7 +46,7 @@ Measured measure_at(const SceneBuilder& builder, Quantity quantity, const glm::d
     for (int i = 0; i < rounds; ++i) {
         points.add_round();
     }
-    const Interval found = points.value(0);
+    const Interval found = points.values()[0];
     return {found.value,
             (found.high - found.value) / student_quantile(0.975, PointMeasurement::batches - 1)};
 }
@@ -182,8 +182,8 @@ TEST(MeasuredPoints, OpenOvercastSkyHasADaylightFactorOfHundred) {
     for (int i = 0; i < 200; ++i) {
         points.add_round();
     }
-    EXPECT_NEAR(points.value(0).value, 100.0, 0.1);
-    EXPECT_LT(points.value(0).low, points.value(0).value);
+    EXPECT_NEAR(points.values()[0].value, 100.0, 0.1);
+    EXPECT_LT(points.values()[0].low, points.values()[0].value);
     const double zenith = overcast_illuminance * 9.0 / (7.0 * pi);
     const double ground = 0.2 * overcast_illuminance / pi;
     SceneBuilder open;
@@ -227,7 +227,7 @@ TEST(MeasuredPoints, APointInASolidIsNotMeasured) {
     EXPECT_FALSE(points.inside(1));
     EXPECT_EQ(points.measured(), 1U);
     points.add_round();
-    EXPECT_EQ(points.value(0).value, 0.0);
+    EXPECT_EQ(points.values()[0].value, 0.0);
     EXPECT_GT(points.summary().minimum.value, 0.0);
     EXPECT_EQ(points.summary().uniformity.value, 1.0);
 }
@@ -249,8 +249,8 @@ TEST(MeasuredPoints, SlicesDoNotMatter) {
         sliced.add_samples(3);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
-        EXPECT_EQ(whole.value(i).value, sliced.value(i).value);
-        EXPECT_EQ(whole.value(i).high, sliced.value(i).high);
+        EXPECT_EQ(whole.values()[i].value, sliced.values()[i].value);
+        EXPECT_EQ(whole.values()[i].high, sliced.values()[i].high);
     }
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// `raybundle measure`, on a machine made to have no OpenGL.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+struct Outcome {
+    int status = -1;
+    std::string text;
+};
+
+Outcome measure(const std::string& arguments) {
+    const std::string command =
+        "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent "
+        "RAYBUNDLE_TEST_CLOCK_MS=20 " RAYBUNDLE_EXECUTABLE
+        " measure --log-level off " RAYBUNDLE_SCENES "/cornell_box.gltf " +
+        arguments + " 2>&1";
+    Outcome outcome;
+    FILE* const pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> part;
+    for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) {
+        outcome.text.append(part.data(), n);
+    }
+    const int status = pclose(pipe);
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+const std::string plane = "--plane 0.5,0.75,0.5 4.5,0,0 0,0,4.5 ";
+
+TEST(MeasureCommand, PrintsEachPointAndAllTogether) {
+    const Outcome found = measure(plane + "--json --error 0.05");
+    ASSERT_EQ(found.status, 0) << found.text;
+    const auto json = nlohmann::json::parse(found.text);
+    EXPECT_EQ(json["columns"], 8);
+    EXPECT_EQ(json["rows"], 8);
+    ASSERT_EQ(json["points"].size(), 64U);
+    EXPECT_GT(json["inside"], 5);
+    EXPECT_LE(json["relativeError"], 0.05);
+    EXPECT_LT(json["mean"]["low"], json["mean"]["value"]);
+    EXPECT_LE(json["minimum"]["low"], json["minimum"]["value"]);
+    const Outcome again = measure(plane + "--json --error 0.05");
+    const auto second = nlohmann::json::parse(again.text);
+    EXPECT_EQ(json["points"], second["points"]);  // the same seed, the same bits
+}
+
+TEST(MeasureCommand, TheTableNamesItsRule) {
+    const Outcome found = measure(plane + "--grid 3x2 --quantity cylindrical --error 0.2");
+    EXPECT_EQ(found.status, 0);
+    EXPECT_NE(found.text.find("CYLINDRICAL, lx"), std::string::npos);
+    EXPECT_NE(found.text.find("Uo"), std::string::npos);
+    EXPECT_EQ(found.text.find("EN 12464"), std::string::npos);
+    EXPECT_NE(measure(plane + "--error 0.2").text.find("EN 12464-1: 8 x 8"), std::string::npos);
+}
+
+TEST(MeasureCommand, ItsStatusSaysWhetherTheRequirementIsMet) {
+    EXPECT_EQ(measure(plane + "--require 20").status, 0);
+    EXPECT_EQ(measure(plane + "--require 500").status, 5);
+    EXPECT_EQ(measure(plane + "--require 20/0.9").status, 5);
+    // Nobody will know in so short a time.
+    EXPECT_EQ(
+        measure("--point 1,4,1 --seconds 0.1 --require " +
+                nlohmann::json::parse(measure("--point 1,4,1 --json").text)["mean"]["value"].dump())
+            .status,
+        6);
+}
+
+TEST(MeasureCommand, RefusesWhatSaysNothing) {
+    EXPECT_EQ(measure("").status, 2);
+    EXPECT_EQ(measure("--plane 0,0,0 1,0,0 2,0,0").status, 2);
+    EXPECT_EQ(measure("--plane 0,0,0 1,0,0 0,0,1 --grid 100x100").status, 2);
+    EXPECT_EQ(measure("--plane 0,0,0 1,0,0 0,0,1 --grid 0x1").status, 2);
+    EXPECT_EQ(measure("--plane 0,0,0 1,0,0 0,0,1 --margin 0.5").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --quantity vertical").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --quantity vertical --direction 0,1,0").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --quantity lumen").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --require 100/2").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --require x").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --maintenance 1.1").status, 2);
+}
+
+/// A closed box without a window.
+TEST(MeasureCommand, TheDaylightFactorLeavesLampsOut) {
+    const Outcome found =
+        measure("--point 2.75,1,1.5 --point 0.3,5,0.3 --quantity daylight_factor --json");
+    ASSERT_EQ(found.status, 0) << found.text;
+    const auto json = nlohmann::json::parse(found.text);
+    EXPECT_EQ(json["unit"], "%");
+    EXPECT_LT(json["maximum"]["value"], 100.0);
+}
+
+}  // namespace
