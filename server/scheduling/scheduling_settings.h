@@ -94,8 +94,10 @@ struct GreetingSettings {
 
 /// Threads beside the render thread rest so many times as long as they have worked.
 struct RestSettings {
-    double error_check = 5.0;  ///< a sixth of one core
-    double walk_map = 1.0;     ///< half of one core
+    double error_check = 5.0;   ///< a sixth of one core
+    double walk_map = 1.0;      ///< half of one core
+    double first_points = 0.0;  ///< of measurements without values yet: none
+    double points = 5.0;        ///< of measurements that become better: a sixth of one core
 };
 
 /// Between two messages of a kind to everybody.

@@ -38,6 +38,8 @@ constexpr MessageHandler handlers[] = {
 
     {Body::kProbe, call<&S::probes, &ProbeService::probe>},
     {Body::kProbeGrid, call<&S::probes, &ProbeService::probe_grid>},
+    {Body::kMeasure, call<&S::measurements, &MeasureService::measure>},
+    {Body::kRemoveMeasurement, call<&S::measurements, &MeasureService::remove>},
 
     {Body::kSnapshot, call<&S::snapshots, &SnapshotService::add>},
     {Body::kCancelSnapshot, call<&S::snapshots, &SnapshotService::cancel>},

@@ -52,6 +52,7 @@ bool RenderLoop::turn() {
     send_solutions();
     services_.presence.send();
     services_.errors.check_pictures();
+    services_.measurements.step();
     const bool smoothed = services_.frames.smooth();
     const bool solved = services_.solver.step();
     return sent || smoothed || solved;

@@ -19,6 +19,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
       views({s.live, presence, s.policy, s.server}),
       admission({s.viewers, s.policy, s.server, settings.software_rendering}),
       probes({s.live, s.pictures, s.server}),
+      measurements({s.live, s.policy, s.server}),
       review({s.live, s.viewers, s.pictures, s.demand, s.policy, s.server}),
       scenes({s.live, s.server, settings.scene_requests, settings.effect_requests}),
       arrivals({s.live,
@@ -38,6 +39,7 @@ void SessionServices::forget(SessionState& state, ViewerId viewer) {
     frames.forget(viewer);
     state.policy.forget(viewer);
     snapshots.forget(viewer);
+    measurements.forget(viewer);
     state.pictures.forget(state.viewers.at(viewer));
     state.viewers.erase(viewer);
     presence.forget(viewer);

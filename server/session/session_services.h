@@ -4,6 +4,7 @@
 #include "session/changes/change_coordinator.h"
 #include "session/changes/lighting_service.h"
 #include "session/measure/error_service.h"
+#include "session/measure/measure_service.h"
 #include "session/measure/probe_service.h"
 #include "session/render_loop_settings.h"
 #include "session/review/review_service.h"
@@ -40,6 +41,7 @@ struct SessionServices {
     ViewService views;
     ViewerAdmission admission;
     ProbeService probes;
+    MeasureService measurements;
     ReviewService review;
     SceneService scenes;
     ArrivalService arrivals;

@@ -209,6 +209,29 @@ TEST(MessageValidation, Requests) {
          Case{
              R"({"probeGrid":{"origin":{},"stepX":{"x":1},"stepY":{"z":1},"columns":33,"rows":32}})",
              "probeGrid.columns"},
+         Case{R"({"measure":{"points":[{"position":{}}]}})", "measure.quantity"},
+         Case{R"({"measure":{"quantity":"HORIZONTAL"}})", "measure.area"},
+         Case{R"({"measure":{"quantity":"HORIZONTAL","points":[{}]}})", "measure.points.position"},
+         Case{R"({"measure":{"quantity":"VERTICAL","points":[{"position":{}}]}})",
+              "measure.points.normal"},
+         Case{
+             R"({"measure":{"quantity":"VERTICAL","direction":{"y":1},"points":[{"position":{}}]}})",
+             "measure.direction"},
+         Case{R"({"measure":{"quantity":"NORMAL","points":[{"position":{},"normal":{"x":1e12}}]}})",
+              "measure.points.normal.x"},
+         Case{
+             R"({"measure":{"quantity":"HORIZONTAL","columns":1,"rows":1,"area":{"origin":{},"u":{"x":1},"v":{"x":2}}}})",
+             "measure.area.v"},
+         Case{
+             R"({"measure":{"quantity":"HORIZONTAL","columns":65,"rows":64,"area":{"origin":{},"u":{"x":1},"v":{"z":2}}}})",
+             "measure.columns"},
+         Case{
+             R"({"measure":{"quantity":"HORIZONTAL","grid":"EN12464","margin":0.5,"area":{"origin":{},"u":{"x":1},"v":{"z":2}}}})",
+             "measure.margin"},
+         Case{
+             R"({"measure":{"quantity":"HORIZONTAL","relativeError":0,"points":[{"position":{}}]}})",
+             "measure.relativeError"},
+         Case{R"({"removeMeasurement":{}})", "removeMeasurement.measurement"},
          Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1}})", "snapshot.format"},
          Case{R"({"hello":{}})", "hello.protocol"}}) {
         expect_case(c.text, c.field);

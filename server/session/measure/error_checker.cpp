@@ -4,10 +4,10 @@
 #include <spdlog/spdlog.h>
 #include <tbb/task_arena.h>
 
-#include <ctime>
 #include <exception>
 #include <utility>
 
+#include "session/measure/thread_time.h"
 #include "view/error/measured_error.h"
 
 namespace raybundle {
@@ -17,14 +17,6 @@ namespace {
 constexpr std::chrono::milliseconds longest_work(150);  // CPU time on one picture, at a time
 constexpr std::size_t max_begun = 8;
 constexpr std::uint64_t seed = 0x73706f7463686563ULL;
-
-/// CPU time of this thread so far. By the machine's clock a busy machine would leave each look no
-/// time for more than a few paths, and the next comes when there are a quarter more samples.
-std::chrono::nanoseconds thread_time() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 }  // namespace
 
