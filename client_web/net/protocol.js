@@ -250,6 +250,44 @@ export const SUBPROTOCOL = 'raybundle.v1';
 /** @typedef {{illuminance: number[], relativeError: number[], epoch: number}} ProbeGridResult */
 
 /**
+ * @typedef {object} MeasuredPoint
+ * @property {Vec3} position
+ * @property {number} [value]  lx, or % of DAYLIGHT_FACTOR; absent: the point lies in a solid
+ * @property {number} [low]  of the 95 % interval
+ * @property {number} [high]
+ * @property {boolean} inside  in a solid
+ */
+
+/**
+ * @typedef {object} Measured  numbers of the area are absent where all points lie in solids
+ * @property {number} measurement
+ * @property {string} quantity
+ * @property {number} epoch
+ * @property {number} settled
+ * @property {number} columns  0: single points
+ * @property {number} rows
+ * @property {MeasuredPoint[]} points
+ * @property {number} [mean]
+ * @property {number} [meanLow]
+ * @property {number} [meanHigh]
+ * @property {number} [minimum]
+ * @property {number} [minimumLow]
+ * @property {number} [minimumHigh]
+ * @property {number} [maximum]
+ * @property {number} [maximumLow]
+ * @property {number} [maximumHigh]
+ * @property {number} [uniformity]
+ * @property {number} [uniformityLow]
+ * @property {number} [uniformityHigh]
+ * @property {number} [diversity]
+ * @property {number} [diversityLow]
+ * @property {number} [diversityHigh]
+ * @property {number} [relativeError]
+ * @property {number} factor
+ * @property {number} [spacing]  m
+ */
+
+/**
  * @typedef {object} WalkMap
  * @property {Vec3} origin
  * @property {number} cell  width of a column, metres
@@ -302,6 +340,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{viewers: Viewer[], crowded?: boolean}} [presence]
  * @property {{changes: SceneChanged[]}} [changeHistory]
  * @property {ProbeGridResult} [probeGridResult]
+ * @property {Measured} [measured]
  * @property {WalkMap} [walkMap]
  * @property {SceneList} [sceneList]
  * @property {SceneOpening} [sceneOpening]
