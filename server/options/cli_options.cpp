@@ -336,6 +336,11 @@ void define_options(CLI::App& app, Options& options) {
         } else {
             command->add_option("--json", options.output.json_file,
                                 "Also write the results as JSON (bench: plots beside it)");
+            if (row.command == Options::Command::selftest) {
+                command->add_flag("--photometry", options.selftest.photometry,
+                                  "Points in the air against the cases of CIE 171:2006, chapter "
+                                  "5, instead; needs no OpenGL");
+            }
             if (row.command == Options::Command::bench) {
                 command
                     ->add_option("--seconds", options.stop.seconds,

@@ -169,6 +169,10 @@ struct MeasureOptions {
     bool json_to_stdout = false;
 };
 
+struct SelftestOptions {
+    bool photometry = false;
+};
+
 /// Everything the command line can say.
 struct Options {
     enum class Command { none, serve, render, accuracy, inspect, bench, measure, selftest, token };
@@ -192,6 +196,7 @@ struct Options {
     AccuracyOptions accuracy;
     InspectOptions inspect;
     MeasureOptions measure;
+    SelftestOptions selftest;
     TokenOptions token;
 };
 
