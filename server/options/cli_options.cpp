@@ -7,6 +7,7 @@
 #include <map>
 #include <type_traits>
 
+#include "options/cli_checks.h"
 #include "options/config_file.h"
 #include "options/option_table.h"
 
@@ -55,30 +56,6 @@ const MethodRow method_table[] = {
     {"metropolis", ReferenceKind::metropolis},
     {"photon-map", ReferenceKind::photon_map},
 };
-
-/// Check of a number for which `fits` holds; else the text is not what `wanted` says.
-CLI::Validator number_that(bool (*fits)(double), const std::string& wanted) {
-    return CLI::Validator(
-        [fits, wanted](const std::string& text) {
-            double value = 0.0;
-            const char* const end = text.data() + text.size();
-            const auto [last, error] = std::from_chars(text.data(), end, value);
-            const bool number = last == end && error == std::errc() && std::isfinite(value);
-            return number && fits(value) ? std::string() : "'" + text + "' is not " + wanted;
-        },
-        wanted);
-}
-
-CLI::Validator positive() {
-    return number_that([](double value) { return static_cast<float>(value) > 0.0F; },
-                       "a number above 0");
-}
-
-/// People may give it in percent.
-CLI::Validator relative_error() {
-    return number_that([](double value) { return value > 0.0 && value < 1.0; },
-                       "a number above 0 and below 1 (0.05 is 5 %)");
-}
 
 /// Adds a row of the table of `serve`.
 void add_row(CLI::App& app, Options& o, const OptionRow& row) {
@@ -239,40 +216,6 @@ void add_accuracy(CLI::App& app, Options& o) {
     app.add_option("--reference-seconds", o.accuracy.reference_seconds,
                    "At most for each reference (default: 60 times --seconds)")
         ->check(positive());
-}
-
-void add_measure(CLI::App& app, Options& o) {
-    MeasureOptions& m = o.measure;
-    app.add_option("--plane", m.plane,
-                   "Area to measure on: a corner and its two edges, each x,y,z in metres")
-        ->expected(3);
-    app.add_option("--point", m.points, "A point instead, x,y,z in metres; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--quantity", m.quantity,
-                   "HORIZONTAL, VERTICAL, NORMAL, CYLINDRICAL, SEMICYLINDRICAL (lx) or "
-                   "DAYLIGHT_FACTOR (%)")
-        ->capture_default_str();
-    app.add_option("--direction", m.direction,
-                   "That the points face, x,y,z: of VERTICAL, NORMAL and SEMICYLINDRICAL");
-    app.add_option("--grid", m.grid, "Points of the plane: EN12464, or COLUMNSxROWS")
-        ->capture_default_str();
-    app.add_option("--margin", m.margin, "Strip along the plane's edges without points, metres")
-        ->check(number_that([](double value) { return value >= 0.0 && value <= 1e6; },
-                            "a length of 0 to 1e6 m"));
-    app.add_flag("--direct", m.direct, "Without light that surfaces have reflected");
-    app.add_option("--maintenance", m.maintenance,
-                   "Maintenance factor of all values (default: 1, initial values)")
-        ->check(number_that([](double value) { return value > 0.0 && value <= 1.0; },
-                            "a factor above 0 and at most 1"));
-    app.add_option("--error", o.stop.error,
-                   "Stop when each 95 % interval is this share of the mean wide to each side "
-                   "(default: 0.05)")
-        ->check(relative_error());
-    app.add_option("--seconds", o.stop.seconds, "At most so long (default: 60)")->check(positive());
-    app.add_option("--require", m.require,
-                   "Required mean, or mean/uniformity as 500/0.6; exit status 5 where it is not "
-                   "met, 6 where that is not known after --seconds");
-    app.add_flag("--json", m.json_to_stdout, "Print JSON");
 }
 
 float parse_float(const std::string& option, const std::string& text) {

@@ -129,8 +129,9 @@ std::vector<CalculationPoint> on_cube(int n) {
                 glm::dvec3 normal(0.0);
                 normal[axis] = 1.0 - 2.0 * side;
                 at[axis] = 4.0 * side + 1e-4 * normal[axis];
-                at[(axis + 1) % 3] = 4.0 * (i % n + 0.5) / n;
-                at[(axis + 2) % 3] = 4.0 * (i / n + 0.5) / n;
+                const int row = i / n;
+                at[(axis + 1) % 3] = 4.0 * (i - n * row + 0.5) / n;
+                at[(axis + 2) % 3] = 4.0 * (row + 0.5) / n;
                 places.push_back({at, normal});
             }
         }

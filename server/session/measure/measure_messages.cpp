@@ -49,6 +49,15 @@ void place_on_area(const v1::Measure& measure, MeasureRequest& request) {
     }
 }
 
+using SetFloat = void (v1::Measured::*)(float);
+
+void set_interval(const Interval& from, v1::Measured* message, SetFloat value, SetFloat low,
+                  SetFloat high) {
+    (message->*value)(static_cast<float>(from.value));
+    (message->*low)(static_cast<float>(from.low));
+    (message->*high)(static_cast<float>(from.high));
+}
+
 }  // namespace
 
 MeasureRequest from_message(const v1::Measure& measure) {
@@ -104,22 +113,15 @@ void to_message(const MeasureRequest& request, const PointMeasurer::Result& resu
     if (!result.all) {
         return;
     }
-    const auto set = [](const Interval& from, auto value, auto low, auto high) {
-        value(static_cast<float>(from.value));
-        low(static_cast<float>(from.low));
-        high(static_cast<float>(from.high));
-    };
-#define RAYBUNDLE_INTERVAL(name)                                    \
-    set(                                                            \
-        result.all->name, [&](float v) { message->set_##name(v); }, \
-        [&](float v) { message->set_##name##_low(v); },             \
-        [&](float v) { message->set_##name##_high(v); })
-    RAYBUNDLE_INTERVAL(mean);
-    RAYBUNDLE_INTERVAL(minimum);
-    RAYBUNDLE_INTERVAL(maximum);
-    RAYBUNDLE_INTERVAL(uniformity);
-    RAYBUNDLE_INTERVAL(diversity);
-#undef RAYBUNDLE_INTERVAL
+    const MeasurementSummary& all = *result.all;
+    using M = v1::Measured;
+    set_interval(all.mean, message, &M::set_mean, &M::set_mean_low, &M::set_mean_high);
+    set_interval(all.minimum, message, &M::set_minimum, &M::set_minimum_low, &M::set_minimum_high);
+    set_interval(all.maximum, message, &M::set_maximum, &M::set_maximum_low, &M::set_maximum_high);
+    set_interval(all.uniformity, message, &M::set_uniformity, &M::set_uniformity_low,
+                 &M::set_uniformity_high);
+    set_interval(all.diversity, message, &M::set_diversity, &M::set_diversity_low,
+                 &M::set_diversity_high);
     if (std::isfinite(result.relative_error)) {
         message->set_relative_error(static_cast<float>(result.relative_error));
     }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "net/ws/message_checker.h"
+
+namespace raybundle {
+
+/// What a request to measure points in the air may say.
+void check_measure(const v1::Measure& measure, MessageChecker& check);
+
+}  // namespace raybundle
