@@ -2,12 +2,11 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <variant>
 
 #include "app/render_job.h"
+#include "app/solve_job.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "scene/effects/effects_plan.h"
@@ -19,55 +18,6 @@
 namespace raybundle {
 
 namespace {
-
-struct Outcome {
-    double seconds = 0.0;
-    ImageStatistics statistics;
-};
-
-Outcome solve(Solver& solver, FinalPicture& picture, const Options& options) {
-    const StopRule rule(options);
-    BundleReceiver* const receivers[] = {&picture.receiver()};
-    Progress bar;
-    bar.begin(options.output.file, {});
-    Outcome outcome;
-    const Stopwatch stopwatch;
-    constexpr std::uint64_t statistics_interval = 16;  // iterations, at least
-    constexpr std::uint64_t statistics_share = 16;     // and of them all
-    std::uint64_t next_statistics = statistics_interval;
-    constexpr std::uint64_t believed_samples = 32;
-    constexpr double unknown = 1e9;
-    while (true) {
-        picture.prepare();
-        solver.step(receivers);
-        outcome.seconds = stopwatch.seconds();
-        if (solver.iterations() >= next_statistics) {
-            outcome.statistics = picture.measure();
-            next_statistics += std::max(statistics_interval, next_statistics / statistics_share);
-        }
-        // An error is believed from some samples on; finer than its pixels no picture can be.
-        const ImageStatistics& found = outcome.statistics;
-        const double estimate =
-            found.samples < believed_samples ? unknown : rule.estimate_of(picture);
-        const double progress = rule.progress(outcome.seconds, solver.iterations(), estimate);
-        if (bar.due()) {
-            const double factor = found.known && options.stop.error
-                                      ? picture.samples_factor_to(*options.stop.error)
-                                      : std::numeric_limits<double>::infinity();
-            const double left = rule.seconds_left(outcome.seconds, solver.iterations(), factor);
-            show_progress(bar, outcome.seconds, left, solver.iterations(), found.relative_error);
-        }
-        if (progress >= 1.0) {
-            break;
-        }
-    }
-    outcome.statistics = picture.measure();
-    if (options.stop.error && outcome.statistics.error_high > *options.stop.error) {
-        spdlog::warn("--error {}: not reached; {:.2f} % come from what more time does not mend",
-                     *options.stop.error, 100.0 * outcome.statistics.discretisation);
-    }
-    return outcome;
-}
 
 void write_picture(FinalPicture& picture, const std::string& path) {
     const auto width = static_cast<int>(picture.size().x);
@@ -97,7 +47,7 @@ nlohmann::ordered_json measured_json(const FinalPicture& picture) {
 
 void write_statistics(const Options& options, const EglContext& context, const Solver& solver,
                       const LoadedScene& loaded, const FinalPicture& picture,
-                      const Outcome& outcome) {
+                      const SolveOutcome& outcome) {
     const nlohmann::json plan = effects_plan_json(effects_plan(options, loaded));
     const StrategyProbabilities& p = solver.probabilities();
     const nlohmann::ordered_json json = {
@@ -132,6 +82,17 @@ void write_statistics(const Options& options, const EglContext& context, const S
     write_file(options.render.stats, json.dump(2) + "\n");
 }
 
+/// Throws UsageError where something else is asked for that needs pixels.
+int render_patches(const RenderMethod& method, glm::uvec2 size, const Options& options) {
+    const auto* probabilities = std::get_if<StrategyProbabilities>(&method);
+    if (probabilities == nullptr || options.stop.error || !options.render.stats.empty()) {
+        throw UsageError(
+            "--patches: takes --seconds or --iterations, and no --error, --stats or --method of "
+            "the CPU: nothing is gathered at pixels");
+    }
+    return run_render_patches(*probabilities, size, options);
+}
+
 }  // namespace
 
 int run_render(const Options& options) {
@@ -152,11 +113,16 @@ int run_render(const Options& options) {
             "ray bundles");
     }
     if (!options.render.script.empty()) {
-        if (!std::holds_alternative<StrategyProbabilities>(method)) {
-            throw UsageError("--script: --method " + options.render.method +
-                             " renders single pictures only");
+        if (options.render.patches || !std::holds_alternative<StrategyProbabilities>(method)) {
+            throw UsageError(
+                "--script: " +
+                (options.render.patches ? "--patches" : "--method " + options.render.method) +
+                " renders single pictures only");
         }
         return run_render_script(std::get<StrategyProbabilities>(method), size, options);
+    }
+    if (options.render.patches) {
+        return render_patches(method, size, options);
     }
     if (const auto* kind = std::get_if<ReferenceKind>(&method)) {
         return run_render_reference(*kind, size, options);
@@ -179,7 +145,7 @@ int run_render(const Options& options) {
     const ViewPrograms programs(solver.scene());
     FinalPicture picture(solver.scene(), solver.store(), programs, camera, size);
     picture.check_by(spot_check(loaded.scene, loaded.mesh, camera, size, options.scene.seed));
-    const Outcome outcome = solve(solver, picture, options);
+    const SolveOutcome outcome = solve_picture(solver, picture, options);
     write_picture(picture, options.output.file);
     if (!options.render.stats.empty()) {
         write_statistics(options, context, solver, loaded, picture, outcome);

@@ -135,6 +135,7 @@ struct RenderOptions {
     std::uint64_t bias_for_noise = 0;  ///< iterations planned
     bool constant_radiance = false;
     bool random_faces = false;
+    bool patches = false;
     std::string stats;   ///< file
     std::string script;  ///< file
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/view_programs.h"
 
+#include <algorithm>
 #include <array>
 
 namespace raybundle {
@@ -46,16 +47,41 @@ ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene, Defin
     return programs;
 }
 
+const std::string continued_macro = "CONTINUED 1";
+
+const std::string patches_macro = "PATCHES_ONLY 1";
+
+Defines variant_of(PixelLight light) {
+    return light == PixelLight::patches ? Defines{patches_macro} : Defines{};
+}
+
+bool is_among(const Defines& defines, const std::string& define) {
+    return std::find(defines.begin(), defines.end(), define) != defines.end();
+}
+
+/// What the light at vertices depends on.
+Defines vertex_defines(const GpuScene& scene, const Defines& variant) {
+    Defines defines = with_all(scene.set_defines(), variant);
+    for (const char* effect : {"FIRST_SHOT 1", "CAUSTICS 1"}) {
+        if (is_among(scene.defines(), effect)) {
+            defines.emplace_back(effect);
+        }
+    }
+    return defines;
+}
+
 }  // namespace
 
-ViewPrograms::ViewPrograms(const GpuScene& scene) : ViewPrograms(scene, {}) {
+ViewPrograms::ViewPrograms(const GpuScene& scene, PixelLight shown)
+    : ViewPrograms(scene, variant_of(shown)) {
     if (scene.specular_rays() != nullptr) {
-        continued = std::make_unique<ViewPrograms>(scene, Defines{"CONTINUED 1"});
+        continued = std::make_unique<ViewPrograms>(scene, with(variant_of(shown), continued_macro));
     }
 }
 
 ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant)
-    : raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
+    : light(is_among(variant, patches_macro) ? PixelLight::patches : PixelLight::gathered),
+      raster({"bundle_raster.vert", "bundle_nearest.frag"}, with(scene.defines(), "SHOW_GLASS 1")),
       raster_staggered({"bundle_raster.vert", "bundle_nearest.frag"},
                        with_all(scene.defines(), {"SHOW_GLASS 1", "STAGGERED 1"})),
       resolve_new(make_resolve(scene, variant)),
@@ -67,7 +93,7 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       correct({"view_correct.comp"}, scene.defines()),
       scale({"view_scale.comp"}, scene.defines()),
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
-      vertex_irradiance({"view_vertex_irradiance.comp"}, scene.set_defines()),
+      vertex_irradiance({"view_vertex_irradiance.comp"}, vertex_defines(scene, variant)),
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
       detail({"view_detail.comp"}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
@@ -85,12 +111,12 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       planes_pixels(make_receive("transport_planes_pixels.comp", scene, variant)),
       layers_crowded(
           make_receive("transport_layers_pixels.comp", scene, with(variant, "CROWDED 1"))),
-      edges(scene),
+      edges(scene, with_all(scene.defines(), variant)),
       affected_tiles(scene) {
     const std::array<const char*, 3> modes = {"PHOTO 1", "FALSE_LUMINANCE 1",
                                               "FALSE_ILLUMINANCE 1"};
-    for (std::size_t i = 0; i < modes.size() && variant.empty(); ++i) {
-        const auto defines = with(scene.defines(), modes[i]);
+    for (std::size_t i = 0; i < modes.size() && !is_among(variant, continued_macro); ++i) {
+        const auto defines = with_all(scene.defines(), with(variant, modes[i]));
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }

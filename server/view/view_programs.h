@@ -14,12 +14,17 @@
 
 namespace raybundle {
 
+/// What light pixels show: also what they have gathered, or that of patches alone, interpolated
+/// over vertices.
+enum class PixelLight { gathered, patches };
+
 /// Programs that all viewers share.
 struct ViewPrograms {
-    explicit ViewPrograms(const GpuScene& scene);
+    explicit ViewPrograms(const GpuScene& scene, PixelLight shown = PixelLight::gathered);
     /// The same with more macros.
     ViewPrograms(const GpuScene& scene, const std::vector<std::string>& variant);
 
+    PixelLight light = PixelLight::gathered;
     ShaderProgram raster;
     ShaderProgram raster_staggered;  ///< some of the pixels, see view/filters/sub_samples.h
     /// Geometry buffers: of a first picture, with what was accumulated reprojected, and the same

@@ -22,6 +22,9 @@ void ViewerImage::interpolate_vertices() {
     }
     store_.bind();
     bind_pixels();
+    if (programs_.light == PixelLight::patches) {
+        store_.bind_caustics_of_patches();
+    }
     programs_.vertex_irradiance.set("vertex_count", scene_.vertex_count());
     programs_.vertex_irradiance.dispatch(scene_.vertex_count());
 }

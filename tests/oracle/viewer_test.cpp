@@ -61,6 +61,47 @@ TEST(ViewerImage, FurnaceIsAConstantPicture) {
     EXPECT_NEAR(mean, exact, 0.01 * exact);
 }
 
+/// Of patches alone, with nothing gathered.
+TEST(PatchPicture, FurnaceIsAConstantPicture) {
+    FurnaceView view(0.5F);
+    for (int i = 0; i < 768; ++i) {
+        view.solver->step({});
+    }
+    const ViewPrograms programs(view.solver->scene(), PixelLight::patches);
+    ViewerImage image(view.solver->scene(), view.solver->store(), programs, {64, 48});
+    image.set_camera(view.camera);
+    const double exact = static_cast<double>(emission) / 0.5;
+    for (const glm::vec4& pixel : image.read_radiance()) {
+        EXPECT_NEAR(static_cast<double>(pixel.g), exact, 0.08 * exact);
+    }
+}
+
+/// Light that is known at pixels otherwise: a punctual light's.
+TEST(PatchPicture, HasTheFirstShotOfPunctualLights) {
+    SceneBuilder builder;
+    const auto floor = builder.add_material(glm::vec3(0.5F));
+    builder.add_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 40, 40, floor);
+    PunctualLight light;
+    light.intensity = glm::vec3(100.0F);
+    light.position = {0.0F, 2.0F, 0.0F};
+    builder.scene.punctual_lights.push_back(light);
+    Solver solver(builder.scene, builder.mesh);
+    for (int i = 0; i < 16; ++i) {
+        solver.step({});
+    }
+    const ViewPrograms programs(solver.scene(), PixelLight::patches);
+    ViewerImage image(solver.scene(), solver.store(), programs, {32, 32});
+    Camera camera;
+    camera.eye = {0.3F, 1.0F, 0.2F};
+    camera.target = {0.3F, 0.0F, 0.2F};
+    camera.up = {0.0F, 0.0F, -1.0F};
+    camera.vertical_fov = 0.05F;
+    image.set_camera(camera);
+    const double square = 0.3 * 0.3 + 0.2 * 0.2 + 4.0;
+    const double exact = 0.5 / glm::pi<double>() * 100.0 * 2.0 / (square * std::sqrt(square));
+    EXPECT_NEAR(static_cast<double>(image.read_radiance()[16 * 32 + 16].g), exact, 0.01 * exact);
+}
+
 /// Pixels that a plane bundle serves, alone and among all strategies: light within 1 % in the mean.
 TEST(HeavyViewerImage, FurnaceIsAConstantPictureWithPlanes) {
     for (const StrategyProbabilities& p :

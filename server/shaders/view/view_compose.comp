@@ -16,15 +16,6 @@ layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { uint fram
 uniform uint frame_width;
 uniform uint frame_height;
 
-/// sRGB encoding by square roots (I. Chilliant 2012), within 0.2 % of the exact curve.
-vec3 srgb_encoded(vec3 c) {
-    c = clamp(c, 0.0, 1.0);
-    vec3 s1 = sqrt(c);
-    vec3 s2 = sqrt(s1);
-    vec3 s3 = sqrt(s2);
-    return 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
-}
-
 #if defined(FALSE_LUMINANCE) || defined(FALSE_ILLUMINANCE)
 uniform float scale_begin;  // lower end of the colour scale, cd/m² or lx; 0: it is linear
 

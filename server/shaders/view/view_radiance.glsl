@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance of a viewer's pixel: confidence-weighted blend of the object-space value and the pixel's own
-// estimate, times the albedo at the angle of view, and the glossy part.
+// estimate, times the albedo at the angle of view, and the glossy part. Variant PATCHES_ONLY: the object-space value
+// alone, as walkthroughs show it; vertices have all of its light.
 #include "rarely.glsl"
 #ifdef CONSTANT_RADIANCE
 #include "facets.glsl"
@@ -89,6 +90,9 @@ vec4 shown_sum(uint index, PixelSurface p) {
 #include "view_confidence.glsl"
 
 vec3 blended_irradiance(uint index, PixelSurface p) {
+#ifdef PATCHES_ONLY
+    return object_space_irradiance(p, false);
+#endif
     vec4 sum = shown_sum(index, p);
     vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence(index, p.side, sum.w));
 #ifdef FIRST_SHOT
@@ -144,6 +148,9 @@ vec3 object_space_radiance(uint side) {
     uint id = patch_of_side(side);
     p.barycentric = packUnorm2x16(vec2(1.0 / 3.0));
     vec3 light = object_space_irradiance(p, false);
+#ifdef PATCHES_ONLY
+    return surfaces[id].emission.rgb + surfaces[id].albedo.rgb * light * inverse_pi;
+#endif
 #ifdef FIRST_SHOT
     light += first_shot[2u * id].rgb;
 #endif
@@ -164,6 +171,9 @@ vec3 transmitted_radiance(PixelSurface p) {
         return vec3(0.0);
     }
     vec3 behind = object_space_irradiance(p, true);
+#ifdef PATCHES_ONLY
+    return t.rgb * behind * inverse_pi;
+#endif
 #ifdef FIRST_SHOT
     behind += first_shot[2u * floatBitsToUint(t.w)].rgb;
 #endif
@@ -194,7 +204,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #ifdef TRANSMISSION
     reflected += transmitted_radiance(p);
 #endif
-#ifdef GLOSSY
+#if defined(GLOSSY) && !defined(PATCHES_ONLY)
     RARELY((p.facet & PIXEL_GLOSSY) != 0u) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance at vertices: area-weighted mean over the patches of the vertex's smoothing group, for
-// interpolation in the picture (Gouraud).
+// interpolation in the picture (Gouraud). Variant PATCHES_ONLY: with all else that patches receive, by punctual lights
+// and caustics, which pixels otherwise find for themselves.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"
@@ -13,6 +14,14 @@ layout(std430, binding = BINDING_PATCHES) readonly buffer PatchBuffer { PatchGeo
 layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_BACK_SIDE) readonly buffer BackSideBuffer { uint back_side[]; };
 layout(std430, binding = BINDING_VERTEX_IRRADIANCE) writeonly buffer VertexIrradianceBuffer { uvec2 vertex_irradiance[]; };
+#if defined(PATCHES_ONLY) && defined(FIRST_SHOT)
+layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };
+#endif
+#if defined(PATCHES_ONLY) && defined(CAUSTICS)
+layout(std430, binding = BINDING_CAUSTIC_IRRADIANCE) readonly buffer CausticIrradianceBuffer {
+    vec4 caustic_irradiance[];
+};
+#endif
 uniform uint vertex_count;
 #include "vertex_shares.glsl"
 
@@ -20,6 +29,17 @@ uniform uint vertex_count;
 uvec2 pack_irradiance(vec3 e) {
     e = min(e, 65000.0);
     return uvec2(packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)));
+}
+
+vec3 light_of(uint patch_id) {
+    vec3 light = irradiance[patch_id].rgb;
+#if defined(PATCHES_ONLY) && defined(FIRST_SHOT)
+    light += first_shot[2u * patch_id].rgb;
+#endif
+#if defined(PATCHES_ONLY) && defined(CAUSTICS)
+    light = max(light + caustic_irradiance[patch_id].rgb, 0.0);
+#endif
+    return light;
 }
 
 void main() {
@@ -35,11 +55,11 @@ void main() {
     for (uint k = vertices[i].first_triangle; k < end; ++k) {
         uint triangle = vertex_triangles[k];
         float area = area_at_vertex(triangle);
-        front += area * irradiance[patch_of(triangle)].rgb;
+        front += area * light_of(patch_of(triangle));
         front_area += area;
         uint twin = back_side[triangle];
         if (twin != NO_PATCH) {
-            back += area * irradiance[patch_of(twin)].rgb;
+            back += area * light_of(patch_of(twin));
             back_area += area;
         }
     }

@@ -49,6 +49,8 @@ class Caustics {
                 std::span<const glm::vec3> emission);
 
     void bind() const;
+    /// Irradiance of patches, for one pass that takes it from there: the binding is shared.
+    void bind_irradiance() const { irradiance_.bind_storage(BINDING_CAUSTIC_IRRADIANCE); }
     /// Irradiance per patch, radiance units, either sign.
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
     [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;

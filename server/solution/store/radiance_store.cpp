@@ -70,6 +70,12 @@ void RadianceStore::bind() const {
     }
 }
 
+void RadianceStore::bind_caustics_of_patches() const {
+    if (caustics_ != nullptr) {
+        caustics_->bind_irradiance();
+    }
+}
+
 void RadianceStore::remember_first_shot(const RadianceStore& other) {
     if (first_shot_ && other.first_shot_) {
         first_shot_->remember(*other.first_shot_);

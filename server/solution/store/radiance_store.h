@@ -43,6 +43,8 @@ class RadianceStore {
     RadianceStore(const GpuScene& scene, ZoneBalance& zones, Caustics* caustics = nullptr);
 
     void bind() const;
+    /// After that, for one pass: the patches' light by caustics, which otherwise is at vertices.
+    void bind_caustics_of_patches() const;
     /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
     /// are bound.
     void update(const BundleUpdate& bundle) const;

@@ -7,12 +7,12 @@
 
 namespace raybundle {
 
-EdgePrograms::EdgePrograms(const GpuScene& scene)
+EdgePrograms::EdgePrograms(const GpuScene& scene, const std::vector<std::string>& defines)
     : count({"view_edge_count.comp"}, scene.defines()),
       list({"view_edge_tiles.comp"}),
       finish({"view_tile_commands.comp"}),
-      average({"view_edge_average.comp"}, scene.defines()),
-      average_linear({"view_edge_average.comp"}, with(scene.defines(), "LINEAR 1")),
+      average({"view_edge_average.comp"}, defines),
+      average_linear({"view_edge_average.comp"}, with(defines, "LINEAR 1")),
       triangle_count(scene.triangle_count()) {}
 
 EdgeFilter::EdgeFilter(glm::uvec2 size)

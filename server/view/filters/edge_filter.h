@@ -15,7 +15,8 @@ namespace raybundle {
 
 /// Programs of EdgeFilter that all viewers share.
 struct EdgePrograms {
-    explicit EdgePrograms(const GpuScene& scene);
+    /// defines: the scene's, and more of what shows radiance.
+    EdgePrograms(const GpuScene& scene, const std::vector<std::string>& defines);
 
     ShaderProgram count, list, finish, average, average_linear;
     std::uint32_t triangle_count;  // of the scene
