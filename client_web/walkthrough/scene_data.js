@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a walkthrough: scene.json, two binary ones, textures. Written by server/walkthrough; what they say is
+// checked before it is used.
+
+/**
+ * @typedef {[number, number, number]} Triple
+ *
+ * @typedef {object} Chunk  triangles of one material; byte offsets of its arrays, null where there is none
+ * @property {number} material
+ * @property {number} vertexCount
+ * @property {number} indexCount
+ * @property {Triple} emission  cd/m²
+ * @property {number} vertices  geometry, 12 bytes each
+ * @property {number} indices  geometry, 2 bytes each
+ * @property {number | null} uvs  geometry, 8 bytes each
+ * @property {number | null} colours  geometry, 4 bytes each
+ * @property {number} front  light, 4 bytes each
+ * @property {number | null} back  light, 4 bytes each; null: backs are black
+ * @property {number | null} emissions  light, 4 bytes each
+ *
+ * @typedef {object} Material
+ * @property {string} name
+ * @property {Triple} baseColour
+ * @property {number | null} texture
+ * @property {number | null} alphaCutoff
+ * @property {number | null} albedo  geometry: 32 texels of 16 bytes
+ * @property {Triple} transmittance
+ * @property {number} transparency
+ * @property {boolean} unlit
+ *
+ * @typedef {object} Sun
+ * @property {Triple} direction
+ * @property {number} cosine
+ * @property {Triple} radiance  cd/m²
+ *
+ * @typedef {object} SceneManifest
+ * @property {string} format
+ * @property {number} version
+ * @property {string} name
+ * @property {{file: string, bytes: number}} geometry
+ * @property {{file: string, bytes: number, unit: number}} light  unit: cd/m²
+ * @property {{origin: Triple, step: Triple}} grid  metres
+ * @property {{min: Triple, max: Triple}} bounds
+ * @property {{name: string, eye: Triple, target: Triple, up: Triple, verticalFov: number}[]} cameras
+ * @property {{uniform: Triple, texels: number | null, width: number, height: number, sun: Sun | null}} sky
+ * @property {Material[]} materials
+ * @property {{file: string, repeatU: boolean, repeatV: boolean}[]} textures
+ * @property {Chunk[]} chunks
+ *
+ * @typedef {object} SceneData
+ * @property {SceneManifest} manifest
+ * @property {ArrayBuffer} geometry
+ * @property {ArrayBuffer} light
+ * @property {ImageBitmap[]} textures
+ * @property {{toneCurve: string, falseColour: string}} shaders  the server's own texts
+ */
+
+const FORMAT = 'raybundle-walkthrough';
+const VERSION = 1;
+
+/** Bytes of an albedo row: 32 texels of four floats. */
+const ALBEDO_BYTES = 512;
+
+/** A reason that is told to the user as it stands. */
+export class SceneDataError extends Error {}
+
+/**
+ * @param {string} file
+ * @returns {Promise<Response>}
+ */
+async function get(file) {
+    let response;
+    try {
+        response = await fetch(file);
+    } catch {
+        throw new SceneDataError(`${file} could not be loaded: the server does not answer.`);
+    }
+    if (!response.ok) {
+        throw new SceneDataError(`${file} could not be loaded: the server says ${response.status}.`);
+    }
+    return response;
+}
+
+/**
+ * A binary file, with news of how much is there.
+ *
+ * @param {{file: string, bytes: number}} description
+ * @param {(bytes: number) => void} arrived  so many more
+ * @returns {Promise<ArrayBuffer>}
+ */
+async function getBinary({file, bytes}, arrived) {
+    const {body} = await get(file);
+    const whole = new Uint8Array(bytes);
+    let at = 0;
+    const reader = body?.getReader();
+    for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) {
+        if (at + part.value.length > bytes) {
+            throw new SceneDataError(`${file} is longer than scene.json says.`);
+        }
+        whole.set(part.value, at);
+        at += part.value.length;
+        arrived(part.value.length);
+    }
+    if (at !== bytes) {
+        throw new SceneDataError(`${file} is shorter than scene.json says.`);
+    }
+    return whole.buffer;
+}
+
+/**
+ * Reasons why a manifest cannot be drawn.
+ *
+ * @param {SceneManifest} manifest
+ * @returns {string} empty: none
+ */
+export function problemOf(manifest) {
+    if (manifest?.format !== FORMAT) {
+        return 'it describes no walkthrough';
+    }
+    if (manifest.version !== VERSION) {
+        return `it has version ${manifest.version}, and this page draws version ${VERSION}`;
+    }
+    const {geometry, light, materials, textures, chunks, sky} = manifest;
+    const fits = (/** @type {number | null} */ at, /** @type {number} */ size, /** @type {{bytes: number}} */ file) =>
+        at === null || (Number.isInteger(at) && at >= 0 && at % 4 === 0 && at + size <= file.bytes);
+    const chunkFits = (/** @type {Chunk} */ c) =>
+        materials[c.material] !== undefined && c.vertexCount <= 65535 &&
+        fits(c.vertices, 12 * c.vertexCount, geometry) && fits(c.indices, 2 * c.indexCount, geometry) &&
+        fits(c.uvs, 8 * c.vertexCount, geometry) && fits(c.colours, 4 * c.vertexCount, geometry) &&
+        [c.front, c.back, c.emissions].every((at) => fits(at, 4 * c.vertexCount, light));
+    const bad = chunks.findIndex((chunk) => !chunkFits(chunk));
+    if (bad >= 0) {
+        return `chunks[${bad}] lies outside of its file`;
+    }
+    if (!materials.every(({texture, albedo}) =>
+        (texture === null || textures[texture]) && fits(albedo, ALBEDO_BYTES, geometry))) {
+        return 'a material lies outside of its file';
+    }
+    return fits(sky.texels, 4 * sky.width * sky.height, light) ? '' : 'the sky lies outside of its file';
+}
+
+/**
+ * @param {string} file
+ * @returns {Promise<ImageBitmap>}
+ */
+async function getTexture(file) {
+    const blob = await (await get(file)).blob();
+    return createImageBitmap(blob, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
+}
+
+/**
+ * Loads all that is drawn. Throws SceneDataError.
+ *
+ * @param {(share: number) => void} progress  of the binary files
+ * @returns {Promise<SceneData>}
+ */
+export async function loadScene(progress) {
+    const response = await get('scene.json');
+    /** @type {SceneManifest} */
+    const manifest = await response.json().catch(() => null);
+    const problem = problemOf(manifest);
+    if (problem) {
+        throw new SceneDataError(`scene.json cannot be drawn: ${problem}.`);
+    }
+    let there = 0;
+    const all = manifest.geometry.bytes + manifest.light.bytes;
+    const arrived = (/** @type {number} */ bytes) => progress((there += bytes) / all);
+    const text = async (/** @type {string} */ name) => (await get(`shaders/${name}.glsl`)).text();
+    const [geometry, light, textures, toneCurve, falseColour] = await Promise.all([
+        getBinary(manifest.geometry, arrived),
+        getBinary(manifest.light, arrived),
+        Promise.all(manifest.textures.map(({file}) => getTexture(file))),
+        text('tone_curve'),
+        text('false_colour'),
+    ]);
+    return {manifest, geometry, light, textures, shaders: {toneCurve, falseColour}};
+}
