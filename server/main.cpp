@@ -49,6 +49,8 @@ int run(const Options& options, const CLI::App& app) {
             return raybundle::run_serve(options);
         case Options::Command::render:
             return raybundle::run_render(options);
+        case Options::Command::export_scene:
+            return raybundle::run_export(options);
         case Options::Command::accuracy:
             return raybundle::run_accuracy(options);
         case Options::Command::inspect:

@@ -18,6 +18,7 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
 /// The part of run_render() that shows the light of patches alone.
 int run_render_patches(const StrategyProbabilities& probabilities, glm::uvec2 size,
                        const Options& options);
+int run_export(const Options& options);
 int run_accuracy(const Options& options);
 int run_inspect(const Options& options);
 int run_bench(const Options& options);

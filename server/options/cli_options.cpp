@@ -24,6 +24,8 @@ struct CommandRow {
 constexpr CommandRow command_table[] = {
     {"serve", "Serve a scene to browsers", Options::Command::serve, false},
     {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
+    {"export", "Write a walkthrough for any web server, and glTF with the light baked in",
+     Options::Command::export_scene, true},
     {"accuracy", "Measure error over time of several methods against a reference",
      Options::Command::accuracy, true},
     {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
@@ -157,6 +159,17 @@ void add_solving_time(CLI::App& app, Options& o) {
         ->check(positive());
 }
 
+void add_export(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output.file, "Folder to make: index.html and what it needs")
+        ->required();
+    app.add_flag("--force", o.export_scene.force, "Replace the folder with all that it holds");
+    add_camera(app, o);
+    add_solving_time(app, o);
+    app.add_option("--error", o.stop.error,
+                   "Stop when the estimated relative error of a picture from the camera is below")
+        ->check(relative_error());
+}
+
 void add_render(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output.file, "Picture to write: .exr (linear, cd/m²) or .png")
         ->required();
@@ -253,6 +266,8 @@ void define_options(CLI::App& app, Options& options) {
         }
         if (row.command == Options::Command::render) {
             add_render(*command, options);
+        } else if (row.command == Options::Command::export_scene) {
+            add_export(*command, options);
         } else if (row.command == Options::Command::accuracy) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::measure) {

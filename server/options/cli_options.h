@@ -125,7 +125,7 @@ struct StopOptions {
 };
 
 struct OutputOptions {
-    std::string file;  ///< of accuracy a folder
+    std::string file;  ///< of accuracy and export a folder
     std::string json_file;
 };
 
@@ -138,6 +138,10 @@ struct RenderOptions {
     bool patches = false;
     std::string stats;   ///< file
     std::string script;  ///< file
+};
+
+struct ExportOptions {
+    bool force = false;
 };
 
 struct AccuracyOptions {
@@ -176,7 +180,18 @@ struct SelftestOptions {
 
 /// Everything the command line can say.
 struct Options {
-    enum class Command { none, serve, render, accuracy, inspect, bench, measure, selftest, token };
+    enum class Command {
+        none,
+        serve,
+        render,
+        export_scene,
+        accuracy,
+        inspect,
+        bench,
+        measure,
+        selftest,
+        token
+    };
     Command command = Command::none;
 
     // All commands but token.
@@ -190,10 +205,11 @@ struct Options {
     NetworkOptions network;
     ServeOptions serve;
 
-    CameraOptions camera;  // render, accuracy
-    StopOptions stop;      // render, accuracy, inspect, bench, measure
-    OutputOptions output;  // render, accuracy, bench, selftest
+    CameraOptions camera;  // render, export, accuracy
+    StopOptions stop;      // render, export, accuracy, inspect, bench, measure
+    OutputOptions output;  // render, export, accuracy, bench, selftest
     RenderOptions render;
+    ExportOptions export_scene;
     AccuracyOptions accuracy;
     InspectOptions inspect;
     MeasureOptions measure;
