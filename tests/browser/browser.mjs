@@ -16,9 +16,10 @@ export const PATIENCE_MS = Number(process.env.RAYBUNDLE_PATIENCE_MS ?? 400000);
 /**
  * Starts Chromium.
  *
+ * @param {string[]} more  of its options
  * @returns {Promise<import('playwright-core').Browser>}
  */
-export async function launchBrowser() {
+export async function launchBrowser(more = []) {
     let playwright;
     try {
         playwright = createRequire(import.meta.url)('playwright-core');
@@ -28,7 +29,7 @@ export async function launchBrowser() {
     if (!existsSync(CHROMIUM)) {
         throw new Error(`${CHROMIUM} is missing: install chromium, or name it in CHROMIUM`);
     }
-    const args = process.getuid?.() === 0 ? ['--no-sandbox'] : [];
+    const args = [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), ...more];
     return playwright.chromium.launch({executablePath: CHROMIUM, args, timeout: PATIENCE_MS});
 }
 
