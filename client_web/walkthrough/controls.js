@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys, pointer and bars of a walkthrough; the same keys as those of the live page.
 
-import {framedFov} from '../camera/camera.js';
+import {EYE_HEIGHT, atHeight, framedFov, goTo, rayThrough} from '../camera/camera.js';
 import {PointerControl} from '../camera/pointer_control.js';
 import {turbo} from '../measure/colour.js';
 import {byId} from '../ui/elements.js';
+import {normalise, vec3} from '../ui/vector.js';
+import {pointAlong} from './off_screen.js';
 import {viewOf} from './projection.js';
 
 /**
@@ -68,6 +70,10 @@ export class Controls {
             pan: (x, y) => this.camera.pan(x, y),
             zoom: (factor) => this.camera.zoom(factor),
         });
+        this.#element.addEventListener('dblclick', (event) => {
+            const box = this.#element.getBoundingClientRect();
+            this.goTo((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+        });
         document.addEventListener('mousemove', (event) => {
             if (document.pointerLockElement === this.#element) {
                 this.camera.look(-event.movementX * LOOK_SPEED, -event.movementY * LOOK_SPEED);
@@ -81,7 +87,36 @@ export class Controls {
         KeyM: () => this.setMode(this.camera.mode === 'orbit' ? 'walk' : 'orbit'),
         KeyV: () => this.#nextDisplay(),
         KeyL: () => this.#lookWithMouse(),
+        KeyH: () => this.stand(),
     };
+
+    /**
+     * Goes to what the picture shows, as a double click on the live page does.
+     *
+     * @param {number} x  0..1 from the left
+     * @param {number} y  0..1 from the top
+     */
+    goTo(x, y) {
+        const {view, mode} = this.camera;
+        const found = pointAlong(this.picture.renderer, rayThrough(view, this.picture.aspect, x, y));
+        if (found) {
+            const there = goTo(view, found.position, normalise(found.normal), mode === 'walk');
+            if (mode === 'walk') {
+                this.camera.flyTo(there);
+            } else {
+                this.camera.flyAround(there);
+            }
+        }
+    }
+
+    /** Stands on what is below. */
+    stand() {
+        const {view} = this.camera;
+        const below = pointAlong(this.picture.renderer, {origin: view.eye, direction: vec3(0, -1, 0)});
+        if (below) {
+            this.camera.flyTo(atHeight(view, below.position.y + EYE_HEIGHT));
+        }
+    }
 
     #addKeys() {
         document.addEventListener('keydown', (event) => {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are read rather than shown: small ones for the exposure, and radiance.
+// Pictures that are read rather than shown: small ones for the exposure, radiance, and what lies in a direction.
+
+import {add, scale, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('./renderer.js').Renderer} Renderer
  * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/protocol.js').Vec3} Vec3
  */
 
 /** Size of the picture that the exposure is found by, pixels. */
 const MEASURED = {width: 64, height: 48};
+/** Field of view of what is asked for a single point, radians. */
+const POINT_FOV = 0.002;
 /** As the server has it. */
 const EXPOSURE_LIMIT = 30;
 
@@ -119,4 +124,34 @@ export function readDisplay(renderer, view, look, width, height) {
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     });
     return pixels;
+}
+
+/**
+ * Distance that the shader's distance_code() has written.
+ *
+ * @param {Uint8Array} pixel  RGBA
+ * @returns {number | null} metres; null: nothing is there
+ */
+export function distanceOf([red, green, blue, there]) {
+    return there > 0 ? 2 ** (((65536 * red + 256 * green + blue) / 16777215 - 0.5) * 64) : null;
+}
+
+/**
+ * What lies in a direction.
+ *
+ * @param {Renderer} renderer
+ * @param {import('../ui/vector.js').Ray} ray  its direction of length 1
+ * @returns {{position: Vec3, normal: Vec3} | null} normal: of the plane, towards the eye; null: nothing is there
+ */
+export function pointAlong(renderer, {origin, direction}) {
+    const up = Math.abs(direction.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0);
+    const view = {eye: origin, target: add(origin, direction), up, verticalFov: POINT_FOV};
+    const pixel = (/** @type {'distance' | 'normal'} */ mode) =>
+        readDisplay(renderer, view, {mode, exposure: 0, maximum: 1}, 1, 1);
+    const distance = distanceOf(pixel('distance'));
+    if (distance === null) {
+        return null;
+    }
+    const [x, y, z] = [...pixel('normal')].map((byte) => (2 * byte) / 255 - 1);
+    return {position: add(origin, scale(direction, distance)), normal: vec3(x, y, z)};
 }

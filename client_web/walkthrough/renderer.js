@@ -65,13 +65,16 @@ export class Renderer {
         gl.viewport(0, 0, width, height);
         gl.depthMask(true);
         gl.disable(gl.BLEND);
-        gl.clearColor(0, 0, 0, 1);
+        const probed = look.mode === 'distance' || look.mode === 'normal';
+        gl.clearColor(0, 0, 0, probed ? 0 : 1);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         this.#begin(this.surface, look);
         this.#setSurfaces(projection);
         this.#drawChunks(this.#chunks.twoSided);
         this.#drawOneSided();
-        this.#drawSky(projection, look);
+        if (!probed) {
+            this.#drawSky(projection, look);
+        }
         if (look.mode === 'photo' && this.#chunks.glass.length > 0) {
             this.#drawGlass();
         }

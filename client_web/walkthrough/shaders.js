@@ -3,7 +3,7 @@
 // the server's own texts, which come with the scene.
 
 /** What a picture shows; numbers are those of MODE in the shaders. */
-export const MODES = /** @type {const} */ ({photo: 0, luminance: 1, illuminance: 2, brightness: 3, linear: 4});
+export const MODES = /** @type {const} */ ({photo: 0, luminance: 1, illuminance: 2, brightness: 3, linear: 4, distance: 5, normal: 6});
 
 /** Attributes of vertices by their places. */
 export const ATTRIBUTES = /** @type {const} */ ({vertex: 0, front: 1, back: 2, emission: 3, uv: 4, colour: 5});
@@ -123,6 +123,13 @@ vec3 albedo_of(vec3 base, bool from_front) {
     return row.rgb + row.a * base;
 }
 
+/// A distance in 24 bits of its logarithm, m.
+vec4 distance_code(float metres) {
+    float code = clamp(log2(metres) / 64.0 + 0.5, 0.0, 1.0) * 16777215.0;
+    vec3 bytes = floor(vec3(code / 65536.0, mod(code / 256.0, 256.0), mod(code, 256.0)));
+    return vec4(bytes / 255.0, 1.0);
+}
+
 void main() {
     vec4 texel = textured ? texture(base_texture, uv) : vec4(1.0);
     if (alpha_cutoff > 0.0 && texel.a < alpha_cutoff) discard;
@@ -130,6 +137,11 @@ void main() {
     bool from_front = gl_FrontFacing;
     if (!from_front && !two_sided) {
         shown = output_of(vec3(0.0), 0.0, false);
+        return;
+    }
+    if (mode == ${MODES.distance} || mode == ${MODES.normal}) {
+        vec3 flat_normal = normalize(cross(dFdx(position), dFdy(position)));
+        shown = mode == ${MODES.normal} ? vec4(0.5 + 0.5 * flat_normal, 1.0) : distance_code(distance(eye, position));
         return;
     }
     vec3 light = from_front ? front : back;

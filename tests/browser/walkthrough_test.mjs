@@ -9,7 +9,7 @@ import path from 'node:path';
 import {after, before, describe, it} from 'node:test';
 
 import {onScale, scaleColour, turboColour} from '../../client_web/measure/colour.js';
-import {exposureOf} from '../../client_web/walkthrough/off_screen.js';
+import {distanceOf, exposureOf} from '../../client_web/walkthrough/off_screen.js';
 import {depthRange, projectionOf} from '../../client_web/walkthrough/projection.js';
 import {problemOf} from '../../client_web/walkthrough/scene_data.js';
 import {PATIENCE_MS, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
@@ -210,6 +210,32 @@ describe('a walkthrough', () => {
         await context.close();
     });
 
+    it('goes where a double click points, and stands on the floor', async () => {
+        const {page, faults, context} = await open('cornell_box');
+        const view = () => page.evaluate(() => window.raybundleWalkthrough.camera.view);
+        const still = () => page.waitForFunction(() => !window.raybundleWalkthrough.camera.moving);
+        await page.focus('#picture');
+        await page.keyboard.press('KeyM');
+        // Within the box, above its floor, looking down at it.
+        await page.evaluate(() => window.raybundleWalkthrough.camera.set({
+            eye: {x: 4.6, y: 3, z: 0.3}, target: {x: 4.6, y: 1.6, z: 0.7}, up: {x: 0, y: 1, z: 0}, verticalFov: 0.9,
+        }));
+        const box = await page.locator('#picture').boundingBox();
+        await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+        await page.waitForFunction(() => Math.abs(window.raybundleWalkthrough.camera.view.eye.y - 1.6) < 0.01);
+        await still();
+        const there = await view();
+        assert.ok(Math.abs(there.eye.x - 4.6) < 0.01 && there.eye.z < 2, JSON.stringify(there.eye));
+        await page.evaluate(() => {
+            const {camera} = window.raybundleWalkthrough;
+            camera.set({...camera.view, eye: {x: 0.5, y: 4, z: 0.5}, target: {x: 3, y: 4, z: 3}});
+        });
+        await page.keyboard.press('KeyH');
+        await page.waitForFunction(() => Math.abs(window.raybundleWalkthrough.camera.view.eye.y - 1.6) < 0.001);
+        assert.deepEqual(faults, []);
+        await context.close();
+    });
+
     it('says in plain words why it cannot be drawn', async () => {
         const server = await serveFolder(path.join(folder, 'cornell_box'));
         servers.push(server);
@@ -263,6 +289,15 @@ describe('what a walkthrough reads', () => {
         const found = exposureOf(new Uint8Array([...pixel(3, 255), ...pixel(5, 255), ...pixel(20, 0)]));
         assert.ok(Math.abs(found + 4) < 0.01);
         assert.equal(exposureOf(new Uint8Array(pixel(20, 0))), null);
+    });
+
+    it('has distances to a hundred-thousandth', () => {
+        for (const metres of [0.01, 1, 12.3456, 1e5]) {
+            const code = Math.floor((Math.log2(metres) / 64 + 0.5) * 16777215);
+            const found = distanceOf(new Uint8Array([code >> 16, (code >> 8) & 255, code & 255, 255]));
+            assert.ok(Math.abs(found / metres - 1) < 1e-5);
+        }
+        assert.equal(distanceOf(new Uint8Array([1, 2, 3, 0])), null);
     });
 
     it('is projected as the camera has it', () => {
