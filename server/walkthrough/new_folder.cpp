@@ -12,6 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What every folder that may be replaced holds.
+constexpr const char* mark = "scene.json";
+
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
     throw std::runtime_error(path.string() + ": cannot be written: " + reason);
 }
@@ -58,7 +61,11 @@ void check_new_folder(const std::string& path, bool replace) {
         refuse(path, error.message());
     }
     if (!empty && !replace) {
-        refuse(path, "the folder is not empty (--force replaces it with all that it holds)");
+        refuse(path, "the folder is not empty (--force replaces an earlier walkthrough)");
+    }
+    if (!empty && !fs::exists(target / mark)) {
+        refuse(path, "the folder holds something else than a walkthrough: it has no " +
+                         std::string(mark));
     }
 }
 

@@ -15,8 +15,8 @@ void check_new_folder(const std::string& path, bool replace);
 /// gone again unless keep() is called.
 class NewFolder {
   public:
-    /// Throws std::runtime_error where `path` is a file, has files in it (unless `replace`), or
-    /// its parent may not be written to.
+    /// Throws std::runtime_error where `path` is a file, has files in it (unless `replace`, and it
+    /// is an earlier walkthrough), or its parent may not be written to.
     NewFolder(const std::string& path, bool replace);
     ~NewFolder();
     NewFolder(const NewFolder&) = delete;

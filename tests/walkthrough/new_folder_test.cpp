@@ -49,6 +49,9 @@ TEST(NewFolder, KeepsWhatIsThereUnlessTold) {
     parent.write("walk/mine.txt", "mine");
     const fs::path path = parent.path() / "walk";
     EXPECT_NE(reason_against(path, false).find("is not empty (--force"), std::string::npos);
+    EXPECT_NE(reason_against(path, true).find("something else than a walkthrough"),
+              std::string::npos);
+    parent.write("walk/scene.json", "{}");
     EXPECT_EQ(reason_against(path, true), "");
     { const NewFolder unfinished(path.string(), true); }
     EXPECT_TRUE(fs::exists(path / "mine.txt"));
