@@ -162,7 +162,8 @@ void add_solving_time(CLI::App& app, Options& o) {
 void add_export(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output.file, "Folder to make: index.html and what it needs")
         ->required();
-    app.add_flag("--force", o.export_scene.force, "Replace an earlier walkthrough with all that is in its folder");
+    app.add_flag("--force", o.export_scene.force,
+                 "Replace an earlier walkthrough with all that is in its folder");
     add_camera(app, o);
     add_solving_time(app, o);
     app.add_option("--error", o.stop.error,
