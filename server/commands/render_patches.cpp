@@ -23,6 +23,7 @@ void write_picture(const std::string& path, glm::uvec2 size,
     }
     const std::vector<glm::dvec3> colours(radiance.begin(), radiance.end());
     std::vector<bool> counted;
+    counted.reserve(colours.size());
     for (const glm::dvec3& colour : colours) {
         counted.push_back(colour != glm::dvec3(0.0));
     }
