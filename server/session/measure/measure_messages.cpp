@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "measure/daylight_scene.h"
-#include "session/scene_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 namespace {
