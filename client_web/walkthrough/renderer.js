@@ -43,12 +43,11 @@ export class Renderer {
         this.albedos = uploadAlbedos(gl, scene);
         this.skyTexture = uploadSky(gl, scene);
         for (const drawn of uploadChunks(gl, scene)) {
-            const clear = this.manifest.materials[drawn.chunk.material].transparency > 0;
+            const clear = this.manifest.materials[drawn.chunk.material].transparency.some((share) => share > 0);
             this.#chunks[clear ? 'glass' : drawn.chunk.back === null ? 'oneSided' : 'twoSided'].push(drawn);
         }
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.LEQUAL);
-        gl.blendFunc(gl.ONE, gl.SRC_ALPHA);
     }
 
     /**
@@ -76,7 +75,7 @@ export class Renderer {
             this.#drawSky(projection, look);
         }
         if (look.mode === 'photo' && this.#chunks.glass.length > 0) {
-            this.#drawGlass();
+            this.#drawGlass(look);
         }
     }
 
@@ -94,13 +93,24 @@ export class Renderer {
         gl.disable(gl.CULL_FACE);
     }
 
-    /** Over what is behind it. */
-    #drawGlass() {
+    /**
+     * What is behind glass times what passes, which sRGB's curve leaves about as it is; then fronts with what they reflect.
+     *
+     * @param {Look} look
+     */
+    #drawGlass(look) {
         const {gl} = this;
         gl.enable(gl.BLEND);
         gl.depthMask(false);
-        gl.useProgram(this.surface.program);
+        this.#begin(this.surface, {...look, mode: 'glass'});
+        gl.blendFunc(gl.ZERO, gl.SRC_COLOR);
         this.#drawChunks(this.#chunks.glass);
+        this.#begin(this.surface, look);
+        gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+        gl.enable(gl.CULL_FACE);
+        gl.cullFace(gl.BACK);
+        this.#drawChunks(this.#chunks.glass);
+        gl.disable(gl.CULL_FACE);
         gl.depthMask(true);
         gl.disable(gl.BLEND);
     }
@@ -165,7 +175,7 @@ export class Renderer {
         const material = this.manifest.materials[index];
         gl.uniform3fv(at('base_colour'), material.baseColour);
         gl.uniform3fv(at('transmittance'), material.transmittance);
-        gl.uniform1f(at('transparency'), material.transparency);
+        gl.uniform3fv(at('transparency'), material.transparency);
         gl.uniform1f(at('alpha_cutoff'), material.alphaCutoff ?? 0);
         gl.uniform1i(at('albedo_row'), this.albedos.rows[index]);
         gl.uniform1i(at('unlit'), Number(material.unlit));

@@ -25,7 +25,7 @@
  * @property {number | null} alphaCutoff
  * @property {number | null} albedo  geometry: 32 texels of 16 bytes
  * @property {Triple} transmittance
- * @property {number} transparency
+ * @property {Triple} transparency  of glass: what passes straight on; 0: none
  * @property {boolean} unlit
  *
  * @typedef {object} Sun

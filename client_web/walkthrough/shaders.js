@@ -3,7 +3,7 @@
 // the server's own texts, which come with the scene.
 
 /** What a picture shows; numbers are those of MODE in the shaders. */
-export const MODES = /** @type {const} */ ({photo: 0, luminance: 1, illuminance: 2, brightness: 3, linear: 4, distance: 5, normal: 6});
+export const MODES = /** @type {const} */ ({photo: 0, luminance: 1, illuminance: 2, brightness: 3, linear: 4, distance: 5, normal: 6, glass: 7});
 
 /** Attributes of vertices by their places. */
 export const ATTRIBUTES = /** @type {const} */ ({vertex: 0, front: 1, back: 2, emission: 3, uv: 4, colour: 5});
@@ -101,8 +101,8 @@ vec4 output_of(vec3 radiance, float illuminance, bool counts) {
 export const surfaceFragment = (shaders) => `${HEAD}
 centroid in vec3 position, normal, front, back, emitted, colour;
 centroid in vec2 uv;
-uniform vec3 eye, base_colour, transmittance;
-uniform float alpha_cutoff, transparency;
+uniform vec3 eye, base_colour, transmittance, transparency;
+uniform float alpha_cutoff;
 uniform bool two_sided, textured, unlit;
 uniform int albedo_row;  // -1: the base colour at every angle
 uniform sampler2D base_texture, albedo_table;
@@ -135,6 +135,10 @@ void main() {
     if (alpha_cutoff > 0.0 && texel.a < alpha_cutoff) discard;
     vec3 base = clamp(base_colour * texel.rgb * colour, 0.0, 0.999);
     bool from_front = gl_FrontFacing;
+    if (mode == ${MODES.glass}) {
+        shown = vec4(srgb_encoded(transparency), 1.0);
+        return;
+    }
     if (!from_front && !two_sided) {
         shown = output_of(vec3(0.0), 0.0, false);
         return;
@@ -154,8 +158,11 @@ void main() {
         }
         radiance = unlit_white * base;
     }
+    if (transparency != vec3(0.0)) {  // over what is behind it
+        shown = vec4(output_of(light, 0.0, false).rgb, luminance(albedo_of(vec3(0.0), from_front)));
+        return;
+    }
     shown = output_of(radiance, pi * luminance(light), emitted == vec3(0.0));
-    if (transparency > 0.0) shown.a = srgb_encoded(vec3(transparency)).r;
 }
 `;
 

@@ -194,7 +194,7 @@ class Baker {
                     result["alphaCutoff"] = *cutoff;
                 }
             }
-            if (const float passing = transparency(baked_.scene, material); passing > 0.0F) {
+            if (const float passing = luminance(transparency(baked_.scene, i)); passing > 0.0F) {
                 surface["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0F - passing};
                 result["alphaMode"] = "BLEND";
             }

@@ -45,7 +45,7 @@ Json material_json(const ManifestParts& parts, std::size_t index) {
             {"alphaCutoff", to_json(texture_alpha_cutoff(material))},
             {"albedo", to_json(parts.albedos[index])},
             {"transmittance", to_json(material.transmittance)},
-            {"transparency", transparency(parts.scene, material)},
+            {"transparency", to_json(transparency(parts.scene, index))},
             {"unlit", material.unlit}};
 }
 

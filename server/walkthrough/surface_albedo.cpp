@@ -80,12 +80,15 @@ std::vector<std::optional<AlbedoRow>> surface_albedos(const Scene& scene, const 
     return rows;
 }
 
-float transparency(const Scene& scene, const Material& material) {
-    if (!is_glass(material)) {
-        return 0.0F;
+glm::vec3 transparency(const Scene& scene, std::size_t material) {
+    const Material& m = scene.materials[material];
+    if (!is_glass(m)) {
+        return glm::vec3(0.0F);
     }
-    const SpecularSurface glass = specular_surface(material, mean_base_colour(scene, material));
-    return luminance(pane_shares(glass, 1.0F).transmitted);
+    const SpecularSurface glass = specular_surface(m, mean_base_colour(scene, m));
+    const bool absorbs = glass.kind == SpecularKind::glass && glass.absorption != glm::vec3(0.0F);
+    const float chord = absorbs ? mean_chord(scene, material) : 0.0F;
+    return pane_shares(glass, 1.0F).transmitted * glm::exp(-0.5F * chord * glass.absorption);
 }
 
 }  // namespace raybundle

@@ -26,8 +26,9 @@ constexpr float albedo_cosine(std::size_t entry) {
 /// metalness of textures are their means over the surface.
 std::vector<std::optional<AlbedoRow>> surface_albedos(const Scene& scene, const PatchMesh& mesh);
 
-/// Share of the light that straight lines lose nothing of: of what lies behind glass a picture
-/// shows so much. 0 where a material is none. By luminance, at normal incidence.
-float transparency(const Scene& scene, const Material& material);
+/// Share of the light that passes a pane, or one boundary of a body of glass, straight on, at
+/// normal incidence; half of what the body's mean chord absorbs counts for each of its boundaries.
+/// 0 where a material is no glass.
+glm::vec3 transparency(const Scene& scene, std::size_t material);
 
 }  // namespace raybundle

@@ -149,5 +149,19 @@ TEST(SurfaceAlbedo, IsThatOfTheReflectanceTable) {
     }
 }
 
+TEST(Transparency, IsThatOfGlassAlone) {
+    SceneBuilder builder;
+    Material pane;
+    pane.base_colour = glm::vec3(1.0F);
+    pane.metallic = 0.0F;
+    pane.roughness = 0.0F;
+    pane.transmission = 1.0F;
+    const auto glass = builder.add_material(pane);
+    const auto wall = builder.add_material(glm::vec3(0.7F));
+    // Both faces of index 1.5 reflect 4 %, again and again: 2 n / (n^2 + 1) passes.
+    EXPECT_NEAR(transparency(builder.scene, glass).g, 3.0F / 3.25F, 1e-3F);
+    EXPECT_EQ(transparency(builder.scene, wall), glm::vec3(0.0F));
+}
+
 }  // namespace
 }  // namespace raybundle
