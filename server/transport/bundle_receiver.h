@@ -50,6 +50,8 @@ class BundleReceiver {
     /// The samples so far are of bundles that carried nothing but emission. BINDING_COMPLETION has
     /// what they lack, RadianceStore::complete_start().
     virtual void complete_start() {}
+    /// Objects will move: what a first shot takes back of what they can reach.
+    virtual void begin_moves() {}
     /// Objects have moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special() = 0;
     /// The next pairs of bundles before and after the move, at most MOST_DIFFERENCES: receivers

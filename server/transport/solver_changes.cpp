@@ -97,6 +97,10 @@ void Solver::move_objects(std::span<const ObjectMove> moves,
         throw std::invalid_argument("more objects than one phase moves");
     }
     begin_change();
+    store_.begin_moves(moves);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_moves();
+    }
     scene_.move_objects(moves);
     zones_.objects_moved();
     for (const ObjectMove& move : moves) {
@@ -211,7 +215,7 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     zones_.surfaces_changed(mesh);
     change.glossy = change.glossy || any_glossy(reflecting);
     adapt_unit(scene, mesh, change.scale);
-    store_.renew_first_shot();
+    store_.renew_first_shot(reflecting);
     carried_light_.update(scene, mesh);
     if (caustics_) {
         caustics_->update(scene, materials, mesh.emission);

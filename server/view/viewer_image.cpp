@@ -105,45 +105,11 @@ void ViewerImage::allocate_first_shot() {
     first_shot_ = Buffer("pixel first shot", values * pixel_count(size_) * sizeof(glm::vec4));
     first_shot_texture_ = create_buffer_texture("pixel first shot", GL_RGBA32F, first_shot_);
     lamps_.reset();
-    if (store_.first_shot()->many() != nullptr) {
+    if (store_.first_shot()->many() == nullptr) {
+        shot_rest_ = Buffer("pixel first shot rest", first_shot_.bytes());
+    } else {
         lamps_.emplace(pixel_count(size_), values == 2);
     }
-}
-
-/// Light of punctual lights at the pixels. same_pixels: only lights have changed.
-void ViewerImage::shoot_first(bool same_pixels) {
-    if (store_.first_shot() == nullptr) {
-        return;
-    }
-    const GlScope scope("pixel first shot");
-    if (lamps_) {
-        if (same_pixels) {
-            lamps_->change(programs_, *store_.first_shot());
-        } else {
-            lamps_->begin(programs_, *store_.first_shot(), pixel_count(size_));
-        }
-        store_.bind();
-        bind_pixels();
-        return;
-    }
-    store_.first_shot()->set_uniforms(programs_.first_shot);
-    store_.first_shot()->dispatch(programs_.first_shot, pixel_count(size_));
-}
-
-/// Of many lamps some more at the pixels: a picture whose camera may move on soon waits until it
-/// rests, and does a part at a time.
-void ViewerImage::look_at_lamps() {
-    constexpr std::uint64_t resting_samples = 8;
-    constexpr std::size_t points = 4096;  // some 10 ms on a core
-    constexpr std::size_t points_at_rest = 16 * points;
-    if (!lamps_ || (!rests_ && samples_ < resting_samples)) {
-        return;
-    }
-    store_.bind();
-    bind_pixels();
-    lamps_->advance(programs_, *store_.first_shot(), rests_ ? points_at_rest : points);
-    store_.bind();
-    bind_pixels();
 }
 
 void ViewerImage::create_pixel_textures() {
@@ -254,8 +220,8 @@ bool ViewerImage::smooth_step() {
     return !edges_->complete();
 }
 
-/// moved: objects have just moved, and the picture still shows them at their old places.
-void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
+/// moved_objects: the picture still shows them at their old places.
+void ViewerImage::refresh_geometry(float kept_weight, Shows shows) {
     join_kept();
     old_ = {parameters_.clip_from_world, glm::uvec2(parameters_.size), glm::vec3(parameters_.eye),
             parameters_.weights.x, glm::vec3(parameters_.constant)};
@@ -286,10 +252,10 @@ void ViewerImage::refresh_geometry(float kept_weight, bool moved) {
         specular_->begin();
     }
     resolve(!has_picture_ || kept_weight <= 0.0F ? programs_.resolve_new
-            : moved                              ? programs_.resolve_moved
+            : shows == Shows::moved_objects      ? programs_.resolve_moved
                                                  : programs_.resolve_reprojected,
             whole_picture(), kept_weight);
-    shoot_first();
+    shoot_first(has_picture_ && ends_ == nullptr ? shows : Shows::another_view);
     restart_scatter();
     edges_->restart();
     samples_ = 0;

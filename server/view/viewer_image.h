@@ -145,6 +145,7 @@ class ViewerImage : public BundleReceiver {
     void receive_planes(const Context& context) override;
     void discard_sample(const Context& context) override;
     void complete_start() override;
+    void begin_moves() override;
     void begin_special() override;
     void plan_differences(std::span<const BundleRays> bundles,
                           std::span<const Bounds> boxes) override;
@@ -227,11 +228,15 @@ class ViewerImage : public BundleReceiver {
     void copy_rows(const PixelRectangle& rectangle) const;
     void resolve(const ViewPrograms::Resolve& programs, const PixelRectangle& rectangle,
                  float kept_weight);
-    void refresh_geometry(float kept_weight, bool moved = false);
+    /// What a picture shows against the one before it.
+    enum class Shows { another_view, moved_objects, same_surfaces };
+    void refresh_geometry(float kept_weight, Shows shows = Shows::another_view);
     void refresh_moved();
     void allocate_gloss();
     void allocate_first_shot();
-    void shoot_first(bool same_pixels = false);
+    void shoot_first(Shows shows);
+    void shoot_changes(const FirstShot& first_shot);
+    void shoot(const FirstShot& first_shot, unsigned pass, const PixelRectangle& part) const;
     void look_at_lamps();
     void begin_raster(const PixelRectangle& rectangle) const;
     static void end_raster();
@@ -320,6 +325,9 @@ class ViewerImage : public BundleReceiver {
     const Buffer* ends_ = nullptr;              // of a ContinuedView's pixels
     Buffer gloss_, old_gloss_, gloss_delta_;    // only where it is glossy
     Buffer first_shot_;                         // only where it has punctual lights
+    Buffer shot_rest_;                          // likewise, but of many: see shot_pass.glsl
+    std::uint64_t shot_version_ = 0;            // of the first shot that the pixels have
+    bool shot_taken_back_ = false;              // what a move can reach of it
     Texture2D first_shot_texture_;
     std::optional<PixelLamps> lamps_;  // only where these are many
     Texture2D gloss_texture_, old_gloss_texture_;

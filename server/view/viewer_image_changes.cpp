@@ -46,7 +46,7 @@ void ViewerImage::begin_special() {
     if (has_picture_ && store_.first_shot() == nullptr) {
         refresh_moved();
     } else {
-        refresh_geometry(store_.kept_share(parameters_.weights.x), true);
+        refresh_geometry(store_.kept_share(parameters_.weights.x), Shows::moved_objects);
     }
     clear_increments();
 }
@@ -152,7 +152,7 @@ void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::ui
                                  bool redraw) {
     begin_change();
     if (redraw) {
-        refresh_geometry(1.0F);
+        refresh_geometry(1.0F, Shows::same_surfaces);
     }
     clear_increments();
     upload_view();
@@ -164,7 +164,7 @@ void ViewerImage::begin_surfaces(const glm::vec3& scale, std::span<const std::ui
         programs_.scale.dispatch(std::size_t{size_.x} * size_.y);
     };
     if (!redraw) {
-        shoot_first(true);
+        shoot_first(Shows::same_surfaces);
     }
     parameters_.constant *= glm::vec4(scale, 0.0F);
     if (scale != glm::vec3(1.0F)) {

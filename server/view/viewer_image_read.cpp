@@ -91,9 +91,9 @@ std::size_t ViewerImage::bytes() const {
                       confidence_->bytes() + crowded_->bytes() +
                       (continued_ ? continued_->bytes() : 0) +
                       (depth_grid_ ? depth_grid_->bytes() : 0);
-    for (const Buffer* buffer :
-         {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_, &kept_, &scatter_,
-          &vertex_irradiance_, &frame_, &gloss_, &old_gloss_, &gloss_delta_, &first_shot_}) {
+    for (const Buffer* buffer : {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_,
+                                 &kept_, &scatter_, &vertex_irradiance_, &frame_, &gloss_,
+                                 &old_gloss_, &gloss_delta_, &first_shot_, &shot_rest_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -95,6 +95,9 @@
 #define BINDING_LAMP_CHANCES 59       // uvec2[]: see lamps_patches.comp
 #define BINDING_LAMP_LEVELS 44        // vec4[(levels + 1) * patches]: irradiance by the lamps of a level; last gloss, see lamps_publish.comp
 #define BINDING_LAMP_PIXELS 43        // vec4[]: see view_lamps.comp
+#define BINDING_FIRST_SHOT_REST 61    // as BINDING_FIRST_SHOT: what rounding left of the sums, see shot_pass.glsl
+#define BINDING_SHOT_MASKS 47         // uint[words * patches]: lights of which a change reaches patches, bit by bit
+#define BINDING_PIXEL_SHOT_REST 43    // as BINDING_PIXEL_FIRST_SHOT: likewise
 
 #define NEAR_SHARE 1e-7  // of the scene's diameter: a shooter does not see nearer surfaces
 #define TIE_SHARE 4e-6  // of it: closer surfaces coincide
@@ -161,6 +164,7 @@
 #define BINDING_VIEW 1
 
 #define CREASE_SHIFT 29  // bit CREASE_SHIFT + k of a triangle's w: the edge opposite to vertex k is a crease
+#define MATERIAL_MASK 0x0fffffffu
 #define TRIANGLE_SMOOTH 0x10000000u  // vertex normals differ from the plane's
 #define MATERIAL_MASK 0x0fffffffu
 #define FACET_LEAF 0x80000000u  // FacetNode::leaf_bit
@@ -348,7 +352,17 @@ struct PunctualData {
     vec4 intensity;  // cd or lx, in radiance units
     uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
     uvec4 profile;   // x: IES profile, or NO_PROFILE; y: 1: part of the sky, which view rays show
+    uvec4 touched[3];  // of each layer: first and last texel that a change reaches, 16 bits for each coordinate
+    vec4 touched_cone;  // round all of them: axis; w: cosine of half its angle, below -1: everything
 };
+
+// What a first shot of punctual lights does, see solution/direct/first_shot.h.
+#define SHOT_LIGHTS 16     // that a dispatch looks at, at most
+#define SHOT_ALL 0u        // all points, all lights
+#define SHOT_TAKE_BACK 1u  // takes back the light that a change reaches, as it was
+#define SHOT_ADD 2u        // adds it as it is
+#define SHOT_RENEW 3u      // some points, all lights
+#define SHOT_FIND 4u       // finds what a change reaches: BINDING_SHOT_MASKS
 
 struct PixelSurface {
     vec3 position;   // world space

@@ -42,6 +42,27 @@ uint map_layer(PunctualData light, vec3 position, out vec2 at) {
     return light.map.x + face;
 }
 
+/// Whether a change may reach what light k's map says about a point: cheap, and true where is_touched() is.
+bool may_be_touched(uint k, vec3 position) {
+    vec4 cone = punctual[k].touched_cone;
+    vec3 d = position - punctual[k].position.xyz;
+    return dot(cone.xyz, d) >= cone.w * length(d);
+}
+
+/// Whether a change reaches it.
+bool is_touched(uint k, vec3 position) {
+    vec2 at;
+    uint layer = map_layer(punctual[k], position, at) - punctual[k].map.x;
+    uvec4 pair = punctual[k].touched[layer >> 1];
+    uvec2 texels = (layer & 1u) == 0u ? pair.xy : pair.zw;
+    ivec2 first = ivec2(texels.x & 0xffffu, texels.x >> 16);
+    ivec2 last = ivec2(texels.y & 0xffffu, texels.y >> 16);
+    ivec2 corner = ivec2(floor(at - 0.5));
+    ivec2 end = ivec2(punctual[k].map.w) - 1;
+    return all(lessThanEqual(clamp(corner, ivec2(0), end), last)) &&
+           all(greaterThanEqual(clamp(corner + 1, ivec2(0), end), first));
+}
+
 /// How a surface of the map stands to a line: 0 not in the way, 1 beside it, 2 in the way.
 /// to_light: from the point; its length is the distance, or without limit where `distant`.
 uint obstacle(uint surface, vec3 position, vec3 to_light, bool distant, uint own_facet) {

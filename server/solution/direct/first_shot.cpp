@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
@@ -15,7 +16,20 @@ namespace {
 constexpr float tie_share = 4e-6F;  // of the scene's diameter: closer surfaces coincide
 /// Rays to lights that one invocation follows. llvmpipe ends an invocation's loops after 65 535
 /// rounds, all loops together: 4000 boxes a ray are left.
-constexpr unsigned most_rays = 16;
+constexpr unsigned most_rays = SHOT_LIGHTS;
+
+/// Share of the maps that a change may reach: taking back and adding costs twice.
+constexpr double most_touched = 0.5;
+
+/// For a bit of each light.
+unsigned mask_words(std::size_t lights) {
+    return static_cast<unsigned>((lights + 31) / 32);
+}
+
+bool same_place(const layout::PunctualData& a, const layout::PunctualData& b) {
+    return a.position == b.position && a.axis_x == b.axis_x && a.axis_y == b.axis_y &&
+           a.axis_z == b.axis_z;
+}
 
 /// Parts along an edge of a patch: many patches are small ones, and many lights average over what
 /// each of them misses.
@@ -58,7 +72,13 @@ FirstShot::FirstShot(const GpuScene& scene)
         many_ = std::make_unique<ManyLamps>(scene);
     } else {
         maps_.emplace(scene);
+        rest_ = Buffer("first shot rest", patches_.bytes());
+        rest_.clear();
+        masks_ = Buffer("first shot masks", sizeof(std::uint32_t) * scene.patch_count() *
+                                                mask_words(scene.punctual_lights().size()));
         shoot_ = ShaderProgram({"solution_first_shot.comp"}, scene.defines());
+        shoot_.set("moved_objects", glm::uvec4(NO_PATCH));
+        shoot_.set("renewed_material", NO_PATCH);
     }
 }
 
@@ -80,33 +100,200 @@ void FirstShot::remember_darkness() {
     remembered_.clear();
 }
 
-void FirstShot::update(bool radiance_follows) {
+void FirstShot::update(bool radiance_follows, std::span<const std::uint32_t> reflecting) {
     if (many_) {
         bind();
         many_->update(lights_, ies_, radiance_follows);
         return;
     }
-    lights_.write(maps_->draw(), 0);
-    const GlScope scope("first shot");
     bind();
-    set_uniforms(shoot_);
-    const unsigned divisions = divisions_of(scene_.patch_count(), scene_.punctual_lights().size());
-    shoot_.set("patch_count", scene_.patch_count());
+    reflecting_.assign(reflecting.begin(), reflecting.end());
     shoot_.set("radiance_follows", radiance_follows);
+    Lights now = maps_->placed(ies_);
+    const float tie = tie_share * scene_.diameter();
+    const bool same = tie == tie_ && unit_ == scene_.radiance_unit() && !scene_.openings_changed();
+    if (!same || known_.empty()) {
+        reach_ = Reach::everything;
+    } else if (!begun_) {
+        choose_lamps(now);
+    } else if (reach_ == Reach::moves && !others_stay(now)) {
+        reach_ = Reach::everything;
+    }
+    begun_ = false;
+    tie_ = tie;
+    unit_ = scene_.radiance_unit();
+    ++version_;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        if (reach_ == Reach::everything) {
+            touch_all(now[k]);
+        } else {
+            std::copy_n(known_[k].touched, std::size(now[k].touched), now[k].touched);
+            now[k].touched_cone = known_[k].touched_cone;
+        }
+    }
+    known_ = std::move(now);
+    if (reach_ != Reach::lamps) {
+        maps_->draw(known_);
+        bind();
+    }
+    lights_.write<layout::PunctualData>(known_, 0);
+    end_change(radiance_follows);
+}
+
+/// Lamps that differ are touched, and their light is taken back; everything, where one of them is
+/// elsewhere or where that is less work. Maps stay.
+void FirstShot::choose_lamps(const Lights& now) {
+    reach_ = Reach::lamps;
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+        if (same_place(known_[k], now[k])) {
+            known_[k].intensity == now[k].intensity ? touch_nothing(known_[k])
+                                                    : touch_all(known_[k]);
+        } else {
+            reach_ = Reach::everything;
+        }
+    }
+    if (touched_share(known_) > most_touched) {
+        reach_ = Reach::everything;
+    }
+    if (reach_ == Reach::lamps) {
+        if (lights_before_.bytes() == 0) {
+            lights_before_ = Buffer("punctual lights before", lights_.bytes());
+        }
+        lights_before_.write<layout::PunctualData>(known_, 0);
+        lights_.write<layout::PunctualData>(known_, 0);
+        shoot_patches(SHOT_TAKE_BACK, false);
+    }
+}
+
+/// Of lamps that move along everything, of the others what their maps show of the objects.
+void FirstShot::touch_moves(std::span<const ObjectMove> moves) {
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+        layout::PunctualData& light = known_[k];
+        const int carrier = scene_.punctual_lights()[k].object;
+        const bool carried = std::any_of(moves.begin(), moves.end(), [&](const ObjectMove& move) {
+            return carrier == static_cast<int>(move.object);
+        });
+        if (carried) {
+            touch_all(light);
+            continue;
+        }
+        for (unsigned face = 0; face < light.map.y; ++face) {
+            MapTexels texels;
+            for (const ObjectMove& move : moves) {
+                texels.add(
+                    maps_->showing(light, face, scene_.object_bounds(move.object, Place::now)));
+                texels.add(maps_->showing(light, face, scene_.bounds_moved(move)));
+            }
+            set_touched(light, face, texels);
+        }
+        enclose_touched(light);
+    }
+}
+
+void FirstShot::begin_moves(std::span<const ObjectMove> moves) {
+    if (many_ || known_.empty()) {
+        return;
+    }
+    begun_ = true;
+    touch_moves(moves);
+    reach_ = touched_share(known_) > most_touched ? Reach::everything : Reach::moves;
+    if (reach_ == Reach::moves) {
+        bind();
+        glm::uvec4 objects(NO_PATCH);
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            objects[static_cast<int>(i)] = moves[i].object;
+        }
+        shoot_.set("moved_objects", objects);
+        shoot_.set("radiance_follows", true);
+        lights_.write<layout::PunctualData>(known_, 0);
+        shoot_patches(SHOT_FIND, false);
+        shoot_patches(SHOT_TAKE_BACK, false);
+        shoot_.set("moved_objects", glm::uvec4(NO_PATCH));
+    }
+}
+
+/// Whether all lamps that do not move along are where they were. The sun's map is placed by the
+/// bounds of the scene.
+bool FirstShot::others_stay(const Lights& now) const {
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        const bool whole = touched_share(std::span(&known_[k], 1)) == 1.0;
+        if (!whole && !same_place(known_[k], now[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Adds what has been taken back, as it is now.
+void FirstShot::end_change(bool radiance_follows) {
+    if (reach_ == Reach::everything) {
+        shoot_patches(SHOT_ALL, true);
+        return;
+    }
+    const glm::uvec4 moved = reach_ == Reach::moves ? scene_.moved_objects() : glm::uvec4(NO_PATCH);
+    shoot_.set("moved_objects", moved);
+    shoot_patches(SHOT_ADD, true);
+    if (reach_ == Reach::moves) {
+        shoot_patches(SHOT_RENEW, radiance_follows);
+        shoot_.set("moved_objects", glm::uvec4(NO_PATCH));
+    }
+    for (const std::uint32_t material : reflecting_) {
+        shoot_.set("renewed_material", material);
+        shoot_patches(SHOT_RENEW, true);
+        shoot_.set("renewed_material", NO_PATCH);
+    }
+}
+
+void FirstShot::shoot_patches(unsigned pass, bool ends) {
+    const GlScope scope("first shot");
+    const unsigned divisions = divisions_of(scene_.patch_count(), scene_.punctual_lights().size());
+    set_uniforms(shoot_);
+    rest_.bind_storage(BINDING_FIRST_SHOT_REST);
+    masks_.bind_storage(BINDING_SHOT_MASKS);
+    shoot_.set("mask_words", mask_words(known_.size()));
+    shoot_.set("whole_lights", reach_ != Reach::moves);
+    shoot_.set("patch_count", scene_.patch_count());
     shoot_.set("divisions", divisions);
-    dispatch(shoot_, scene_.patch_count(), most_rays / (divisions * divisions));
+    const auto lights = static_cast<unsigned>(known_.size());
+    shoot(shoot_, pass, scene_.patch_count(),
+          pass == SHOT_FIND ? lights : most_rays / (divisions * divisions), ends);
 }
 
-void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads) const {
-    dispatch(program, threads, most_rays);
+void FirstShot::shoot(const ShaderProgram& program, unsigned pass, std::size_t threads) const {
+    shoot(program, pass, threads, most_rays, true);
 }
 
-void FirstShot::dispatch(const ShaderProgram& program, std::size_t threads,
-                         unsigned most_lights) const {
-    const auto lights = static_cast<unsigned>(scene_.punctual_lights().size());
-    for (unsigned first = 0; first < lights; first += most_lights) {
-        program.set("first_light", first);
-        program.set("end_light", std::min(first + most_lights, lights));
+void FirstShot::shoot(const ShaderProgram& program, unsigned pass, std::size_t threads,
+                      unsigned most_lights, bool ends) const {
+    const bool whole = pass != SHOT_TAKE_BACK && pass != SHOT_ADD;
+    const auto lights = static_cast<unsigned>(known_.size());
+    std::vector<glm::uvec2> ranges;
+    for (unsigned first = 0; first < lights;) {
+        if (!whole && !is_touched(known_[first])) {
+            ++first;
+            continue;
+        }
+        unsigned end = first + 1;
+        while (end < std::min(first + most_lights, lights) && (whole || is_touched(known_[end]))) {
+            ++end;
+        }
+        ranges.emplace_back(first, end);
+        first = end;
+    }
+    program.set("shot_pass", pass);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        program.set("first_light", ranges[i].x);
+        program.set("end_light", ranges[i].y);
+        glm::vec4 cones[SHOT_LIGHTS] = {};
+        glm::vec4 places[SHOT_LIGHTS] = {};
+        for (unsigned k = ranges[i].x; k < std::min(ranges[i].y, ranges[i].x + SHOT_LIGHTS); ++k) {
+            cones[k - ranges[i].x] = known_[k].touched_cone;
+            places[k - ranges[i].x] = known_[k].position;
+        }
+        program.set("touched_cones", std::span<const glm::vec4>(cones));
+        program.set("light_places", std::span<const glm::vec4>(places));
+        program.set("begins", i == 0);
+        program.set("ends", ends && i + 1 == ranges.size());
         program.dispatch(threads);
     }
 }
@@ -126,7 +313,7 @@ void FirstShot::bind() const {
 
 void FirstShot::set_uniforms(const ShaderProgram& program) const {
     program.set("punctual_count", static_cast<unsigned>(scene_.punctual_lights().size()));
-    program.set("shadow_tie", tie_share * scene_.diameter());
+    program.set("shadow_tie", many_ ? tie_share * scene_.diameter() : tie_);
 }
 
 std::vector<glm::vec3> FirstShot::read_irradiance() const {
@@ -159,7 +346,8 @@ std::vector<glm::vec4> FirstShot::read_reflected() const {
 
 std::size_t FirstShot::bytes() const {
     return (maps_ ? maps_->bytes() : many_->bytes()) + lights_.bytes() + patches_.bytes() +
-           profiles_.bytes() + remembered_.bytes();
+           profiles_.bytes() + remembered_.bytes() + rest_.bytes() + masks_.bytes() +
+           lights_before_.bytes();
 }
 
 }  // namespace raybundle

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gpu/gl_limits.h"
 #include "gpu/gl_scope.h"
@@ -16,6 +17,8 @@ constexpr int smallest_map = 128;
 constexpr std::size_t most_bytes = 96U << 20U;  // of all maps
 constexpr float near_share = 1e-6F;             // of the scene's diameter
 constexpr float widest_face = 1.8F;             // tangent; wider spots take a cube
+constexpr float edge_width = 3.0F;              // texels, of lines and points that mark edges
+constexpr float edge_reach = edge_width;        // beyond a surface, with rounding
 
 unsigned layers_of(const PunctualLight& light) {
     if (light.kind == PunctualKind::directional) {
@@ -50,19 +53,18 @@ Texture2D create_layers(GLenum format, int size, unsigned layers) {
     return texture;
 }
 
-/// Axes of a face of a cube map; the same table as cube_face() in shaders/solution/first_shot.glsl.
-struct FaceAxes {
-    glm::vec3 right{0.0F}, up{0.0F}, forward{0.0F};
-};
-
-FaceAxes face_axes(unsigned face) {
-    const int axis = static_cast<int>(face / 2);
-    const float sign = (face & 1U) != 0 ? -1.0F : 1.0F;
-    FaceAxes axes;
-    axes.forward[axis] = sign;
-    axes.right[(axis + 1) % 3] = -sign;
-    axes.up[(axis + 2) % 3] = 1.0F;
-    return axes;
+/// Clip coordinates of the part of a map from those of the whole. Surfaces beside it whose edges
+/// reach into it belong to it.
+glm::mat4 part_of_map(const MapTexels& texels, int size) {
+    const glm::vec2 low = glm::vec2(texels.first) - edge_reach;
+    const glm::vec2 high = glm::vec2(texels.last) + 1.0F + edge_reach;
+    const glm::vec2 scale = static_cast<float>(size) / (high - low);
+    const glm::vec2 centre = (low + high) / static_cast<float>(size) - 1.0F;
+    glm::mat4 part(1.0F);
+    part[0][0] = scale.x;
+    part[1][1] = scale.y;
+    part[3] = glm::vec4(-centre * scale, 0.0F, 1.0F);
+    return part;
 }
 
 glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
@@ -73,7 +75,6 @@ glm::vec4 row(const glm::vec3& axis, const glm::vec3& origin) {
 
 ShadowMaps::ShadowMaps(const GpuScene& scene)
     : scene_(scene),
-      profiles_(profiles_of(scene.punctual_lights())),
       raster_({"bundle_raster.vert", "bundle_nearest.frag"},
               with(scene.defines(), "CLEAR_GLASS 1")),
       edge_raster_({"bundle_raster.vert", "shadow_edges.frag"}) {
@@ -104,16 +105,54 @@ void ShadowMaps::bind() const {
     glBindTextureUnit(UNIT_SHADOW_EDGES, edges_.get());
 }
 
-void ShadowMaps::place_lights() {
-    lights_ = placed_lights(scene_, profiles_);
+std::vector<layout::PunctualData> ShadowMaps::placed(const IesProfiles& profiles) const {
+    std::vector<layout::PunctualData> lights = placed_lights(scene_, profiles);
     unsigned layer = 0;
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
         const unsigned layers = layers_of(scene_.punctual_lights()[i]);
-        lights_[i].map.x = layer;
-        lights_[i].map.y = layers;
-        lights_[i].map.w = static_cast<unsigned>(size_);
+        lights[i].map.x = layer;
+        lights[i].map.y = layers;
+        lights[i].map.w = static_cast<unsigned>(size_);
         layer += layers;
     }
+    return lights;
+}
+
+MapTexels ShadowMaps::showing(const layout::PunctualData& light, unsigned face,
+                              const Bounds& box) const {
+    if (box.empty()) {
+        return {};
+    }
+    const glm::mat4 clip = clip_from_world(light, face);
+    const MapTexels whole = MapTexels::whole(size_);
+    glm::vec2 low(std::numeric_limits<float>::infinity());
+    glm::vec2 high = -low;
+    constexpr unsigned corners = 8;
+    unsigned behind = 0;
+    for (unsigned corner = 0; corner < corners; ++corner) {
+        const glm::bvec3 high_side(corner & 1U, corner & 2U, corner & 4U);
+        const glm::vec4 at = clip * glm::vec4(glm::mix(box.min, box.max, high_side), 1.0F);
+        if (at.w <= 0.0F) {
+            ++behind;
+            continue;
+        }
+        const glm::vec2 texel = (glm::vec2(at) / at.w * 0.5F + 0.5F) * static_cast<float>(size_);
+        low = glm::min(low, texel);
+        high = glm::max(high, texel);
+    }
+    if (behind == corners) {
+        return {};
+    }
+    if (behind > 0) {
+        return whole;  // the box lies beside the light
+    }
+    const auto last = static_cast<float>(size_ - 1);
+    if (glm::any(glm::lessThan(high, glm::vec2(-edge_reach))) ||
+        glm::any(glm::greaterThan(low, glm::vec2(last + 1.0F + edge_reach)))) {
+        return {};
+    }
+    return {glm::ivec2(glm::floor(glm::clamp(low - edge_reach, 0.0F, last))),
+            glm::ivec2(glm::floor(glm::clamp(high + edge_reach, 0.0F, last)))};
 }
 
 /// Reversed depth: 1 at the near plane, 0 infinitely far away (directional: behind the scene).
@@ -140,58 +179,64 @@ glm::mat4 ShadowMaps::clip_from_world(const layout::PunctualData& light, unsigne
 
 /// Lines and points of three texels reach at least one of the four texel centres round any point
 /// beside an edge, however short it is.
-void ShadowMaps::mark_edges(unsigned layer, const glm::mat4& clip) {
-    constexpr float width = 3.0F;  // texels
+void ShadowMaps::mark_edges(const Part& part) {
     glBindFramebuffer(GL_FRAMEBUFFER, edge_framebuffer_.get());
     glNamedFramebufferTextureLayer(edge_framebuffer_.get(), GL_COLOR_ATTACHMENT0, edges_.get(), 0,
-                                   static_cast<GLint>(layer));
+                                   static_cast<GLint>(part.layer));
     const GLuint unmarked[4] = {0, 0, 0, 0};
     glClearBufferuiv(GL_COLOR, 0, unmarked);
     glDisable(GL_DEPTH_TEST);
-    glLineWidth(width);
-    glPointSize(width);
+    glLineWidth(edge_width);
+    glPointSize(edge_width);
     edge_raster_.use();
-    edge_raster_.set("clip_from_world", clip);
+    edge_raster_.set("clip_from_world", part.clip_from_world);
     for (const GLenum mode : {GL_LINE, GL_POINT}) {
         glPolygonMode(GL_FRONT_AND_BACK, mode);
-        scene_.draw(Place::now, clip, false, edge_raster_);
+        scene_.draw(Place::now, part.seen, false, edge_raster_);
     }
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     if (cut_out_raster_) {
         cut_out_raster_->use();
-        cut_out_raster_->set("clip_from_world", clip);
-        scene_.draw(Place::now, clip, false, *cut_out_raster_);
+        cut_out_raster_->set("clip_from_world", part.clip_from_world);
+        scene_.draw(Place::now, part.seen, false, *cut_out_raster_);
     }
 }
 
-void ShadowMaps::draw_layer(unsigned layer, const glm::mat4& clip) {
+void ShadowMaps::draw_part(const Part& part) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glEnable(GL_DEPTH_TEST);
     raster_.use();
     glNamedFramebufferTextureLayer(framebuffer_.get(), GL_COLOR_ATTACHMENT0, maps_.get(), 0,
-                                   static_cast<GLint>(layer));
+                                   static_cast<GLint>(part.layer));
     const GLuint no_hit[4] = {NO_HIT, 0, 0, 0};
     const float far_depth = 0.0F;
     glClearBufferuiv(GL_COLOR, 0, no_hit);
     glClearBufferfv(GL_DEPTH, 0, &far_depth);
-    raster_.set("clip_from_world", clip);
-    scene_.draw(Place::now, clip, true, raster_);
+    raster_.set("clip_from_world", part.clip_from_world);
+    scene_.draw(Place::now, part.seen, true, raster_);
 }
 
-std::span<const layout::PunctualData> ShadowMaps::draw() {
+void ShadowMaps::draw(std::span<const layout::PunctualData> lights) {
     const GlScope scope("shadow maps");
-    place_lights();
     glViewport(0, 0, size_, size_);
+    glEnable(GL_SCISSOR_TEST);
     glDepthFunc(GL_GREATER);
-    for (const layout::PunctualData& light : lights_) {
+    for (const layout::PunctualData& light : lights) {
         for (unsigned face = 0; face < light.map.y; ++face) {
+            const MapTexels texels = touched(light, face);
+            if (texels.empty()) {
+                continue;
+            }
+            glScissor(texels.first.x, texels.first.y, texels.last.x - texels.first.x + 1,
+                      texels.last.y - texels.first.y + 1);
             const glm::mat4 clip = clip_from_world(light, face);
-            draw_layer(light.map.x + face, clip);
-            mark_edges(light.map.x + face, clip);
+            const Part part{light.map.x + face, clip, part_of_map(texels, size_) * clip};
+            draw_part(part);
+            mark_edges(part);
         }
     }
+    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
-    return lights_;
 }
 
 std::size_t ShadowMaps::bytes() const {

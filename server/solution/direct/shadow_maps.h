@@ -8,6 +8,7 @@
 
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
+#include "solution/direct/map_touch.h"
 #include "solution/direct/placed_lights.h"
 #include "solution/geometry/gpu_scene.h"
 
@@ -20,21 +21,28 @@ class ShadowMaps {
   public:
     explicit ShadowMaps(const GpuScene& scene);
 
-    /// Draws all maps for the present place of the objects. Returns the lights as shaders want
-    /// them; valid until the next call.
-    std::span<const layout::PunctualData> draw();
+    /// The scene's lights with their maps, as shaders want them.
+    [[nodiscard]] std::vector<layout::PunctualData> placed(const IesProfiles& profiles) const;
+    /// Texels whose surfaces may be others for what is in a box (shifted world), or will be.
+    [[nodiscard]] MapTexels showing(const layout::PunctualData& light, unsigned face,
+                                    const Bounds& box) const;
+    /// Draws what is touched of the lights' maps, for the present place of the objects.
+    void draw(std::span<const layout::PunctualData> lights);
     void bind() const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    void place_lights();
-    void draw_layer(unsigned layer, const glm::mat4& clip_from_world);
-    void mark_edges(unsigned layer, const glm::mat4& clip_from_world);
+    /// A part of a layer.
+    struct Part {
+        unsigned layer = 0;
+        glm::mat4 clip_from_world{1.0F};  ///< of the whole layer
+        glm::mat4 seen{1.0F};             ///< of the part alone
+    };
+    void draw_part(const Part& part);
+    void mark_edges(const Part& part);
     [[nodiscard]] glm::mat4 clip_from_world(const layout::PunctualData& light, unsigned face) const;
 
     const GpuScene& scene_;
-    std::vector<layout::PunctualData> lights_;
-    IesProfiles profiles_;
     unsigned layers_ = 0;
     int size_ = 0;  // texels along an edge
     Texture2D maps_, depths_, edges_;

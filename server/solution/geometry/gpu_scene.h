@@ -129,6 +129,8 @@ class GpuScene {
     /// What the sky sends in a direction now, less what has been transferred of the one before;
     /// radiance units.
     [[nodiscard]] glm::vec3 sky_change_towards(const glm::vec3& direction) const;
+    /// Whether the last update_surfaces() has changed what lets light pass: glass, or holes.
+    [[nodiscard]] bool openings_changed() const { return openings_changed_; }
     /// The lights without extent and the sky that the scene was made with, of other intensities.
     void update_lights(const Scene& scene);
     /// A light with a disc is several without.
@@ -152,6 +154,8 @@ class GpuScene {
     [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
     /// Of an object, shifted world, at a place.
     [[nodiscard]] Bounds object_bounds(std::uint32_t object, Place place) const;
+    /// Of an object where a move would put it, shifted world.
+    [[nodiscard]] Bounds bounds_moved(const ObjectMove& move) const;
     [[nodiscard]] glm::mat4 world_from_object(std::uint32_t object, Place place) const;
     /// Rotation of an object's directions from `before` to `now`, nearest to its change of place
     /// where that also scales or shears; identity where it has no size.
@@ -163,6 +167,7 @@ class GpuScene {
   private:
     void upload_geometry(const Scene& scene, const PatchMesh& mesh);
     void upload_materials(const Scene& scene, const PatchMesh& mesh);
+    [[nodiscard]] static glm::vec2 opening_of(const Material& material);
     void upload_surfaces(const PatchMesh& mesh);
     [[nodiscard]] layout::MaterialData material_data(const Scene& scene,
                                                      std::size_t material) const;
@@ -219,6 +224,8 @@ class GpuScene {
     ReflectanceTables reflectance_;
     std::unique_ptr<SpecularRays> specular_rays_;
     std::unique_ptr<FacetTracer> tracer_;
+    std::vector<glm::vec2> openings_;  // of materials: glass, and the alpha below which are holes
+    bool openings_changed_ = false;
     bool always_traces_ = false;
     bool traces_bundles_ = false;
     Buffer world_positions_;

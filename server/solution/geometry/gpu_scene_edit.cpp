@@ -30,7 +30,11 @@ bool differ_in_size(const glm::mat4& a, const glm::mat4& b) {
 
 void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
                                std::span<const std::uint32_t> materials) {
+    openings_changed_ = false;
     for (const std::uint32_t index : materials) {
+        const glm::vec2 opening = opening_of(scene.materials[index]);
+        openings_changed_ = openings_changed_ || opening != openings_[index];
+        openings_[index] = opening;
         reflectance_.update(scene, index);
         if (specular_rays_) {
             specular_rays_->update(scene, index);
@@ -83,8 +87,14 @@ void GpuScene::set_radiance_unit(float unit, const Scene& scene, const PatchMesh
     upload_surfaces(mesh);
 }
 
+Bounds GpuScene::bounds_moved(const ObjectMove& move) const {
+    const glm::mat4 there = glm::translate(glm::mat4(1.0F), -origin_) * move.world_from_object;
+    return bounds_at(move.object, kept(move.object, there));
+}
+
 void GpuScene::move_objects(std::span<const ObjectMove> moves) {
     settle();
+    openings_changed_ = false;
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const ObjectMove& move = moves[i];
         moved_[static_cast<int>(i)] = move.object;

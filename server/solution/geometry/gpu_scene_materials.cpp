@@ -94,8 +94,18 @@ void GpuScene::upload_surfaces(const PatchMesh& mesh) {
     }
 }
 
+glm::vec2 GpuScene::opening_of(const Material& material) {
+    const bool textured = material.base_colour_texture.texture >= 0;
+    return {is_glass(material) ? 1.0F : 0.0F,
+            textured ? texture_alpha_cutoff(material).value_or(0.0F) : 0.0F};
+}
+
 void GpuScene::upload_materials(const Scene& scene, const PatchMesh& mesh) {
     upload_surfaces(mesh);
+    openings_.clear();
+    for (const Material& material : scene.materials) {
+        openings_.push_back(opening_of(material));
+    }
     std::vector<bool> colours(scene.textures.size(), false);
     for (const Material& material : scene.materials) {
         if (material.base_colour_texture.texture >= 0) {

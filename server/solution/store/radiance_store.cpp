@@ -84,10 +84,10 @@ void RadianceStore::remember_first_shot(const RadianceStore& other) {
     }
 }
 
-void RadianceStore::renew_first_shot() {
+void RadianceStore::renew_first_shot(std::span<const std::uint32_t> reflecting) {
     if (first_shot_) {
         bind();
-        first_shot_->update(false);
+        first_shot_->update(false, reflecting);
     }
 }
 
@@ -105,11 +105,20 @@ void RadianceStore::take_lamps(std::uint32_t group) {
     }
 }
 
+void RadianceStore::begin_moves(std::span<const ObjectMove> moves) {
+    if (first_shot_) {
+        reflected_before_ = first_shot_->read_reflected();
+        bind();
+        first_shot_->begin_moves(moves);
+    }
+}
+
 void RadianceStore::reshoot(float phase_weight) {
     if (!first_shot_) {
         return;
     }
-    const std::vector<glm::vec4> before = first_shot_->read_reflected();
+    const std::vector<glm::vec4> before = std::move(reflected_before_);
+    bind();
     first_shot_->update();
     const std::vector<glm::vec4> after = first_shot_->read_reflected();
     std::vector<glm::vec4> sent(patch_count_);

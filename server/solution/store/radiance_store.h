@@ -60,14 +60,17 @@ class RadianceStore {
     void send_along_bundle(Place place) const { sent_.send_along_bundle(scene_, place); }
     /// Objects have moved: makes ready for those that have another size now.
     void follow_sizes() { sent_.follow_sizes(scene_); }
+    /// Objects will be moved thus, and reshoot() comes afterwards.
+    void begin_moves(std::span<const ObjectMove> moves);
     /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
     /// the means lose weight by how much of all light that is. phase_weight: as for correct().
     void reshoot(float phase_weight);
     /// Before lights or surfaces change: what punctual lights bring by `other`, this store or one
     /// that it takes over, is kept for ChangeStore::set_source(). Nothing where there are none.
     void remember_first_shot(const RadianceStore& other);
-    /// After that: it is found anew. The radiance is left to set_source().
-    void renew_first_shot();
+    /// After that: what has changed of it is found anew. The radiance is left to set_source().
+    /// reflecting: materials whose reflection is another.
+    void renew_first_shot(std::span<const std::uint32_t> reflecting);
     /// Share of its weight that a mean of this weight has kept in the last reshoot().
     [[nodiscard]] float kept_share(float weight) const {
         return 1.0F / (1.0F + weight * forgetting_);
@@ -173,8 +176,9 @@ class RadianceStore {
     ShooterSelection selection_;
     SolutionMeasures measures_;
     KeptMean kept_;
-    std::optional<FirstShot> first_shot_;  // only where the scene has punctual lights
-    Caustics* caustics_;                   // null where the scene has none
+    std::optional<FirstShot> first_shot_;      // only where the scene has punctual lights
+    std::vector<glm::vec4> reflected_before_;  // of it, before a move
+    Caustics* caustics_;                       // null where the scene has none
     float forgetting_ = 0.0F;
     std::optional<ShaderProgram> level_;  // only where patches transmit light
     ShaderProgram update_, complete_, forget_;
