@@ -67,7 +67,8 @@ struct EdgeUse {
 
 class ShellSearch {
   public:
-    explicit ShellSearch(const Scene& scene) : scene_(scene), groups_(scene.triangles.size()) {
+    explicit ShellSearch(const Scene& scene)
+        : scene_(scene), groups_(scene.triangles.size()), lamp_places_(tree_of_lamps()) {
         find_edges();
         collect_shells();
     }
@@ -100,10 +101,8 @@ class ShellSearch {
             }
             const std::uint32_t first = shell.triangles.front();
             const std::string& object = scene_.objects[scene_.triangles[first].object].name;
-            for (const PunctualLight& light : scene_.punctual_lights) {
-                if (holds_lamp(shell, light)) {
-                    found.push_back({light.name, object});
-                }
+            for (const std::uint32_t light : lamps_within(shell)) {
+                found.push_back({scene_.punctual_lights[light].name, object});
             }
             for (const Lamp& lamp : luminous) {
                 const Shell& other = shells_[lamp.shell];
@@ -233,15 +232,33 @@ class ShellSearch {
                            [&](const Camera& camera) { return holds(shell, camera.eye); });
     }
 
-    [[nodiscard]] bool holds_lamp(const Shell& shell, const PunctualLight& light) {
-        const PlacedLight placed = place_light(scene_, light);
-        return placed.kind != PunctualKind::directional && holds(shell, placed.position);
+    /// Numbers of the lights somewhere within a shell, in order.
+    [[nodiscard]] std::vector<std::uint32_t> lamps_within(const Shell& shell) {
+        std::vector<std::uint32_t> found;
+        lamp_places_.for_each_overlapping(shell.box, [&](std::uint32_t place) {
+            const PunctualLight& light = scene_.punctual_lights[placed_[place]];
+            if (holds(shell, place_light(scene_, light).position)) {
+                found.push_back(placed_[place]);
+            }
+        });
+        std::sort(found.begin(), found.end());
+        return found;
     }
 
     [[nodiscard]] bool holds_a_place(const Shell& shell) {
-        return holds_a_camera(shell) ||
-               std::any_of(scene_.punctual_lights.begin(), scene_.punctual_lights.end(),
-                           [&](const PunctualLight& light) { return holds_lamp(shell, light); });
+        return holds_a_camera(shell) || !lamps_within(shell).empty();
+    }
+
+    [[nodiscard]] BoxTree tree_of_lamps() {
+        std::vector<BoxTree::Box> boxes;
+        for (std::uint32_t i = 0; i < scene_.punctual_lights.size(); ++i) {
+            const PlacedLight placed = place_light(scene_, scene_.punctual_lights[i]);
+            if (placed.kind != PunctualKind::directional) {
+                boxes.push_back({placed.position, placed.position});
+                placed_.push_back(i);
+            }
+        }
+        return BoxTree(std::move(boxes));
     }
 
     [[nodiscard]] bool holds_a_surface(std::uint32_t number, const BoxTree& tree) {
@@ -296,6 +313,8 @@ class ShellSearch {
 
     const Scene& scene_;
     Groups groups_;
+    std::vector<std::uint32_t> placed_;  // lights that are somewhere
+    BoxTree lamp_places_;                // of these
     std::vector<Shell> shells_;
     std::vector<std::uint32_t> open_;  // triangles at edges that do not join two
     std::size_t looks_ = 0;
