@@ -11,9 +11,12 @@ namespace raybundle {
 
 namespace {
 
-// As in shaders/view/view_lamps.comp.
-constexpr unsigned step_begin = 0, step_add = 1, step_change = 2, step_count = 3;
 constexpr std::size_t most_changed = LAMP_SLOTS;  // lamps that change without a new beginning
+
+void set_pixels(const ShaderProgram& program, std::size_t first, std::size_t end) {
+    program.set("first_pixel", static_cast<unsigned>(first));
+    program.set("end_pixel", static_cast<unsigned>(end));
+}
 
 }  // namespace
 
@@ -28,8 +31,9 @@ void PixelLamps::begin(const ViewPrograms& programs, const FirstShot& first_shot
     exact_ = false;
     done_ = false;
     planned_ = false;
+    asked_end_ = 0;
     skipped_.clear();
-    programs.first_shot.set("step_kind", step_begin);
+    programs.first_shot.set("step_kind", LAMPS_BEGIN);
     programs.first_shot.set("all_lamps", false);
     count(programs, first_shot);
 }
@@ -52,10 +56,8 @@ void PixelLamps::add(const ViewPrograms& programs, ManyLamps& many, const Row& r
     const GlScope scope("pixel lamps");
     many.bind_row(row);
     sums_.bind_storage(BINDING_LAMP_PIXELS);
-    for (const ShaderProgram* program : {&programs.lamp_points, &programs.first_shot}) {
-        program->set("first_pixel", static_cast<unsigned>(first));
-        program->set("end_pixel", static_cast<unsigned>(end));
-    }
+    set_pixels(programs.lamp_points, first, end);
+    set_pixels(programs.first_shot, first, end);
     programs.lamp_points.dispatch(end - first);
     many.reach(end - first, row, before);
     programs.first_shot.set("sign", before ? -1.0F : 1.0F);
@@ -76,7 +78,7 @@ void PixelLamps::change(const ViewPrograms& programs, const FirstShot& first_sho
         return;
     }
     const Row row = many.row_of(changed);
-    programs.first_shot.set("step_kind", step_change);
+    programs.first_shot.set("step_kind", LAMPS_CHANGE);
     for (const bool before : {true, false}) {
         first_shot.bind_lights(before ? many.lights_before() : first_shot.lights());
         for (std::size_t first = 0; first < pixels_; first += many.most_points()) {
@@ -118,12 +120,28 @@ bool PixelLamps::plan(const ManyLamps& many) {
 void PixelLamps::finish_rows(const ViewPrograms& programs, const FirstShot& first_shot) {
     const unsigned levels = first_shot.many()->levels();
     planned_ = false;
-    programs.first_shot.set("step_kind", step_count);
+    programs.first_shot.set("step_kind", LAMPS_COUNT);
     programs.first_shot.set("all_lamps", level_ + 1 >= levels);
     count(programs, first_shot);
     done_ = level_ >= levels;
     exact_ = level_ + 1 >= levels;
     ++level_;
+}
+
+/// Asks for the points of the next pixels.
+void PixelLamps::request_points(const ViewPrograms& programs, const ManyLamps& many,
+                                std::size_t points) {
+    points = std::min({points, many.most_points(), pixels_});
+    if (points_.bytes() < points * sizeof(LampPoint)) {
+        points_ = Buffer("pixel lamp points", points * sizeof(LampPoint));
+        back_.emplace("pixel lamp points", points_.bytes());
+    }
+    asked_end_ = std::min(next_ + points, pixels_);
+    many.bind();
+    points_.bind_storage(BINDING_LAMP_POINTS);
+    set_pixels(programs.lamp_points, next_, asked_end_);
+    programs.lamp_points.dispatch(asked_end_ - next_);
+    back_->request(points_, (asked_end_ - next_) * sizeof(LampPoint));
 }
 
 bool PixelLamps::advance(const ViewPrograms& programs, const FirstShot& first_shot,
@@ -132,15 +150,25 @@ bool PixelLamps::advance(const ViewPrograms& programs, const FirstShot& first_sh
     if (done_ || version_ != many.version() || !plan(many)) {
         return false;
     }
-    if (row_ < rows_.size()) {
-        const std::size_t end = std::min({next_ + points, next_ + many.most_points(), pixels_});
-        programs.first_shot.set("step_kind", step_add);
-        add(programs, many, rows_[row_], next_, end, false);
-        next_ = end;
+    if (row_ < rows_.size() && asked_end_ > next_) {
+        const GlScope scope("pixel lamps");
+        many.bind_row(rows_[row_]);
+        points_.bind_storage(BINDING_LAMP_POINTS);
+        sums_.bind_storage(BINDING_LAMP_PIXELS);
+        many.reach(back_->take_as<LampPoint>(), rows_[row_]);
+        set_pixels(programs.first_shot, next_, asked_end_);
+        programs.first_shot.set("step_kind", LAMPS_ADD);
+        programs.first_shot.set("sign", 1.0F);
+        programs.first_shot.dispatch(asked_end_ - next_);
+        next_ = asked_end_;
         if (next_ == pixels_) {
             next_ = 0;
+            asked_end_ = 0;
             ++row_;
         }
+    }
+    if (row_ < rows_.size()) {
+        request_points(programs, many, points);
     }
     if (row_ == rows_.size()) {
         finish_rows(programs, first_shot);

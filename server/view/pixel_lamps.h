@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "gpu/gl_objects.h"
+#include "gpu/readback.h"
 #include "solution/direct/first_shot.h"
 #include "view/view_programs.h"
 
@@ -28,16 +30,18 @@ class PixelLamps {
     void begin(const ViewPrograms& programs, const FirstShot& first_shot, std::size_t pixels);
     /// The same pixels after other lamps have changed: exact where it can be.
     void change(const ViewPrograms& programs, const FirstShot& first_shot);
-    /// Looks at lamps of so many pixels. False where nothing can be done at present.
+    /// Looks at lamps of so many pixels, whose points it has asked for the last time. False where
+    /// nothing can be done at present.
     bool advance(const ViewPrograms& programs, const FirstShot& first_shot, std::size_t points);
     /// Whether every pixel has the exact light of all lamps that reach anything round it.
     [[nodiscard]] bool exact() const { return exact_; }
-    [[nodiscard]] std::size_t bytes() const { return sums_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + 2 * points_.bytes(); }
 
   private:
     using Row = std::vector<std::uint32_t>;
     void count(const ViewPrograms& programs, const FirstShot& first_shot) const;
     bool plan(const ManyLamps& many);
+    void request_points(const ViewPrograms& programs, const ManyLamps& many, std::size_t points);
     void finish_rows(const ViewPrograms& programs, const FirstShot& first_shot);
     void add(const ViewPrograms& programs, ManyLamps& many, const Row& row, std::size_t first,
              std::size_t end, bool before) const;
@@ -50,6 +54,9 @@ class PixelLamps {
     bool planned_ = false;
     std::size_t row_ = 0, next_ = 0;                            // and the pixel that comes next
     std::vector<std::pair<std::size_t, std::size_t>> skipped_;  // ranks of dark lamps
+    std::size_t asked_end_ = 0;     // of the pixels from next_ on whose points have been asked for
+    Buffer points_;                 // of those
+    std::optional<Readback> back_;  // of these
     Buffer sums_;
 };
 

@@ -356,6 +356,12 @@ struct PunctualData {
     vec4 touched_cone;  // round all of them: axis; w: cosine of half its angle, below -1: everything
 };
 
+// What view_lamps.comp does, see view/pixel_lamps.h.
+#define LAMPS_BEGIN 0u
+#define LAMPS_ADD 1u
+#define LAMPS_CHANGE 2u  // the same, of what counts already
+#define LAMPS_COUNT 3u
+
 // What a first shot of punctual lights does, see solution/direct/first_shot.h.
 #define SHOT_LIGHTS 16     // that a dispatch looks at, at most
 #define SHOT_ALL 0u        // all points, all lights

@@ -30,10 +30,6 @@ layout(std430, binding = BINDING_LAMP_PIXELS) buffer LampPixelBuffer { vec4 lamp
 layout(std430, binding = BINDING_FIRST_SHOT) readonly buffer FirstShotBuffer { vec4 first_shot[]; };
 layout(std430, binding = BINDING_LAMP_LEVELS) readonly buffer LampLevelBuffer { vec4 lamp_levels[]; };
 
-#define LAMPS_BEGIN 0u
-#define LAMPS_ADD 1u
-#define LAMPS_CHANGE 2u  // the same, of what counts already
-#define LAMPS_COUNT 3u
 uniform uint step_kind;
 uniform uint first_pixel;
 uniform uint end_pixel;

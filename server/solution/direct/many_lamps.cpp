@@ -164,17 +164,22 @@ std::vector<std::vector<std::uint32_t>> ManyLamps::rows(std::size_t first, std::
     return result;
 }
 
-/// Writes and reads points of the patches [first, end) of the order. Returns how many.
-std::size_t ManyLamps::make_points(std::size_t first, std::size_t end, unsigned count) {
-    const std::size_t points = (end - first) * count;
-    bind_points();
+/// Writes points of the patches [first, end) of the order to the bound buffer.
+void ManyLamps::write_points(std::size_t first, std::size_t end, unsigned count) {
     order_buffer_.bind_storage(BINDING_LAMP_ORDER);
     make_points_.set("first_patch", static_cast<unsigned>(first));
     make_points_.set("end_patch", static_cast<unsigned>(end));
     make_points_.set("parts", count);
     make_points_.set("shift", count == patch_points && rank_ < LAMP_SLOTS ? 0U : step_);
     make_points_.set("moved_objects", scene_.moved_objects());
-    make_points_.dispatch(points);
+    make_points_.dispatch((end - first) * count);
+}
+
+/// Writes and reads them. Returns how many.
+std::size_t ManyLamps::make_points(std::size_t first, std::size_t end, unsigned count) {
+    const std::size_t points = (end - first) * count;
+    bind_points();
+    write_points(first, end, count);
     points_buffer_.read(std::span(points_).first(points));
     return points;
 }
@@ -192,12 +197,18 @@ void ManyLamps::ask(std::span<const LampPoint> points, std::span<const std::uint
     scene_.tracer()->reach(points, question, lit);
 }
 
-void ManyLamps::reach(std::size_t points, std::span<const std::uint32_t> row, bool before) {
-    points_buffer_.read(std::span(points_).first(points));
+void ManyLamps::reach(std::span<const LampPoint> points, std::span<const std::uint32_t> row,
+                      bool before) {
     Pass pass;
     pass.before = before;
-    ask(std::span(points_).first(points), row, pass, std::span(lit_).first(points));
-    masks_.write<std::uint32_t>(std::span(lit_).first(points), 0);
+    const auto lit = std::span(lit_).first(points.size());
+    ask(points, row, pass, lit);
+    masks_.write<std::uint32_t>(lit, 0);
+}
+
+void ManyLamps::reach(std::size_t points, std::span<const std::uint32_t> row, bool before) {
+    points_buffer_.read(std::span(points_).first(points));
+    reach(std::span(points_).first(points), row, before);
 }
 
 void ManyLamps::note_dark(std::span<const std::uint32_t> row, std::size_t points) {
@@ -221,22 +232,30 @@ void ManyLamps::run(std::span<const std::uint32_t> row, const Pass& pass, std::s
     const std::size_t most = most_points_ / pass.parts;
     for (; first < end; first += most) {
         const std::size_t last = std::min(first + most, end);
-        const std::size_t points = make_points(first, last, pass.parts);
-        ask(std::span(points_).first(points), row, pass, std::span(lit_).first(points));
-        masks_.write<std::uint32_t>(std::span(lit_).first(points), 0);
-        if (pass.note) {
-            note_dark(row, points);
-        }
-        if (pass.chances) {
-            draw_chances(last - first, pass, first);
-        }
-        add_.set("first_patch", static_cast<unsigned>(first));
-        add_.set("end_patch", static_cast<unsigned>(last));
-        add_.set("parts", pass.parts);
-        add_.set("sign", pass.sign);
-        add_.set("chances", pass.chances);
-        add_.dispatch(last - first);
+        make_points(first, last, pass.parts);
+        add_points(row, pass, first, last);
     }
+}
+
+/// The same for patches whose points are known and bound.
+void ManyLamps::add_points(std::span<const std::uint32_t> row, const Pass& pass, std::size_t first,
+                           std::size_t end) {
+    const std::size_t points = (end - first) * pass.parts;
+    ask(std::span(points_).first(points), row, pass, std::span(lit_).first(points));
+    masks_.write<std::uint32_t>(std::span(lit_).first(points), 0);
+    if (pass.note) {
+        note_dark(row, points);
+    }
+    if (pass.chances) {
+        draw_chances(end - first, pass, first);
+    }
+    order_buffer_.bind_storage(BINDING_LAMP_ORDER);
+    add_.set("first_patch", static_cast<unsigned>(first));
+    add_.set("end_patch", static_cast<unsigned>(end));
+    add_.set("parts", pass.parts);
+    add_.set("sign", pass.sign);
+    add_.set("chances", pass.chances);
+    add_.dispatch(end - first);
 }
 
 void ManyLamps::run_all(std::span<const std::uint32_t> row, const Pass& pass) {
@@ -249,6 +268,8 @@ void ManyLamps::restart() {
     levels_known_ = 0;
     complete_ = false;
     found_ = false;
+    slice_.end = 0;
+    slice_.row.clear();
     sums_.clear();
     std::fill(reaches_.begin(), reaches_.end(), std::uint8_t{0});
 }
@@ -276,18 +297,46 @@ bool ManyLamps::advance(std::size_t points) {
     if (complete_ || found_) {
         return false;  // what has been found waits for publish_found()
     }
-    Pass pass;
-    pass.parts = parts_of(rank_);
-    pass.chances = true;
-    pass.note = true;
-    const std::size_t end =
-        std::min(next_patch_ + std::max<std::size_t>(points / pass.parts, 1), patch_order_.size());
-    run(rank_row(rank_), pass, next_patch_, end);
-    next_patch_ = end;
-    if (next_patch_ == patch_order_.size()) {
-        finish_row();
+    if (slice_.end > next_patch_) {
+        const GlScope scope("many lamps");
+        Pass pass;
+        pass.parts = parts_of(rank_);
+        pass.chances = true;
+        pass.note = true;
+        const auto found = slice_.back->take_as<LampPoint>();
+        std::copy(found.begin(), found.end(), points_.begin());
+        bind_row(slice_.row);
+        slice_.points.bind_storage(BINDING_LAMP_POINTS);
+        sums_.bind_storage(BINDING_LAMP_SUMS);
+        chances_.bind_storage(BINDING_LAMP_CHANCES);
+        add_points(slice_.row, pass, next_patch_, slice_.end);
+        next_patch_ = slice_.end;
+        if (next_patch_ == patch_order_.size()) {
+            finish_row();
+        }
+    }
+    if (!complete_) {
+        request_slice(points);
     }
     return true;
+}
+
+/// Asks for the points of the next patches.
+void ManyLamps::request_slice(std::size_t points) {
+    points = std::min(std::max<std::size_t>(points, patch_points), most_points_);
+    if (slice_.points.bytes() < points * sizeof(LampPoint)) {
+        slice_.points = Buffer("lamp slice points", points * sizeof(LampPoint));
+        slice_.back.emplace("lamp slice points", slice_.points.bytes());
+    }
+    if (slice_.row.empty() || slice_.rank != rank_) {
+        slice_.row = rank_row(rank_);
+        slice_.rank = rank_;
+    }
+    const unsigned parts = parts_of(rank_);
+    slice_.end = std::min(next_patch_ + points / parts, patch_order_.size());
+    slice_.points.bind_storage(BINDING_LAMP_POINTS);
+    write_points(next_patch_, slice_.end, parts);
+    slice_.back->request(slice_.points, (slice_.end - next_patch_) * parts * sizeof(LampPoint));
 }
 
 bool ManyLamps::publish_found() {
@@ -329,7 +378,7 @@ std::size_t ManyLamps::bytes() const {
           &chances_, &proposals_, &lights_before_}) {
         sum += buffer->bytes();
     }
-    return sum;
+    return sum + 2 * slice_.points.bytes();
 }
 
 }  // namespace raybundle

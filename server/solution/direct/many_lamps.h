@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "gpu/gl_objects.h"
+#include "gpu/readback.h"
 #include "gpu/shader_program.h"
 #include "solution/direct/lamp_order.h"
 #include "solution/direct/placed_lights.h"
@@ -27,7 +29,8 @@ class ManyLamps {
     /// Anew for the present lights and places, see FirstShot::update(). lights: the lamps as they
     /// were, becomes what they are; both bound as FirstShot::bind() does, as is the solution.
     void update(Buffer& lights, const IesProfiles& profiles, bool radiance_follows);
-    /// A slice of the work that is left, of so many points at most. False where none is.
+    /// A slice of the work that is left, of so many points at most. False where none is. Its
+    /// points come from the GPU while something else goes on: they were asked for the last time.
     bool advance(std::size_t points);
     /// Puts what advance() has found into effect, between groups of iterations. True where it has.
     bool publish_found();
@@ -50,7 +53,10 @@ class ManyLamps {
     [[nodiscard]] std::vector<std::uint32_t> row_of(std::span<const std::uint32_t> lamps) const;
     /// Binds a row for shaders/lamps/lamps.glsl, and what else it needs but the points.
     void bind_row(std::span<const std::uint32_t> row);
-    /// Masks of the points that a shader has written, for a bound row.
+    /// Masks of points for a row, which are bound for shaders.
+    void reach(std::span<const LampPoint> points, std::span<const std::uint32_t> row,
+               bool before = false);
+    /// The same for bound points that a shader has just written; waits for them.
     void reach(std::size_t points, std::span<const std::uint32_t> row, bool before = false);
     /// Points that there is room for.
     [[nodiscard]] std::size_t most_points() const { return most_points_; }
@@ -89,7 +95,11 @@ class ManyLamps {
     void run(std::span<const std::uint32_t> row, const Pass& pass, std::size_t first,
              std::size_t end);
     void run_all(std::span<const std::uint32_t> row, const Pass& pass);
+    void write_points(std::size_t first, std::size_t end, unsigned parts);
     std::size_t make_points(std::size_t first, std::size_t end, unsigned parts);
+    void add_points(std::span<const std::uint32_t> row, const Pass& pass, std::size_t first,
+                    std::size_t end);
+    void request_slice(std::size_t points);
     void draw_chances(std::size_t patches, const Pass& pass, std::size_t first);
     void note_dark(std::span<const std::uint32_t> row, std::size_t points);
     void publish_reflection(bool radiance_follows);
@@ -118,6 +128,14 @@ class ManyLamps {
     std::uint32_t step_ = 0;
     bool complete_ = false, found_ = false;
     unsigned levels_, levels_known_ = 0;
+    /// Patches of the order whose points have been asked for, of the running row.
+    struct Slice {
+        Buffer points;
+        std::optional<Readback> back;
+        std::size_t end = 0;
+        std::vector<std::uint32_t> row;
+        std::size_t rank = 0;  // of the row
+    } slice_;
     std::vector<LampPoint> points_;
     std::vector<std::uint32_t> lit_;
     std::vector<glm::uvec2> drawn_;  // of the proposals
