@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
-#include "gpu/gl_scope.h"
 #include "view/filters/sub_samples.h"
 #include "view/specular/continued_view.h"
 
