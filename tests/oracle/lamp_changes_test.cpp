@@ -184,18 +184,22 @@ INSTANTIATE_TEST_SUITE_P(Halls, LampChanges,
 
 /// What a light of a million times the others leaves behind where it goes out is nothing.
 TEST(LampChanges, NothingStaysOfABrightLight) {
-    Hall hall(lit_hall({"", false, true}));
-    for (PunctualLight& light : hall.b.scene.punctual_lights) {
+    SceneBuilder b = lit_hall({"", false, true});
+    for (PunctualLight& light : b.scene.punctual_lights) {
         if (light.kind != PunctualKind::directional) {
             light.intensity *= 1e-5F;
         }
     }
-    Hall dark(hall.b);
-    for (std::size_t k = 0; k < 3; ++k) {
-        dark.dim(lamps + 1, 0.5F);
-    }
-    dark.dim(lamps + 1, 0.0F);
-    expect_as_fresh(dark, "the sun has gone");
+    // Within the box it lights nothing, and keeps the unit of radiance.
+    add_punctual_light(b, glm::mat4(1.0F), PunctualKind::point, {2.5F, 0.6F, 2.3F}, {0, -1, 0},
+                       glm::vec3(20'000.0F));
+    Hall hall(std::move(b));
+    const std::size_t sun = lamps + 1;
+    hall.dim(sun, 0.3F);
+    hall.dim(sun, 0.3F);
+    hall.dim(sun, 0.0F);
+    EXPECT_EQ(hall.reach(), FirstShot::Reach::lamps);
+    expect_as_fresh(hall, "the sun has gone");
 }
 
 }  // namespace
