@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trace/gloss_packet.h"
 #include "trace/lamp_packet.h"
 #include "trace/ray_packet.h"
 #include "trace/trace_query.h"
@@ -280,6 +281,20 @@ void FacetTracer::reach(std::span<const LampPoint> points, const LampQuestion& q
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i < range.end(); ++i) {
                               lit[i] = lamps_that_reach(points[i], query, question);
+                          }
+                      });
+}
+
+void FacetTracer::follow(std::span<GlossRay> rays, const TraceRules& rules, float tie) {
+    constexpr std::size_t grain = 256;
+    const Query query = impl_->query(rules);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              if (rays[i].facet != GlossRay::unused) {
+                                  follow_gloss_ray(rays[i], static_cast<std::uint32_t>(i), query,
+                                                   tie);
+                              }
                           }
                       });
 }

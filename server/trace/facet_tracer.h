@@ -7,6 +7,7 @@
 #include <span>
 
 #include "scene/mesh/patch_mesh.h"
+#include "trace/gloss_ray.h"
 #include "trace/lamp_rays.h"
 #include "trace/line_order.h"
 #include "trace/ray_grid.h"
@@ -57,6 +58,9 @@ class FacetTracer {
     /// what `rules` say of glass holds.
     void reach(std::span<const LampPoint> points, const LampQuestion& question,
                std::span<std::uint32_t> lit);
+    /// Follows the rays that are in use to the first surface. tie: m, what is no higher above a
+    /// ray's origin belongs to its surface.
+    void follow(std::span<GlossRay> rays, const TraceRules& rules, float tie);
     [[nodiscard]] std::size_t bytes() const;
 
   private:

@@ -31,6 +31,7 @@ class BundleReceiver {
         std::uint32_t number = 0;     ///< of the bundle in its phase, the same at both places
         bool glossy_shooter = false;  ///< of a hemicube: its radiance depends on direction
         float window_pixel = 0.0F;    ///< size of a pixel of a layered bundle's window, m
+        std::uint32_t seed = 0;       ///< of the solve
     };
 
     BundleReceiver() = default;

@@ -254,6 +254,7 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.constant = constant_;
     settings.context.constant_irradiance = glm::pi<float>() * constant_;
     settings.context.sample_weight = sample_weight();
+    settings.context.seed = static_cast<std::uint32_t>(settings_.seed);
     settings.slot = slot;
     settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
     settings.row_phase = planned.sample.row_phase;

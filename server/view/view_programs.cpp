@@ -120,6 +120,11 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }
+    if (scene.reflectance().draws_lobes()) {
+        const auto defines = with_all(scene.defines(), variant);
+        gloss_rays = {ShaderProgram({"view_gloss_rays.comp"}, defines),
+                      ShaderProgram({"view_gloss_rays.comp"}, with(defines, "LAND 1"))};
+    }
     if (!scene.punctual_lights().empty()) {
         const auto defines = with_all(scene.defines(), variant);
         first_shot = ShaderProgram(

@@ -10,6 +10,7 @@
 #include "solution/geometry/gpu_scene.h"
 #include "view/error/confidence.h"
 #include "view/filters/edge_filter.h"
+#include "view/specular/gloss_rays.h"
 #include "view/tiles/affected_tiles.h"
 
 namespace raybundle {
@@ -54,6 +55,7 @@ struct ViewPrograms {
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
     Receive layers_crowded;  ///< to crowded pixels, which layers_pixels leaves out
+    GlossRayPrograms gloss_rays;
     EdgePrograms edges;
     AffectedTilePrograms affected_tiles;
     std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on

@@ -91,12 +91,34 @@ void ViewerImage::allocate() {
 
 void ViewerImage::allocate_gloss() {
     const std::size_t bytes = pixel_count(size_) * sizeof(glm::vec4);
-    gloss_ = Buffer("pixel gloss", bytes);
-    old_gloss_ = Buffer("old pixel gloss", bytes);
+    const std::size_t values = scene_.reflectance().draws_lobes() ? 2 : 1;
+    gloss_ = Buffer("pixel gloss", values * bytes);
+    old_gloss_ = Buffer("old pixel gloss", values * bytes);
     gloss_delta_ = Buffer("pixel gloss increments", bytes);
     gloss_delta_.clear();
+    if (scene_.reflectance().draws_lobes()) {
+        gloss_rays_.emplace(pixel_count(size_));
+    }
     gloss_texture_ = create_buffer_texture("pixel gloss", GL_RGBA32F, gloss_);
     old_gloss_texture_ = create_buffer_texture("old pixel gloss", GL_RGBA32F, old_gloss_);
+}
+
+/// What patches send into the lobes of new pixels.
+void ViewerImage::look_into_lobes() {
+    if (gloss_rays_ && store_.sends_slopes()) {  // the solution, not what a change makes different
+        store_.bind();
+        bind_pixels();
+        gloss_rays_->begin(scene_, programs_.gloss_rays, *specular_);
+    }
+}
+
+/// What rays have seen so far is of before a change.
+void ViewerImage::forget_lobes() const {
+    if (gloss_rays_) {
+        const std::size_t half = pixel_count(size_) * sizeof(glm::vec4);
+        glClearNamedBufferSubData(gloss_.get(), GL_R32F, static_cast<GLintptr>(half),
+                                  static_cast<GLsizeiptr>(half), GL_RED, GL_FLOAT, nullptr);
+    }
 }
 
 void ViewerImage::allocate_first_shot() {
@@ -258,6 +280,7 @@ void ViewerImage::refresh_geometry(float kept_weight, Shows shows) {
     restart_scatter();
     edges_->restart();
     samples_ = 0;
+    look_into_lobes();
     crowded_->begin();
     has_picture_ = true;
 }

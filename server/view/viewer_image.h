@@ -24,6 +24,7 @@
 #include "view/filters/crowded_pixels.h"
 #include "view/filters/edge_filter.h"
 #include "view/pixel_lamps.h"
+#include "view/specular/gloss_rays.h"
 #include "view/specular/specular_groups.h"
 #include "view/tiles/affected_tiles.h"
 #include "view/view_programs.h"
@@ -233,6 +234,8 @@ class ViewerImage : public BundleReceiver {
     void refresh_geometry(float kept_weight, Shows shows = Shows::another_view);
     void refresh_moved();
     void allocate_gloss();
+    void look_into_lobes();
+    void forget_lobes() const;
     void allocate_first_shot();
     void shoot_first(Shows shows);
     void shoot_changes(const FirstShot& first_shot);
@@ -252,7 +255,8 @@ class ViewerImage : public BundleReceiver {
     void bind_pixels() const;
     void upload_view();
     void check_picture() const;
-    void receive(const ViewPrograms::Receive& programs, const Context& context);
+    void receive(const ViewPrograms::Receive& programs, const Context& context,
+                 bool layered = false);
     void mark_crowded(float window_pixel);
     void set_place(const ShaderProgram& program, Place place) const;
     void receive_crowded(const ShaderProgram& program, const Context& context);
@@ -329,7 +333,8 @@ class ViewerImage : public BundleReceiver {
     std::uint64_t shot_version_ = 0;            // of the first shot that the pixels have
     bool shot_taken_back_ = false;              // what a move can reach of it
     Texture2D first_shot_texture_;
-    std::optional<PixelLamps> lamps_;  // only where these are many
+    std::optional<GlossRays> gloss_rays_;  // only where lobes are narrow
+    std::optional<PixelLamps> lamps_;      // only where these are many
     Texture2D gloss_texture_, old_gloss_texture_;
     std::optional<TracedPicture> traced_;  // only where rays find what pixels see
     Texture2D surface_ids_, depths_;

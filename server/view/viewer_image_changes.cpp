@@ -33,6 +33,7 @@ void ViewerImage::join_kept() {
 /// What was known of the error was of another scene.
 void ViewerImage::begin_change() {
     join_kept();
+    forget_lobes();
     if (statistics_.known && !statistics_.darker_than()) {
         light_before_ = statistics_.rms_luminance;
     }
@@ -202,6 +203,8 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
     programs_.correct.set("most_weight", most_weight);
     programs_.correct.dispatch(std::size_t{size_.x} * size_.y);
     keep_light(true);
+    forget_lobes();
+    look_into_lobes();
     if (continued() != nullptr) {
         continued()->end_special(bundles_noise, most_weight);
     }

@@ -28,7 +28,8 @@ void ViewerImage::set_place(const ShaderProgram& program, Place place) const {
     program.set("moved_objects", scene_.moved_objects());
 }
 
-void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& context) {
+void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& context,
+                          bool layered) {
     bind_pixels();
     set_place(programs.all, context.place);
     if (gloss_.bytes() > 0) {
@@ -39,6 +40,10 @@ void ViewerImage::receive(const ViewPrograms::Receive& programs, const Context& 
         return;
     }
     programs.all.dispatch(pixel_count(size_));
+    if (gloss_rays_) {
+        programs.glossy.set("ray_share", GlossRays::share());
+        gloss_rays_->trace(scene_, programs_.gloss_rays, *specular_, context, layered);
+    }
     if (gloss_.bytes() > 0) {
         specular_->dispatch(programs.glossy);
     }
@@ -105,7 +110,7 @@ void ViewerImage::receive_layers(const Context& context) {
         if (gloss_.bytes() > 0) {
             receive_crowded(programs_.layers_crowded.glossy, context);
         }
-        receive(programs_.layers_pixels, context);
+        receive(programs_.layers_pixels, context, true);
     }
     if (continued() != nullptr) {
         if (rests_) {
@@ -117,6 +122,9 @@ void ViewerImage::receive_layers(const Context& context) {
 
 void ViewerImage::receive_crowded(const ShaderProgram& program, const Context& context) {
     set_place(program, context.place);
+    if (gloss_rays_) {
+        program.set("ray_share", GlossRays::share());
+    }
     crowded_->dispatch(program, context.window_pixel);
 }
 
@@ -146,6 +154,7 @@ void ViewerImage::complete_start() {
     upload_view();
     bind_pixels();
     programs_.complete.dispatch(pixel_count(size_));
+    forget_lobes();  // rays have seen nothing but lamps
 }
 
 }  // namespace raybundle

@@ -90,6 +90,7 @@
 #define BINDING_LAMP_POINTS 46        // LampPoint[]: see lamps.glsl, as the next ones
 #define BINDING_LAMP_MASKS 63         // uint[]: lamps of the slots that reach a point, bit by bit
 #define BINDING_LAMP_SLOTS 29         // uint[LAMP_SLOTS * cells]
+#define BINDING_GLOSS_RAYS 29         // GlossRay[]: see gloss_ray.glsl
 #define BINDING_LAMP_ORDER 60         // uint[patches]
 #define BINDING_LAMP_SUMS 61          // vec4[3 * patches]: see lamps_patches.comp
 #define BINDING_LAMP_CHANCES 59       // uvec2[]: see lamps_patches.comp
@@ -121,7 +122,14 @@
 #define LAMP_POINT_MOVED 0x80000000u  // flag of LampPoint::cell
 #define LAMP_CHANCES 16  // drawn from those that have not been looked at yet
 #define GROUP_SIZE 8  // iterations that are planned together
-#define SCATTER_SUMS 7  // of a probe pixel, see view_scatter.glsl
+#define SCATTER_SUMS 8  // of a probe pixel, see view_scatter.glsl
+#define SCATTER_OF_RAY 7  // of them what the ray of the running sample has brought, see view_gloss_rays.comp
+// A pixel has a ray of its lobe for each so many samples; see docs/decisions.md.
+#define GLOSS_RAY_STRIDE 4
+#define GLOSS_RAYS_OF_GROUP (SPECULAR_GROUP / GLOSS_RAY_STRIDE)
+// Widest lobe that rays are drawn from: its peak 1/(4 pi alpha^2), a ray for every fourth sample, is twice the density 1/(2 pi) of
+// parallel bundles then.
+#define DRAWN_ALPHA 0.25
 // Texture units. Read-only data of hot shaders goes through buffer textures: one fetch brings four
 // components, where a software rasteriser loads storage buffers component by component, lane by lane.
 #define UNIT_SURFACE_IDS 0

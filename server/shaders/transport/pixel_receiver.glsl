@@ -54,7 +54,13 @@ layout(local_size_x = VIEW_TILE * VIEW_TILE) in;
 #include "specular_groups.glsl"
 layout(std430, binding = BINDING_PIXEL_GLOSS) buffer PixelGlossBuffer { vec4 pixel_gloss[]; };
 layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer { vec4 pixel_gloss_delta[]; };
+#if defined(GLOSS_RAYS) && !defined(SPECIAL)
+#define BESIDE_RAYS
+#include "lobe_sampling.glsl"
+uniform float ray_share;  // rays of a pixel's lobe for each sample, in the mean; see view_gloss_rays.comp
 #endif
+#endif
+float found_density;  // inverse of d(omega) where gather() found light, sr
 uniform uint facet_base;    // facets and vertices of the place that was drawn
 uniform uint vertex_base;
 uniform uvec4 moved_objects;  // that are elsewhere at place 1, the rest NO_PATCH
@@ -157,7 +163,11 @@ vec3 receive_gloss(uint index, Receiver x, vec3 w_in, vec3 value) {
     Brdf brdf = pixel_brdf(record, albedo, cos_out, at_out);
     vec4 at_in = brdf_at(brdf, dot(x.normal, w_in));
     vec3 reflected = value * brdf_value(brdf, x.normal, w_in, w_out, at_in.z * at_out.z);
-    vec3 gloss = reflected - value * albedo * brdf_inverse_pi;
+    vec3 lambert = value * albedo * brdf_inverse_pi;
+#ifdef BESIDE_RAYS
+    reflected /= 1.0 + ray_share * found_density * drawn_density(drawn_lobes(brdf), x.normal, w_in, w_out);
+#endif
+    vec3 gloss = reflected - lambert;
 #ifdef SPECIAL
     pixel_gloss_delta[index].rgb += gloss * bundle.weights.x;
 #else
@@ -235,6 +245,33 @@ uint receiving_pixel() {
 #endif
 }
 
+/// What the pixel's ray has brought in this sample.
+float taken_of_ray(uint probe) {
+    float brought = 0.0;
+#ifdef BESIDE_RAYS
+    brought = pixel_scatter[SCATTER_SUMS * probe + SCATTER_OF_RAY];
+    pixel_scatter[SCATTER_SUMS * probe + SCATTER_OF_RAY] = 0.0;
+#endif
+    return brought;
+}
+
+void note_scatter(uint probe, float sum) {
+    pixel_scatter[SCATTER_SUMS * probe] += sum;
+    pixel_scatter[SCATTER_SUMS * probe + 1u] += sum * sum;
+    pixel_scatter[SCATTER_SUMS * probe + 2u] += bundle.weights.y * sum;
+}
+
+#ifdef BESIDE_RAYS
+/// A sample of which the bundle has brought nothing.
+void receive_ray_alone(uint index) {
+    uvec2 at = uvec2(index % view.size.x, index / view.size.x);
+    if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
+        uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
+        note_scatter(probe, bundle.weights.y * taken_of_ray(probe));
+    }
+}
+#endif
+
 /// Adds one sample (irradiance, radiance units; from w_in) of the running bundle.
 void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
     bool something = value.r + value.g + value.b < 1e30 && value != vec3(0.0);
@@ -252,10 +289,7 @@ void receive(uint index, Receiver x, vec3 w_in, vec3 value) {
         uvec2 at = uvec2(index % view.size.x, index / view.size.x);
         if ((at.x & 3u) == 1u && (at.y & 3u) == 1u) {
             uint probe = (at.y >> 2) * view.size.z + (at.x >> 2);
-            float sum = w * luminance(seen);
-            pixel_scatter[SCATTER_SUMS * probe] += sum;
-            pixel_scatter[SCATTER_SUMS * probe + 1u] += sum * sum;
-            pixel_scatter[SCATTER_SUMS * probe + 2u] += w * sum;
+            note_scatter(probe, w * (luminance(seen) + taken_of_ray(probe)));
         }
 #endif
     }
@@ -268,7 +302,13 @@ void receive_pixels() {
         return;
     }
     vec3 w_in;
+    found_density = 0.0;
     vec3 value = gather(x, w_in);
     receive(index, x, w_in, value);
+#ifdef BESIDE_RAYS
+    if (value == vec3(0.0)) {
+        receive_ray_alone(index);
+    }
+#endif
 }
 #endif

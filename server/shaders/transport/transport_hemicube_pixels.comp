@@ -65,7 +65,8 @@ vec3 gather(Receiver x, out vec3 w_in) {
 #endif
         float cos_x = max(-dot(x.normal, offset) / r, 0.0);
         if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
-            float irradiance = weight * cos_x * cosine_over_density(r, d.z / r, bundle.densities.w);
+            found_density = cosine_over_density(r, d.z / r, bundle.densities.w);
+            float irradiance = weight * cos_x * found_density;
             value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
         }
     }

@@ -98,7 +98,8 @@ vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
     uint y = patch_of_surface(2u * triangle_at(facet, point, weights) + side);
     vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
-    return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, cos_y, l.w);
+    found_density = cosine_over_density(ahead, cos_y, l.w);
+    return (l.rgb - bundle.constant.rgb) * found_density;
 }
 
 vec3 gather(Receiver x, out vec3 w_in) {
@@ -161,6 +162,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
 #endif
         if (seen.surface == NO_HIT) {
             float density = sky_density(d.z, far);
+            found_density = density > 0.0 ? 1.0 / density : 0.0;
             value = density > 0.0 ? sky_radiance(far) * (cos_x / density) : vec3(0.0);
         } else {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));

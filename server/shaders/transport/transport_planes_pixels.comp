@@ -47,6 +47,7 @@ bool plane_visible(Receiver x, Line line, uint surface) {
 vec3 incoming(Receiver x, Line line, uint surface) {
     if (surface == NO_HIT) {
         float density = sky_density(line.depth, line.far);
+        found_density = density > 0.0 ? 1.0 / density : 0.0;
         return density > 0.0 ? sky_radiance(line.far) / density : vec3(0.0);
     }
     float ahead = distance_ahead(line, surface);
@@ -59,7 +60,8 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     uint triangle = triangle_at(facet, line.point + depth * bundle.axis_z.xyz, weights);
     uint y = patch_of_surface(2u * triangle + side_of_surface(surface, !line.far));
     vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
-    return (l.rgb - bundle.constant.rgb) * cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
+    found_density = cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
+    return (l.rgb - bundle.constant.rgb) * found_density;
 }
 
 vec3 gather(Receiver x, out vec3 w_in) {

@@ -184,6 +184,35 @@ vec3 transmitted_radiance(PixelSurface p) {
 }
 #endif
 
+#if defined(GLOSSY) && defined(GLOSS_RAYS)
+#include "octahedral.glsl"
+#include "pixel_gloss.glsl"
+#include "lobe_sampling.glsl"
+
+/// Gloss of a pixel whose rays have looked at what the patches send into its lobe: that stands for samples which it does not
+/// have yet, and outweighs few. own: sum of the samples, with their weight; else: what is shown where no ray has been drawn;
+/// reflected: by the irradiance, the part of the lobe included.
+vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 otherwise, vec3 reflected) {
+    vec4 rays = texelFetch(pixel_gloss_texels, int(view.size.x * view.size.y + index));
+    if (rays.w <= 0.0) {
+        return otherwise;
+    }
+#ifdef CONTINUED
+    vec3 w_out = continued_towards(index);
+#else
+    vec3 w_out = normalize(view.eye.xyz - p.position);
+#endif
+    float cos_out = dot(vector_from_octahedral(unpackSnorm2x16(p.normal)), w_out);
+    vec4 at_out;
+    vec3 albedo = pixel_albedo(p);
+    Brdf brdf = pixel_brdf(reflectance_record(facet_material(p.facet & PIXEL_FACET_MASK), p.albedo), albedo, cos_out, at_out);
+    vec2 lobes = drawn_lobes(brdf);
+    vec3 share = min(drawn_albedo(drawn_part(brdf, lobes), lobes, cos_out) / max(albedo, 1e-4), 1.0);
+    vec3 by_rays = rays.rgb / rays.w - share * reflected;
+    return mix(by_rays, own / max(weight, 1e-6), weight / (weight + samples_of_patches));
+}
+#endif
+
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
 #if defined(MIRRORS) && !defined(CONTINUED)
@@ -209,6 +238,9 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         vec4 own = texelFetch(pixel_gloss_texels, int(index));
         float weight = pixel_weight(own, view.weights.x);
         vec3 gloss = own.rgb / max(weight, 1e-6) * confidence_of_gloss(index, p.side, shown_sum(index, p).w);
+#ifdef GLOSS_RAYS
+        gloss = gloss_beside_rays(index, p, own.rgb, weight, gloss, reflected);
+#endif
 #ifdef FIRST_SHOT
         gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
 #endif

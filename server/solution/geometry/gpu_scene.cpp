@@ -211,6 +211,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(has_slivers(scene, mesh), "FOLDS");
     define_if(reflectance_.specular(), "SPECULAR");
     define_if(reflectance_.any_glossy(), "GLOSSY");
+    define_if(reflectance_.draws_lobes(), "GLOSS_RAYS");
     define_if(specular_rays_ != nullptr, "MIRRORS");
     coats_ = has_coats(scene);
     define_if(coats_, "COATS");

@@ -14,7 +14,7 @@ void GpuScene::make_tracer(const Scene& scene, const PatchMesh& mesh) {
     always_traces_ = bundle_builder() == BundleBuilder::trace;
     traces_bundles_ =
         always_traces_ || (bundle_builder() == BundleBuilder::automatic && is_software_renderer());
-    if (traces_bundles_ || many_lamps()) {
+    if (traces_bundles_ || many_lamps() || reflectance_.draws_lobes()) {
         tracer_ = std::make_unique<FacetTracer>(scene, mesh,
                                                 std::span(world_from_object_).first(object_count_));
     }

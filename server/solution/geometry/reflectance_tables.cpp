@@ -25,13 +25,25 @@ constexpr std::size_t texels_per_record = sizeof(layout::Reflectance) / sizeof(g
 
 constexpr float transported_roughness = 0.4F;
 
+/// Whether the lobe of the base is narrower than bundles carry, the same all over the surface.
+bool has_narrow_lobe(const Material& material) {
+    return !material.unlit && !material.max_phong && material.reflectance > 0.0F &&
+           (material.metallic > 0.0F || material.specular > 0.0F) &&
+           material.roughness < transported_roughness &&
+           material.metallic_roughness_texture.texture < 0;
+}
+
+bool has_narrow_coat(const Material& material) {
+    return material.clear_coat > 0.0F && material.clear_coat_roughness < transported_roughness;
+}
+
 /// A material as bundles know it.
 Material as_transported(const Material& material) {
     Material rough = material;
-    if (has_smooth_lobe(material)) {
+    if (has_narrow_lobe(material)) {
         rough.roughness = transported_roughness;
     }
-    if (has_smooth_coat(material)) {
+    if (has_narrow_coat(material)) {
         rough.clear_coat_roughness = transported_roughness;
     }
     return rough;
@@ -53,8 +65,8 @@ Material as_shown(const Material& material) {
 /// Whether patches and pixels may not know a material alike.
 bool has_two_models(const Material& material) {
     const SpecularKind kind = specular_kind(material);
-    return !is_glass(material) && (has_smooth_coat(material) ||
-                                   (has_smooth_lobe(material) && kind != SpecularKind::mirror));
+    return !is_glass(material) && (has_narrow_coat(material) ||
+                                   (has_narrow_lobe(material) && kind != SpecularKind::mirror));
 }
 
 /// What a material's table is made for. All Lambert surfaces share one. Of a grid, its sharpest
@@ -66,6 +78,22 @@ Brdf representative(const Scene& scene, const Material& material) {
             : reflectance_model(material);
     return model.lobe.kind == LobeKind::none ? Brdf{}
                                              : make_brdf(model, mean_base_colour(scene, material));
+}
+
+/// Whether rays are drawn from a lobe that pixels know.
+bool draws_lobe(const Scene& scene, const Material& material) {
+    if (specular_kind(material) == SpecularKind::mirror) {
+        return false;
+    }
+    const Material shown = as_shown(material);
+    const ReflectanceModel model =
+        has_reflectance_grid(material)
+            ? reflectance_model(shown, ReflectanceGrid(scene, material).low)
+            : reflectance_model(shown);
+    const SpecularLobe& lobe = model.lobe;
+    const auto narrow = [](float alpha) { return alpha <= static_cast<float>(DRAWN_ALPHA); };
+    return (lobe.kind == LobeKind::ggx && !model.lobe_traced && narrow(lobe.alpha)) ||
+           (lobe.coat.strength > 0.0F && narrow(lobe.coat.alpha));
 }
 
 bool has_coat(const ReflectanceTable& table) {
@@ -150,6 +178,7 @@ ReflectanceTables::ReflectanceTables(const Scene& scene) {
         }
         fill_material(scene, i);
         any_glossy_ |= glossy_[i];
+        draws_lobes_ = draws_lobes_ || (glossy_[i] && draws_lobe(scene, material));
     }
     specular_ = std::any_of(models_.begin(), models_.end(), [](const ReflectanceModel& model) {
         return model.lobe.kind != LobeKind::none;

@@ -49,6 +49,9 @@ class ReflectanceTables {
     [[nodiscard]] bool glossy(std::size_t material) const { return glossy_[material]; }
     [[nodiscard]] bool any_glossy() const { return any_glossy_; }
     static constexpr float gloss_threshold = 0.02F;
+    /// Whether pixels of any glossy material know a lobe that is narrow enough for rays,
+    /// shaders/material/lobe_sampling.glsl.
+    [[nodiscard]] bool draws_lobes() const { return draws_lobes_; }
 
     /// Albedo of a record for light from everywhere alike, with this base colour.
     [[nodiscard]] glm::vec3 mean_albedo(std::size_t record, const glm::vec3& base_colour) const {
@@ -95,7 +98,7 @@ class ReflectanceTables {
     std::vector<std::size_t> first_record_;              // of a grid
     std::vector<std::size_t> patch_record_;              // of patches, the first of a grid
     std::vector<bool> glossy_;
-    bool specular_ = false, any_glossy_ = false;
+    bool specular_ = false, any_glossy_ = false, draws_lobes_ = false;
     Buffer buffer_;
     Texture2D texture_;
 };

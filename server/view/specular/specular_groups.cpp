@@ -2,6 +2,7 @@
 #include "view/specular/specular_groups.h"
 
 #include <cstdint>
+#include <span>
 
 namespace raybundle {
 
@@ -32,6 +33,12 @@ void SpecularGroups::begin() const {
 
 void SpecularGroups::end() const {
     finish_.dispatch(1);
+}
+
+std::uint32_t SpecularGroups::count() const {
+    std::uint32_t count = 0;
+    list_.read(std::span(&count, 1), 3 * sizeof(count));
+    return count;
 }
 
 void SpecularGroups::dispatch(const ShaderProgram& program) const {

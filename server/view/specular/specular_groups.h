@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "gpu/gl_objects.h"
 #include "gpu/layouts.h"
@@ -23,6 +24,8 @@ class SpecularGroups {
     void end() const;
     /// Runs a program of local size SPECULAR_GROUP on all listed groups.
     void dispatch(const ShaderProgram& program) const;
+    /// How many are listed. Synchronous.
+    [[nodiscard]] std::uint32_t count() const;
     [[nodiscard]] std::size_t bytes() const { return list_.bytes() + flags_.bytes(); }
 
   private:

@@ -83,6 +83,9 @@ void main() {
     vec3 normal = vector_from_octahedral(unpackSnorm2x16(q.x));
     vec3 albedo = brdf_albedo(brdf, brdf_at(brdf, dot(normal, w_out)));
     pixels[2u * index + 1u].y = pack_albedo(albedo, unpack_place(q.y), index, 1u);
+#ifdef GLOSS_RAYS
+    pixel_gloss[view.size.x * view.size.y + index] = vec4(0.0);
+#endif
 #ifdef GLOSSY
 #if defined(CONTINUED) && defined(REPROJECT)
     pixel_gloss[index] = kept_gloss_of(index) - vec4(0.0, 0.0, 0.0, common_weight);
