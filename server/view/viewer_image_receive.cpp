@@ -157,4 +157,22 @@ void ViewerImage::complete_start() {
     forget_lobes();  // rays have seen nothing but lamps
 }
 
+/// What patches send into the lobes of new pixels.
+void ViewerImage::look_into_lobes() {
+    if (gloss_rays_ && store_.sends_slopes()) {  // the solution, not what a change makes different
+        store_.bind();
+        bind_pixels();
+        gloss_rays_->begin(scene_, programs_.gloss_rays, *specular_);
+    }
+}
+
+/// What rays have seen so far is of before a change.
+void ViewerImage::forget_lobes() const {
+    if (gloss_rays_) {
+        const std::size_t half = pixel_count(size_) * sizeof(glm::vec4);
+        glClearNamedBufferSubData(gloss_.get(), GL_R32F, static_cast<GLintptr>(half),
+                                  static_cast<GLsizeiptr>(half), GL_RED, GL_FLOAT, nullptr);
+    }
+}
+
 }  // namespace raybundle

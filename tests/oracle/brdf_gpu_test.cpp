@@ -220,7 +220,7 @@ TEST(ReflectanceTables, SmoothCoatsHaveARecordForPatches) {
     lacquer.metallic = lacquer.specular = 0.0F;
     lacquer.clear_coat = 1.0F;
     scene.materials = {lacquer, lacquer};
-    scene.materials[1].clear_coat_roughness = 0.3F;
+    scene.materials[1].clear_coat_roughness = 0.5F;
     const ReflectanceTables tables(scene);
     EXPECT_EQ(tables.defines(), (std::vector<std::string>{"CLEAR_COAT 1"}));
     EXPECT_EQ(tables.table(0).brdf().lobe.coat.strength, 0.0F);
@@ -237,7 +237,7 @@ TEST(ReflectanceTables, PolishedDielectricsHaveARecordForPatches) {
     Material porcelain;
     porcelain.metallic = porcelain.roughness = 0.0F;
     scene.materials = {porcelain, porcelain, porcelain};
-    scene.materials[1].roughness = 0.3F;
+    scene.materials[1].roughness = 0.5F;
     scene.materials[2].emission = glm::vec3(1.0F);
     const ReflectanceTables tables(scene);
     EXPECT_EQ(tables.table(0).brdf().f0, glm::vec3(0.0F));
@@ -278,15 +278,37 @@ TEST(ReflectanceTables, EqualGlossyMaterialsShareOneTable) {
     Scene scene;
     Material plastic;
     plastic.metallic = 0.0F;
-    plastic.roughness = 0.3F;
+    plastic.roughness = 0.45F;  // as it is between surfaces, too
     scene.materials = {plastic, plastic, plastic};
     scene.materials[1].name = "the same under another name";
-    scene.materials[2].roughness = 0.31F;
+    scene.materials[2].roughness = 0.46F;
     const ReflectanceTables tables(scene);
     EXPECT_EQ(tables.table_count(), 2U);
     EXPECT_EQ(&tables.table(0), &tables.table(1));
     EXPECT_TRUE(tables.any_glossy());
     EXPECT_EQ(tables.bytes(), 16U * (3U * 3U + 2U * reflectance_nodes));
+}
+
+/// Bundles carry no lobe narrower than a roughness of 0.4; pixels know each as it is.
+TEST(ReflectanceTables, NarrowLobesAreWideBetweenSurfaces) {
+    Scene scene;
+    for (const float roughness : {0.2F, 0.3F, 0.4F}) {
+        Material metal;
+        metal.roughness = roughness;
+        scene.materials.push_back(metal);
+    }
+    const ReflectanceTables tables(scene);
+    const auto between = [&](std::size_t material) {
+        return &tables.table(tables.patch_record(material, {}));
+    };
+    EXPECT_EQ(between(0), between(1));
+    EXPECT_EQ(between(0), &tables.table(2));
+    EXPECT_NE(&tables.table(0), &tables.table(1));
+    EXPECT_TRUE(tables.draws_lobes());
+    for (Material& material : scene.materials) {
+        material.roughness = 0.6F;
+    }
+    EXPECT_FALSE(ReflectanceTables(scene).draws_lobes());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../reference/lit_room.h"
 #include "oracle/scene_builder.h"
 #include "scene/material/brdf.h"
 #include "transport/solver.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr glm::uvec2 size(32, 24);
 constexpr float lamp_radiance = 1000.0F;  // cd/m²
 const glm::vec3 lamp_corner(-0.4F, 2.0F, 0.6F);
+const glm::vec3 point_light(0.6F, 1.5F, 0.4F);
+constexpr float point_intensity = 20.0F;  // cd
 const glm::vec3 lamp_u(0.8F, 0.0F, 0.0F), lamp_v(0.0F, 0.0F, 0.8F);
 
 struct Gloss {
@@ -42,7 +45,7 @@ Material material_of(const Gloss& gloss) {
     return m;
 }
 
-/// A glossy floor below a lamp in a black room, and the lamp's highlight in it.
+/// A glossy floor below a lamp and a light without extent in a black room, and their highlights.
 struct Floor {
     explicit Floor(const Gloss& gloss) : material(material_of(gloss)) {
         const auto black = builder.add_material(glm::vec3(0.0F));
@@ -50,6 +53,8 @@ struct Floor {
         builder.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 10, 10, builder.add_material(material));
         builder.add_box({-3, -1, -3}, {3, 3, 3}, true, 4, black);
         builder.add_quad(lamp_corner, lamp_u, lamp_v, 3, 3, lamp);
+        add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, point_light, {0, -1, 0},
+                           glm::vec3(point_intensity));
         camera.eye = {0.0F, 2.0F, -1.6F};
         camera.target = {0.0F, 0.0F, -0.3F};
         camera.vertical_fov = 0.7F;
@@ -104,6 +109,11 @@ double exact_energy(const Floor& floor) {
     for (unsigned i = 0; i < size.x * size.y; ++i) {
         const auto probe = viewer.image.probe(glm::uvec2(i % size.x, i / size.x));
         const glm::vec3 w_out = glm::normalize(floor.camera.eye - probe->position);
+        const glm::vec3 to_light = point_light - probe->position;
+        const glm::vec3 w_light = glm::normalize(to_light);
+        sum += static_cast<double>(point_intensity / lamp_radiance * w_light.y /
+                                   glm::dot(to_light, to_light) *
+                                   evaluate(brdf, local(w_light), local(w_out)).g);
         for (int k = 0; k < cells * cells; ++k) {
             const float u = (static_cast<float>(k % cells) + 0.5F) / cells;
             const float v = (static_cast<float>(k / cells) + 0.5F) / cells;

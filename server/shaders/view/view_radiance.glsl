@@ -89,12 +89,17 @@ vec4 shown_sum(uint index, PixelSurface p) {
 
 #include "view_confidence.glsl"
 
+/// Of what bundles bring alone.
+vec3 bundled_irradiance(uint index, PixelSurface p) {
+    vec4 sum = shown_sum(index, p);
+    return mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence(index, p.side, sum.w));
+}
+
 vec3 blended_irradiance(uint index, PixelSurface p) {
 #ifdef PATCHES_ONLY
     return object_space_irradiance(p, false);
 #endif
-    vec4 sum = shown_sum(index, p);
-    vec3 blended = mix(object_space_irradiance(p, false), pixel_mean(sum, 0.0), confidence(index, p.side, sum.w));
+    vec3 blended = bundled_irradiance(index, p);
 #ifdef FIRST_SHOT
     blended += texelFetch(pixel_first_shot_texels, int(index)).rgb;
 #endif
@@ -190,9 +195,9 @@ vec3 transmitted_radiance(PixelSurface p) {
 #include "lobe_sampling.glsl"
 
 /// Gloss of a pixel whose rays have looked at what the patches send into its lobe: that stands for samples which it does not
-/// have yet, and outweighs few. own: sum of the samples, with their weight; else: what is shown where no ray has been drawn;
-/// reflected: by the irradiance, the part of the lobe included.
-vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 otherwise, vec3 reflected) {
+/// have yet, and outweighs few. own: sum of the samples, with their weight; otherwise: where no ray has been drawn.
+/// Neither is lit by lights without extent, whose gloss is known.
+vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 otherwise) {
     vec4 rays = texelFetch(pixel_gloss_texels, int(view.size.x * view.size.y + index));
     if (rays.w <= 0.0) {
         return otherwise;
@@ -207,8 +212,8 @@ vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 
     vec3 albedo = pixel_albedo(p);
     Brdf brdf = pixel_brdf(reflectance_record(facet_material(p.facet & PIXEL_FACET_MASK), p.albedo), albedo, cos_out, at_out);
     vec2 lobes = drawn_lobes(brdf);
-    vec3 share = min(drawn_albedo(drawn_part(brdf, lobes), lobes, cos_out) / max(albedo, 1e-4), 1.0);
-    vec3 by_rays = rays.rgb / rays.w - share * reflected;
+    vec3 of_lobes = min(drawn_albedo(drawn_part(brdf, lobes), lobes, cos_out), albedo);
+    vec3 by_rays = rays.rgb / rays.w - of_lobes * bundled_irradiance(index, p) * inverse_pi;
     return mix(by_rays, own / max(weight, 1e-6), weight / (weight + samples_of_patches));
 }
 #endif
@@ -239,7 +244,7 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
         float weight = pixel_weight(own, view.weights.x);
         vec3 gloss = own.rgb / max(weight, 1e-6) * confidence_of_gloss(index, p.side, shown_sum(index, p).w);
 #ifdef GLOSS_RAYS
-        gloss = gloss_beside_rays(index, p, own.rgb, weight, gloss, reflected);
+        gloss = gloss_beside_rays(index, p, own.rgb, weight, gloss);
 #endif
 #ifdef FIRST_SHOT
         gloss += texelFetch(pixel_first_shot_texels, int(view.size.x * view.size.y + index)).rgb;
