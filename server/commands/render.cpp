@@ -9,6 +9,7 @@
 #include "app/solve_job.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
+#include "options/method_options.h"
 #include "scene/effects/effects_plan.h"
 #include "transport/solver.h"
 #include "view/final_picture.h"
@@ -104,6 +105,9 @@ int run_render(const Options& options) {
     check_camera(options);
     const glm::uvec2 size = parse_size(options.render.size);
     const RenderMethod method = parse_method(options.render.method);
+    check_method_options(options.render, method);
+    const auto shares = parse_shares("--shares", options.render.shares);
+    const auto first_shares = parse_shares("--first-shares", options.render.first_shares);
     const bool variant = options.render.bias_for_noise > 0 || options.render.constant_radiance ||
                          options.render.random_faces;
     if (variant &&
@@ -130,12 +134,22 @@ int run_render(const Options& options) {
     SolverSettings settings;
     settings.seed = options.scene.seed;
     settings.probabilities = std::get<StrategyProbabilities>(method);
+    if (shares) {
+        settings.probabilities = *shares;
+        settings.adapt_probabilities = false;
+        settings.first_probabilities = first_shares;
+    }
+    settings.planes_per_direction = options.render.planes_per_direction;
     settings.noise_horizon = options.render.bias_for_noise;
     settings.constant_radiance = options.render.constant_radiance;
     settings.random_faces = options.render.random_faces;
     const EglContext context = create_egl_context({options.device.gpu, false});
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
+    if (const std::string missed = light_missed(loaded.scene, settings.probabilities);
+        !missed.empty()) {
+        spdlog::warn("--method {}: {}", options.render.method, missed);
+    }
     settings.caustics = is_active(effects_plan(options, loaded), "caustics");
     Solver solver(loaded.scene, loaded.mesh, settings);
     if (options.render.constant_radiance && !solver.scene().constant_radiance()) {

@@ -11,6 +11,7 @@
 #include "app/render_job.h"
 #include "commands/command.h"
 #include "reference/measures/emitter_pixels.h"
+#include "reference/sampling/russian_roulette.h"
 #include "research/reference_method.h"
 #include "view/image/image_file.h"
 #include "view/image/tone_curve.h"
@@ -95,11 +96,42 @@ void write_statistics(const Options& options, glm::uvec2 size, const LoadedScene
 
 }  // namespace
 
+namespace {
+
+/// Of --roulette. A fixed survival probability of 1 would never end: 64 reflections in the mean at
+/// most.
+PathSettings path_settings(const Options& options, const RayScene& scene, const Camera& camera,
+                           glm::uvec2 size) {
+    constexpr int certain = 1;      // ch. 3.3.2: roulette decides on the second reflection
+    constexpr int reflections = 7;  // of the walks of eq. 3.16, as in figure 3.3
+    constexpr std::uint32_t looks = 16;
+    constexpr double longest = 1.0 - 1.0 / 64.0;
+    PathSettings settings;
+    if (options.render.roulette == "albedo") {
+        settings.survival = Survival::albedo;
+        settings.certain_bounces = certain;
+    } else if (options.render.roulette == "optimum") {
+        const WalkStatistics walks =
+            measure_walks(scene, CameraRays(scene, camera, size), looks, options.scene.seed);
+        settings.survival = Survival::fixed;
+        settings.survival_probability =
+            std::clamp(optimal_survival(walks, reflections), 1.0 - longest, longest);
+        settings.certain_bounces = certain;
+        spdlog::info("--roulette optimum: mean albedo {:.3f}, E {:.4g}, D² {:.4g}: survival {:.3f}",
+                     walks.albedo, walks.mean_square, walks.variance,
+                     settings.survival_probability);
+    }
+    return settings;
+}
+
+}  // namespace
+
 int run_render_reference(ReferenceKind kind, glm::uvec2 size, const Options& options) {
     const LoadedScene loaded = load_scene(options);
     const Camera camera = choose_camera(loaded.scene, options);
     const RayScene scene(loaded.scene, loaded.mesh);
-    const auto method = make_reference_method(kind, scene, camera, size, options.scene.seed);
+    const auto method = make_reference_method(kind, scene, camera, size, options.scene.seed,
+                                              path_settings(options, scene, camera, size));
     if (const std::string missed = light_missed(kind, scene, camera, size); !missed.empty()) {
         spdlog::warn("{}", missed);
     }

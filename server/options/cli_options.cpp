@@ -8,6 +8,7 @@
 
 #include "options/cli_checks.h"
 #include "options/config_file.h"
+#include "options/method_options.h"
 #include "options/option_table.h"
 
 namespace raybundle {
@@ -203,6 +204,7 @@ void add_render(CLI::App& app, Options& o) {
     app.add_flag("--patches", o.render.patches,
                  "Show the light of patches, interpolated, without gathering any at pixels: what a "
                  "walkthrough shows");
+    add_method_options(app, o.render);
     app.add_option("--stats", o.render.stats, "Write statistics as JSON");
     app.add_option("--script", o.render.script,
                    "JSON file with keys over time: an image sequence, -o frame_%04d.png; seconds, "

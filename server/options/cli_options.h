@@ -136,8 +136,11 @@ struct RenderOptions {
     bool constant_radiance = false;
     bool random_faces = false;
     bool patches = false;
-    std::string stats;   ///< file
-    std::string script;  ///< file
+    std::string shares, first_shares;  ///< P1,P2,P3; empty: as the light asks for
+    unsigned planes_per_direction = 1;
+    std::string roulette;  ///< of paths; empty: by throughput
+    std::string stats;     ///< file
+    std::string script;    ///< file
 };
 
 struct ExportOptions {

@@ -21,8 +21,8 @@ namespace raybundle {
 class PathReuse {
   public:
     /// Scene and lights must outlive it.
-    PathReuse(const RayScene& scene, const LightSampling& lights)
-        : scene_(scene), tracer_(scene, lights, settings) {}
+    PathReuse(const RayScene& scene, const LightSampling& lights, PathSettings settings = {})
+        : scene_(scene), tracer_(scene, lights, with_two_lights(settings)) {}
 
     /// Adds one sample to every pixel of a whole picture.
     void add_pass(ImageEstimate& image, const CameraRays& camera) const;
@@ -49,8 +49,11 @@ class PathReuse {
     void share(const Offer& offer, std::span<const View> views,
                std::span<glm::dvec3> radiance) const;
 
-    // Most light arrives with shared paths, and that of the lamps does not.
-    static constexpr PathSettings settings{.first_light_samples = 2};
+    /// Most light arrives with shared paths, and that of the lamps does not.
+    static PathSettings with_two_lights(PathSettings settings) {
+        settings.first_light_samples = 2;
+        return settings;
+    }
 
     const RayScene& scene_;
     PathTracer tracer_;

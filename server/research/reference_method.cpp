@@ -60,8 +60,10 @@ class SampledMethod : public ReferenceMethod {
 template <typename Estimator>
 class PixelMethod : public SampledMethod {
   public:
-    PixelMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
-        : SampledMethod(scene, view, size, seed), estimator_(scene, lights()) {}
+    template <typename... Settings>
+    PixelMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed,
+                const Settings&... settings)
+        : SampledMethod(scene, view, size, seed), estimator_(scene, lights(), settings...) {}
 
     void iterate() override {
         image().add_pass(camera(), [this](const glm::dvec3& origin, const glm::dvec3& direction,
@@ -95,8 +97,9 @@ class SplattingMethod : public SampledMethod {
 
 class PathReuseMethod : public SampledMethod {
   public:
-    PathReuseMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed)
-        : SampledMethod(scene, view, size, seed), paths_(scene, lights()) {}
+    PathReuseMethod(const RayScene& scene, const Camera& view, glm::uvec2 size, std::uint64_t seed,
+                    const PathSettings& settings)
+        : SampledMethod(scene, view, size, seed), paths_(scene, lights(), settings) {}
 
     void iterate() override { paths_.add_pass(image(), camera()); }
 
@@ -233,13 +236,14 @@ std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera
 
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
-                                                       std::uint64_t seed) {
+                                                       std::uint64_t seed,
+                                                       const PathSettings& paths) {
     if (const std::string reason = reason_against(kind, scene); !reason.empty()) {
         throw std::runtime_error(reason);
     }
     switch (kind) {
         case ReferenceKind::path_reuse:
-            return std::make_unique<PathReuseMethod>(scene, camera, size, seed);
+            return std::make_unique<PathReuseMethod>(scene, camera, size, seed, paths);
         case ReferenceKind::single_ray:
             return std::make_unique<SingleRayMethod>(scene, camera, size, seed);
         case ReferenceKind::ray_cast:
@@ -253,7 +257,7 @@ std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const
         case ReferenceKind::photon_map:
             return std::make_unique<PhotonMethod>(scene, camera, size, seed);
         default:
-            return std::make_unique<PixelMethod<PathTracer>>(scene, camera, size, seed);
+            return std::make_unique<PixelMethod<PathTracer>>(scene, camera, size, seed, paths);
     }
 }
 

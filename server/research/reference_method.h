@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/measures/image_estimate.h"
+#include "reference/path_tracer.h"
 #include "reference/ray_scene.h"
 #include "scene/scene.h"
 
@@ -58,9 +59,11 @@ std::string light_missed(ReferenceKind kind, const RayScene& scene, const Camera
                          glm::uvec2 size);
 
 /// The picture's own part of a method's input, and what it is made from; the ray scene must outlive
-/// the method. Throws std::runtime_error where there is a reason_against() it.
+/// the method. paths: of path and path_reuse. Throws std::runtime_error where there is a
+/// reason_against() it.
 std::unique_ptr<ReferenceMethod> make_reference_method(ReferenceKind kind, const RayScene& scene,
                                                        const Camera& camera, glm::uvec2 size,
-                                                       std::uint64_t seed);
+                                                       std::uint64_t seed,
+                                                       const PathSettings& paths = {});
 
 }  // namespace raybundle

@@ -119,6 +119,18 @@ void Solver::refresh_slopes() {
     }
 }
 
+StrategyProbabilities Solver::planned_probabilities() const {
+    const StrategyProbabilities& later = mix_.probabilities();
+    if (!settings_.first_probabilities) {
+        return later;
+    }
+    const StrategyProbabilities& first = *settings_.first_probabilities;
+    const float share = std::min(static_cast<float>(iterations_) / transient_, 1.0F);
+    return {glm::mix(first.layered, later.layered, share),
+            glm::mix(first.plane, later.plane, share),
+            glm::mix(first.perspective, later.perspective, share)};
+}
+
 void Solver::plan_group() {
     if (!fine_ && fine_fits_ && iterations_ >= settings_.coarse_iterations && noise_is_low()) {
         refine();
@@ -129,7 +141,7 @@ void Solver::plan_group() {
         const glm::dvec2 scatter = store_.take_scatter();
         mix_.adapt({scatter.x, scatter.y});
     }
-    probabilities_ = mix_.probabilities();
+    probabilities_ = planned_probabilities();
     schedule_.set_probabilities(probabilities_);
     store_.set_shoots_only(probabilities_.perspective >= 1.0F);
     std::vector<glm::vec4> numbers;

@@ -47,6 +47,9 @@ struct SolverSettings {
     /// Probabilities follow the kinds of light and what is measured, see suited_to() and
     /// StrategyMix.
     bool adapt_probabilities = true;
+    /// Where there are any, the first iterations have these, and while samples gain weight they
+    /// become the others (ch. 7.1.3: perspective bundles first, parallel ones refine).
+    std::optional<StrategyProbabilities> first_probabilities;
     unsigned planes_per_direction = 1;  ///< plane bundles in a row that share a direction
     SpecialSettings special;            ///< how changes are worked in
 };
@@ -165,6 +168,7 @@ class Solver {
         return fine_ != nullptr && (changes_ == 0 || since_change_ >= settings_.coarse_iterations);
     }
     [[nodiscard]] Transfer& transfer() { return is_fine() ? *fine_ : *coarse_; }
+    [[nodiscard]] StrategyProbabilities planned_probabilities() const;
     [[nodiscard]] float sample_weight() const;
     void limit_iterate_age(float samples);
     [[nodiscard]] float iterate_age() const;

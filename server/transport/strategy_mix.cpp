@@ -87,4 +87,12 @@ StrategyProbabilities suited_to(const Scene& scene, StrategyProbabilities probab
     return probabilities;
 }
 
+std::string light_missed(const Scene& scene, const StrategyProbabilities& probabilities) {
+    if (has_sky(scene) && probabilities.layered <= 0.0F && probabilities.plane <= 0.0F) {
+        return "perspective bundles are shot from surfaces and carry no light of the sky, which "
+               "lights nothing here; parallel bundles do";
+    }
+    return {};
+}
+
 }  // namespace raybundle

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "scene/scene.h"
 #include "transport/iteration_schedule.h"
@@ -58,5 +59,9 @@ class StrategyMix {
 /// where there is nothing else. Probabilities without one of layered and perspective stay as they
 /// are.
 StrategyProbabilities suited_to(const Scene& scene, StrategyProbabilities probabilities);
+
+/// Which light bundles of these kinds do not carry; empty: they carry all of it. Shooters stand on
+/// surfaces, so that none of them sends light of the sky.
+std::string light_missed(const Scene& scene, const StrategyProbabilities& probabilities);
 
 }  // namespace raybundle
