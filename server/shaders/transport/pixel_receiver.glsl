@@ -60,7 +60,7 @@ layout(std430, binding = BINDING_PIXEL_GLOSS_DELTA) buffer PixelGlossDeltaBuffer
 uniform float ray_share;  // rays of a pixel's lobe for each sample, in the mean; see view_gloss_rays.comp
 #endif
 #endif
-float found_density;  // inverse of d(omega) where gather() found light, sr
+float found_density = 0.0;  // inverse of d(omega) where gather() found light, sr
 uniform uint facet_base;    // facets and vertices of the place that was drawn
 uniform uint vertex_base;
 uniform uvec4 moved_objects;  // that are elsewhere at place 1, the rest NO_PATCH
