@@ -137,8 +137,8 @@ class LightReader {
             document_.fail(path, error.json_path() + ": " + error.reason());
         }
         for (const std::string& note : read_profiles_[index]->data().notes) {
-            document_.note(
-                fmt::format("photometry '{}': {}", value_or<std::string>(source, "uri", path), note));
+            document_.note(fmt::format("photometry '{}': {}",
+                                       value_or<std::string>(source, "uri", path), note));
         }
         return read_profiles_[index];
     }
