@@ -209,61 +209,6 @@ describe('lights and materials', () => {
         assert.deepEqual(faults, []);
     });
 
-    it('are grouped, dimmed as one, placed and aimed by a click, and kept as a lighting scene', async () => {
-        const [lamp] = WELCOME.scene.lights;
-        const placed = {group: '', dim: 1, position: {x: 0, y: 2, z: 0}, aim: {x: 0, y: -1, z: 0}, rotation: 0};
-        const lights = [1, 2].map((id) => ({...lamp, id, name: `spot ${id}`, kind: 'POINT', unit: 'LM', ...placed}));
-        let epoch = 0;
-        const {page, sent, faults} = await openPage((request, send) => {
-            const {hello, setLight, setGroup, saveLightingScene, probe} = request;
-            if (hello) {
-                send({welcome: {...WELCOME, scene: {...WELCOME.scene, lights}}});
-            } else if (setLight) {
-                send({sceneChanged: {epoch: ++epoch, by: 1, setLight}});
-            } else if (saveLightingScene) {
-                send({lightingSceneChanged: {...saveLightingScene, by: 1, byName: 'me', removed: false}});
-            } else if (probe) {
-                send({probeResult: {hit: true, position: {x: 3, y: 2, z: 0}}});
-            } else {
-                send({ok: {}});
-            }
-            if (setGroup) {
-                for (const light of [1, 2]) {
-                    send({sceneChanged: {epoch: ++epoch, by: 1, setLight: {light, dim: setGroup.dim}}}, false);
-                }
-            }
-        }, {colorScheme: 'light'});
-        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
-        await page.click('#tab-light');
-        for (const name of ['spot 1', 'spot 2']) {
-            await page.locator('#lights > li', {hasText: name}).locator('summary').click();
-            await page.getByLabel(`${name}, group`).fill('stage');
-            await page.keyboard.press('Enter');
-        }
-        await page.waitForFunction(() => document.querySelector('#light-groups b')?.textContent === 'stage (2)');
-        await page.getByLabel('Group stage, dimmer').fill('0.4');
-        await page.waitForFunction(() => window.raybundle.scene.lights.every(({dim}) => dim === 0.4));
-        assert.equal(await page.textContent('#light-groups output'), '40 %');
-        await page.getByLabel('spot 1, Height y').fill('2.6');
-        await page.keyboard.press('Enter');
-        await page.waitForFunction(() => window.raybundle.scene.lights[0].position.y === 2.6);
-        await page.getByLabel('spot 1, Tilt from down').fill('90');
-        await page.keyboard.press('Enter');
-        await page.waitForFunction(() => Math.abs(window.raybundle.scene.lights[0].aim.z + 1) < 1e-6);
-        await page.locator('#lights > li').first().getByText('Aim at a point').click();
-        await page.locator('#picture').click({position: {x: 50, y: 50}});
-        await page.waitForFunction(() => window.raybundle.scene.lights[0].aim.x > 0);
-        assert.deepEqual(sent.flatMap(({setLight}) => (setLight?.aim ? [setLight.aim] : [])).at(-1), {x: 3, y: 2 - 2.6, z: 0});
-        assert.equal(await page.evaluate(() => window.raybundle.tool), 'select');
-        await page.fill('#lighting-name', 'Presentation');
-        await page.keyboard.press('Enter');
-        await page.locator('#lighting-scenes button', {hasText: 'Presentation'}).click();
-        await keepScreenshot(page, 'light_groups');
-        await page.waitForFunction(() => window.raybundle.scene.lightingScenes.length === 1);
-        assert.deepEqual(sent.at(-1).applyLightingScene, {name: 'Presentation'});
-        assert.deepEqual(faults, []);
-    });
-
     it('stay as they are where the server cannot change them, and the page says so', async () => {
         const {page} = await openPage((request, send) => {
             const {hello, setLight} = request;

@@ -19,6 +19,7 @@ import {layOutStrip} from '../../client_web/measure/legend.js';
 import {partsOf, timeAt, zoneOf} from '../../client_web/scene/day_time.js';
 import {sunText} from '../../client_web/scene/daylight_panel.js';
 import {groupState, groupsOf} from '../../client_web/scene/light_groups.js';
+import {areaOver, planeCsv, planeState, valueText, withInterval} from '../../client_web/measure/work_plane.js';
 import {aimAt, aimOf, anglesOf} from '../../client_web/scene/light_place.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_values.js';
 import {lightState} from '../../client_web/scene/light_state.js';
@@ -857,5 +858,30 @@ describe('times of daylight', () => {
         assert.equal(sunText({sky: 'clear', sunElevation: 35.65, sunAzimuth: -96.2}), 'Sun 35.6° high, at 264° from −z over +x');
         assert.equal(sunText({sky: 'clear', sunElevation: -3}), 'The sun has set: the sky is dark.');
         assert.equal(sunText({sky: 'loaded'}), '');
+    });
+});
+
+describe('work plane', () => {
+    it('lies over bounds at a height above their floor', () => {
+        const bounds = {min: {x: 1, y: 2, z: 3}, max: {x: 5, y: 4, z: 9}};
+        assert.deepEqual(areaOver(bounds, bounds.min.y, 0.75), {
+            origin: {x: 1, y: 2.75, z: 3}, u: {x: 4, y: 0, z: 0}, v: {x: 0, y: 0, z: 6},
+        });
+    });
+
+    it('says values with intervals, in the unit that is chosen', () => {
+        assert.deepEqual(withInterval(500, 490, 510, valueText('HORIZONTAL', 'lx')), {value: '500 lx', interval: '490 lx to 510 lx'});
+        assert.equal(valueText('HORIZONTAL', 'fc')(107.639), '10.0 fc');
+        assert.equal(valueText('DAYLIGHT_FACTOR', 'fc')(2), '2.00 %');
+        assert.deepEqual(withInterval(undefined, undefined, undefined, String), {value: '–', interval: ''});
+    });
+
+    it('says what is left out, and what is not known yet', () => {
+        const point = (/** @type {boolean} */ inside) => ({position: {x: 0, y: 1, z: 0.5}, value: inside ? undefined : 3, inside});
+        const result = {measurement: 1, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 2, rows: 1, factor: 0.8,
+            points: [point(false), point(true)]};
+        assert.equal(planeState(result),
+            '2 × 1 points. 1 lie in solids and are left out. Maintained: times 0.8. The values are still uncertain.');
+        assert.equal(planeCsv(result, 'lx').split('\n')[2], '0.0000,1.0000,0.5000,,,,in a solid');
     });
 });

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pure maths of a work plane: where it lies, and how its numbers read.
+
+import {inUnit, threeDigits} from '../ui/units.js';
+import {vec3} from '../ui/vector.js';
+
+/**
+ * @typedef {import('../net/protocol.js').Bounds} Bounds
+ * @typedef {import('../net/protocol.js').Measured} Measured
+ * @typedef {import('../net/protocol.js').Vec3} Vec3
+ */
+
+/**
+ * A horizontal area over some bounds.
+ *
+ * @param {Bounds} bounds  world space
+ * @param {number} floor  height that `height` counts from, metres
+ * @param {number} height  metres
+ * @returns {{origin: Vec3, u: Vec3, v: Vec3}}
+ */
+export const areaOver = ({min, max}, floor, height) => ({
+    origin: vec3(min.x, floor + height, min.z),
+    u: vec3(max.x - min.x, 0, 0),
+    v: vec3(0, 0, max.z - min.z),
+});
+
+/**
+ * A number with its 95 % interval.
+ *
+ * @param {number | undefined} value
+ * @param {number | undefined} low
+ * @param {number | undefined} high
+ * @param {(number: number) => string} text
+ */
+export function withInterval(value, low, high, text) {
+    if (value === undefined) {
+        return {value: '–', interval: ''};
+    }
+    const known = low !== undefined && high !== undefined;
+    return {value: text(value), interval: known ? `${text(low)} to ${text(high)}` : ''};
+}
+
+/**
+ * Text of a value of a quantity.
+ *
+ * @param {string} quantity
+ * @param {'lx' | 'fc'} unit  that illuminances are shown in
+ * @returns {(value: number) => string}
+ */
+export const valueText = (quantity, unit) =>
+    quantity === 'DAYLIGHT_FACTOR'
+        ? (value) => `${threeDigits(value)} %`
+        : (value) => `${threeDigits(inUnit(value, unit))} ${unit}`;
+
+/**
+ * What the numbers stand for.
+ *
+ * @param {Measured} result
+ */
+export function planeState({points, columns, rows, spacing, factor, relativeError}) {
+    const inside = points.filter((point) => point.inside).length;
+    const parts = [`${columns} × ${rows} points`];
+    if (spacing) {
+        parts.push(`at most ${spacing.toFixed(2)} m apart, as EN 12464-1 asks for`);
+    }
+    const left = inside > 0 ? ` ${inside} lie in solids and are left out.` : '';
+    const kept = factor === 1 ? '' : ` Maintained: times ${factor}.`;
+    const error = relativeError === undefined || relativeError > 1
+        ? ' The values are still uncertain.'
+        : ` Values are known within ${threeDigits(100 * relativeError)} % of the mean.`;
+    return `${parts.join(', ')}.${left}${kept}${error}`;
+}
+
+/** @param {Measured} result @param {string} unit  of the values @returns {string} */
+export function planeCsv({points}, unit) {
+    const cell = (/** @type {number | undefined} */ value) => (value === undefined ? '' : String(Number(value.toPrecision(6))));
+    const rows = points.map(({position: {x, y, z}, value, low, high, inside}) =>
+        [x.toFixed(4), y.toFixed(4), z.toFixed(4), cell(value), cell(low), cell(high), inside ? 'in a solid' : ''].join(','));
+    return `x (m),y (m),z (m),value (${unit}),95 % from (${unit}),95 % to (${unit}),note\n${rows.join('\n')}\n`;
+}

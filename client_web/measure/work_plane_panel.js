@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// A work plane: points in the air that the server measures by themselves, whatever the picture shows, and measures
+// again when the light changes.
+
+import {ServerError} from '../net/protocol.js';
+import {byId, fileName, saveFile, showValue} from '../ui/elements.js';
+import {sentence} from '../ui/status.js';
+import {areaOver, planeCsv, planeState, valueText, withInterval} from './work_plane.js';
+
+/**
+ * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('./measure.js').Measuring} Measuring
+ * @typedef {import('../net/protocol.js').Measured} Measured
+ */
+
+const SVG = 'http://www.w3.org/2000/svg';
+/** Strip along walls that EN 12464-1 leaves out of a room's area, metres. */
+const MARGIN = 0.5;
+/** Points nearer to the eye's plane are not drawn, metres. */
+const NEAR = 0.02;
+/** Of more points the picture shows dots, not numbers. */
+const MOST_NUMBERS = 150;
+
+export class WorkPlanePanel {
+    /** @type {Measured | null} */
+    #result = null;
+    #over = byId('plane-over', HTMLSelectElement);
+    #state = byId('plane-state', HTMLElement);
+    #button = byId('measure-plane', HTMLButtonElement);
+
+    /**
+     * @param {RaybundleApp} app
+     * @param {Measuring} measuring
+     */
+    constructor(app, measuring) {
+        this.app = app;
+        this.measuring = measuring;
+        this.#button.addEventListener('click', () => this.measure());
+        byId('clear-plane', HTMLElement).addEventListener('click', () => this.#clear());
+        byId('plane-csv', HTMLElement).addEventListener('click', () => this.#save());
+        app.on('welcome', () => {
+            this.#forget();  // a server that was started anew has none
+            this.#list();
+        });
+        app.on('selection', () => this.#list());
+        app.on('message', ({measured}) => measured && this.#arrived(measured));
+        measuring.addEventListener('unit', () => this.#show());
+        this.group = app.overlay.group('plane-points');
+        app.overlay.add(({place}) => this.#draw(place));
+    }
+
+    /** Where a plane may lie: over the selected object, a storey, or all there is. */
+    #list() {
+        const {scene, selected} = this.app;
+        const before = this.#over.value;
+        const options = [new Option('the whole scene', 'scene')];
+        for (const storey of scene?.storeys.keys() ?? []) {
+            options.push(new Option(storey, `storey ${storey}`));
+        }
+        if (selected) {
+            options.unshift(new Option(`${selected.name} (selected)`, 'selected'));
+        }
+        this.#over.replaceChildren(...options);
+        this.#over.value = options.some(({value}) => value === before) && before !== 'scene' ? before : options[0].value;
+    }
+
+    #request() {
+        const {scene, selected} = this.app;
+        const over = this.#over.value;
+        const height = byId('plane-height', HTMLInputElement).valueAsNumber;
+        if (!scene || !Number.isFinite(height)) {
+            return null;
+        }
+        const storey = scene.storeys.get(over.replace(/^storey /, ''));
+        const bounds = over === 'selected' && selected ? selected.bounds : (storey ?? scene.bounds);
+        const margin = over === 'selected' ? 0 : Math.min(MARGIN, 0.2 * (bounds.max.x - bounds.min.x), 0.2 * (bounds.max.z - bounds.min.z));
+        const quantity = byId('plane-quantity', HTMLSelectElement).value;
+        return {
+            quantity,
+            area: areaOver(bounds, bounds.min.y, height),
+            grid: 'EN12464',
+            margin,
+            relativeError: 0.05,
+            keep: true,
+            maintained: byId('plane-maintained', HTMLInputElement).checked,
+            ...(['VERTICAL', 'SEMICYLINDRICAL'].includes(quantity) ? {direction: this.#heading()} : {}),
+        };
+    }
+
+    /** Vertical surfaces face who looks at them. */
+    #heading() {
+        const {eye, target} = this.app.view;
+        return {x: eye.x - target.x, y: 0, z: eye.z - target.z};
+    }
+
+    /** Measures a plane where the fields say, in place of the one before. */
+    async measure() {
+        const measure = this.#request();
+        if (!measure) {
+            this.#state.textContent = 'Enter the height as a number.';
+            return;
+        }
+        await this.#remove();
+        this.#button.disabled = true;
+        this.#state.textContent = 'Measuring …';
+        try {
+            const {measured} = await this.app.client.request({measure}).answer;
+            this.#result = measured ?? null;
+            this.#show();
+        } catch (error) {
+            this.#state.textContent = error instanceof ServerError ? sentence(error.message) : 'The connection was lost.';
+        }
+        this.#button.disabled = false;
+    }
+
+    /** @param {Measured} measured */
+    #arrived(measured) {
+        if (measured.measurement === this.#result?.measurement) {
+            this.#result = measured;
+            this.#show();
+        }
+    }
+
+    async #remove() {
+        const old = this.#result;
+        this.#forget();
+        if (old) {
+            await this.app.client.request({removeMeasurement: {measurement: old.measurement}}).answer.catch(() => null);
+        }
+    }
+
+    #forget() {
+        this.#result = null;
+        this.#show();
+    }
+
+    async #clear() {
+        await this.#remove();
+        this.#button.focus({preventScroll: true});
+    }
+
+    #save() {
+        if (this.#result) {
+            const unit = this.#result.quantity === 'DAYLIGHT_FACTOR' ? '%' : 'lx';
+            const blob = new Blob([planeCsv(this.#result, unit)], {type: 'text/csv'});
+            saveFile(blob, `${fileName(`${this.app.scene?.title} work plane`)}.csv`);
+        }
+    }
+
+    #show() {
+        const result = this.#result;
+        byId('plane-result', HTMLElement).hidden = !result;
+        byId('plane-actions', HTMLElement).hidden = !result;
+        if (result) {
+            const text = valueText(result.quantity, this.measuring.unit);
+            const plain = (/** @type {number} */ value) => value.toFixed(2);
+            const tiles = {
+                Mean: withInterval(result.mean, result.meanLow, result.meanHigh, text),
+                Min: withInterval(result.minimum, result.minimumLow, result.minimumHigh, text),
+                Max: withInterval(result.maximum, result.maximumLow, result.maximumHigh, text),
+                Uniformity: withInterval(result.uniformity, result.uniformityLow, result.uniformityHigh, plain),
+            };
+            for (const [name, {value, interval}] of Object.entries(tiles)) {
+                showValue(`plane${name}`, value);
+                showValue(`plane${name}Interval`, interval);
+            }
+            this.#state.textContent = planeState(result);
+        } else {
+            this.#state.textContent = '';
+        }
+        this.app.drawOverlay();
+    }
+
+    /** @param {import('../picture/overlay.js').OverlayFrame['place']} place */
+    #draw(place) {
+        const points = this.#result?.points ?? [];
+        const text = valueText(this.#result?.quantity ?? '', this.measuring.unit);
+        const numbers = points.length <= MOST_NUMBERS;
+        const marks = points.flatMap(({position, value, inside}) => {
+            const {x, y, depth} = place(position);
+            if (depth <= NEAR || inside || value === undefined) {
+                return [];
+            }
+            const mark = document.createElementNS(SVG, numbers ? 'text' : 'circle');
+            mark.setAttribute(numbers ? 'x' : 'cx', x.toFixed(1));
+            mark.setAttribute(numbers ? 'y' : 'cy', y.toFixed(1));
+            if (numbers) {
+                mark.textContent = text(value).split(' ')[0];
+            } else {
+                mark.setAttribute('r', '2.5');
+            }
+            return [mark];
+        });
+        this.group.replaceChildren(...marks);
+    }
+}
