@@ -19,7 +19,7 @@ import {serveFolder} from './static_server.mjs';
 
 const EXECUTABLE = process.env.RAYBUNDLE ?? path.join(ROOT, 'build/raybundle');
 const SCENES = ['cornell_box', 'living_room'];
-const SOLVE = ['--iterations', '64', '--seed', '5', '--patch-size', '0.3'];
+const SOLVE = ['--iterations', '16', '--seed', '5', '--patch-size', '0.3'];
 const SIZE = {width: 160, height: 120};
 const OPTIONS = {viewport: {width: 900, height: 700}};
 /** WebGL on the processor. */

@@ -76,10 +76,10 @@ TEST_F(SessionTest, MinorVersionsAreAccepted) {
 }
 
 TEST_F(SessionTest, MisspeltFieldsAreRefusedUnlessHelloAsksForLeniency) {
-    const std::string light = R"({"id":2,"setLight":{"light":1,"on":true,"flux":5}})";
+    const std::string light = R"({"id":2,"setLight":{"light":1,"on":true,"lumens":5}})";
     receive(kFirstHello);
     receive(light);
-    EXPECT_NE(sent().find("setLight.flux: unknown field"), std::string::npos);
+    EXPECT_NE(sent().find("setLight.lumens: unknown field"), std::string::npos);
     EXPECT_EQ(inbox_.drain().size(), 1U);
     for (const char* hello : {R"({"hello":{"protocol":"1.0","lenient":true,"mood":1}})",
                               R"({"hello":{"protocol":"1.99","mood":1}})"}) {

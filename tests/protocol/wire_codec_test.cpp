@@ -79,7 +79,7 @@ TEST(WireCodec, IgnoresUnknownFieldsAndUnknownCodecs) {
 }
 
 TEST(WireCodec, LenientReadingIgnoresWhatANewerClientSays) {
-    const std::string light = R"({"setLight":{"light":1,"on":true,"flux":{"lm":[900]}},"x":1})";
+    const std::string light = R"({"setLight":{"light":1,"on":true,"lumens":{"lm":[900]}},"x":1})";
     const ParsedMessage lenient = parse_text_message(light, {}, Reading::lenient);
     ASSERT_TRUE(std::holds_alternative<v1::ClientMessage>(lenient));
     EXPECT_TRUE(std::get<v1::ClientMessage>(lenient).set_light().on());
@@ -253,7 +253,7 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
         R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0}],"cameras":[],)"
-        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}]},)"
+        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[]},)"
         R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
 
