@@ -77,7 +77,7 @@ describe('daylight', () => {
                 send({welcome: {...WELCOME, scene: {...WELCOME.scene, daylight: loaded}}});
             } else if (setDaylight) {
                 const sun = {id: 2, name: 'sun', kind: 'DIRECTIONAL', unit: 'LX', intensity: 50000, colour: {x: 1, y: 1, z: 1}, on: true};
-                const told = {sunElevation: 30, sunAzimuth: -90, ...setDaylight, lights: [sun, {...sun, id: 3, name: 'sky', kind: 'SKY'}]};
+                const told = {sunElevation: 30, sunAzimuth: 270, ...setDaylight, lights: [sun, {...sun, id: 3, name: 'sky', kind: 'SKY'}]};
                 send({sceneChanged: {epoch: ++epoch, by: 1, setDaylight: told}});
             } else {
                 send({ok: {}});

@@ -64,6 +64,22 @@ TEST(WireCodec, AcceptsEveryPublishedExampleAsTextAndAsBinary) {
     }
 }
 
+/// The grid of a measurement by name or by numbers, in one field.
+TEST(WireCodec, GridOfAMeasurementIsARuleOrNumbers) {
+    const auto measure = [](const std::string& grid) {
+        return R"({"id":1,"measure":{"quantity":"HORIZONTAL","area":{"origin":{"y":0.75},"u":{"x":5},"v":{"z":4}},"grid":)" +
+               grid + "}}";
+    };
+    EXPECT_EQ(accepted(measure("\"EN12464\"")).measure().grid(), v1::Measure::EN12464);
+    const v1::Measure numbers = accepted(measure(R"({"columns":9,"rows":5})")).measure();
+    EXPECT_EQ(numbers.columns(), 9U);
+    EXPECT_EQ(numbers.rows(), 5U);
+    EXPECT_EQ(numbers.area().origin().y(), 0.75F);
+    const ParsedMessage wrong = parse_text_message(measure(R"({"columns":9,"row":5})"));
+    ASSERT_TRUE(std::holds_alternative<Refusal>(wrong));
+    EXPECT_TRUE(std::get<Refusal>(wrong).text.starts_with("measure.row: unknown field"));
+}
+
 TEST(WireCodec, AbsentIsNotFalse) {
     EXPECT_FALSE(accepted(R"({"setLight":{"light":1,"intensity":800}})").set_light().has_on());
     EXPECT_TRUE(accepted(R"({"setLight":{"light":1,"on":false}})").set_light().has_on());

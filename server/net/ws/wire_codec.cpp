@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "net/ws/json_fields.h"
 #include "net/ws/json_scan.h"
@@ -80,6 +81,27 @@ std::string unknown_key(const std::vector<std::string>& keys) {
     return std::string("\"").append(short_excerpt(*unknown)).append("\"");
 }
 
+/// `measure.grid` is the name of a rule, or an object of columns and rows. Proto3's JSON knows no
+/// field that is either: the numbers become fields of `measure`. Other texts stay as they are.
+std::string with_flat_grid(std::string_view text) {
+    if (text.find("\"measure\"") == std::string_view::npos ||
+        text.find("\"grid\"") == std::string_view::npos) {
+        return std::string(text);
+    }
+    nlohmann::ordered_json message = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!message.is_object() || !message.contains("measure") || !message["measure"].is_object()) {
+        return std::string(text);
+    }
+    nlohmann::ordered_json& measure = message["measure"];
+    if (!measure.contains("grid") || !measure["grid"].is_object()) {
+        return std::string(text);
+    }
+    const nlohmann::ordered_json grid = measure["grid"];
+    measure.erase("grid");
+    measure.update(grid);  // what it has beside columns and rows is refused as a field of measure
+    return message.dump();
+}
+
 template <typename Message>
 std::string print(const Message& message) {
     json_util::JsonPrintOptions options;
@@ -101,14 +123,15 @@ Reading reading_of(const v1::Hello& hello) {
     return hello.lenient() || newer ? Reading::lenient : Reading::strict;
 }
 
-ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits, Reading reading) {
-    if (auto too_large = check_size(text.size(), limits)) {
+ParsedMessage parse_text_message(std::string_view sent, const WireLimits& limits, Reading reading) {
+    if (auto too_large = check_size(sent.size(), limits)) {
         return *too_large;
     }
-    const JsonScan scan = scan_json(text, limits.max_json_depth);
+    const JsonScan scan = scan_json(sent, limits.max_json_depth);
     if (!scan.error.empty()) {
         return Refusal{v1::Error::INVALID_ARGUMENT, scan.error, scan.id};
     }
+    const std::string text = with_flat_grid(sent);
     const JsonFields fields = check_json_fields(text, *v1::ClientMessage::descriptor());
     if (!fields.problem.empty()) {
         return Refusal{v1::Error::INVALID_ARGUMENT, fields.problem, scan.id};
@@ -116,8 +139,7 @@ ParsedMessage parse_text_message(std::string_view text, const WireLimits& limits
     v1::ClientMessage message;
     json_util::JsonParseOptions options;
     options.ignore_unknown_fields = true;
-    const auto status =
-        json_util::JsonStringToMessage({text.data(), text.size()}, &message, options);
+    const auto status = json_util::JsonStringToMessage(text, &message, options);
     if (!status.ok()) {
         spdlog::debug("protobuf: {}", status.ToString());
         return Refusal{v1::Error::INVALID_ARGUMENT,

@@ -15,9 +15,10 @@ std::optional<T> given(bool has, Message value) {
     return has ? std::optional<T>(value) : std::nullopt;
 }
 
-/// Between -180 and 180.
-float half_circle(double degrees) {
-    return static_cast<float>(std::remainder(degrees, 360.0));
+/// From 0 to below 360.
+float full_circle(double degrees) {
+    const double turned = std::fmod(degrees, 360.0);
+    return static_cast<float>(turned < 0.0 ? turned + 360.0 : turned);
 }
 
 void place_sun(v1::SetDaylight& daylight) {
@@ -28,7 +29,7 @@ void place_sun(v1::SetDaylight& daylight) {
     const SunPosition sun = sun_position(double{daylight.place().latitude()},
                                          double{daylight.place().longitude()}, *time);
     daylight.set_sun_elevation(static_cast<float>(sun.elevation));
-    daylight.set_sun_azimuth(half_circle(sun.azimuth + double{daylight.north()}));
+    daylight.set_sun_azimuth(full_circle(sun.azimuth + double{daylight.north()}));
 }
 
 }  // namespace
