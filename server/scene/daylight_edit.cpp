@@ -71,10 +71,6 @@ void apply(Scene& scene, const DaylightSetting& daylight) {
     scene.daylight = daylight;
 }
 
-DaylightSetting daylight_of(const Scene& scene) {
-    return scene.daylight;
-}
-
 bool daylight_dimmed(const Scene& scene) {
     const auto& lights = scene.punctual_lights;
     return (scene.sky_light &&

@@ -17,9 +17,6 @@ std::string problem_of(const DaylightSetting& daylight);
 /// their numbers.
 void apply(Scene& scene, const DaylightSetting& daylight);
 
-/// What it has now.
-DaylightSetting daylight_of(const Scene& scene);
-
 /// Whether its sky or one of its suns has been dimmed, coloured or switched off.
 bool daylight_dimmed(const Scene& scene);
 

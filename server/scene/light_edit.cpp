@@ -32,24 +32,38 @@ void apply_control(LightControl& control, const LightEdit& edit) {
     control.maintenance_factor = edit.maintenance_factor.value_or(control.maintenance_factor);
 }
 
+/// What angles lose on their way through a message: a light that is set to what it is keeps its
+/// bits.
+constexpr float rounding = 1e-6F;
+constexpr float rounding_degrees = 1e-3F;
+
+bool differs(const std::optional<float>& cone, float cosine) {
+    return cone && std::abs(*cone - glm::degrees(std::acos(cosine))) > rounding_degrees;
+}
+
 void apply_place(PunctualLight& light, const LightEdit& edit) {
     if (!edit.position && !edit.aim && !edit.rotation) {
         return;
     }
-    LightPlace place = place_of(light);
-    place.position = edit.position.value_or(place.position);
-    place.aim = edit.aim ? glm::normalize(*edit.aim) : place.aim;
-    place.rotation = edit.rotation.value_or(place.rotation);
-    set_place(place, light);
+    const LightPlace now = place_of(light);
+    LightPlace place = now;
+    place.position = edit.position.value_or(now.position);
+    place.aim = edit.aim ? glm::normalize(*edit.aim) : now.aim;
+    place.rotation = edit.rotation.value_or(now.rotation);
+    const bool turned = glm::length(place.aim - now.aim) > rounding ||
+                        std::abs(place.rotation - now.rotation) > rounding_degrees;
+    if (turned || place.position != now.position) {
+        set_place(place, light);
+    }
 }
 
 /// A hard edge has both cones at once: it falls within 16 roundings of a cosine.
 void apply_cones(PunctualLight& light, const LightEdit& edit) {
     constexpr float min_gap = 16.0F * std::numeric_limits<float>::epsilon();
-    if (edit.outer_cone) {
+    if (differs(edit.outer_cone, light.outer_cosine)) {
         light.outer_cosine = std::min(std::cos(glm::radians(*edit.outer_cone)), 1.0F - min_gap);
     }
-    if (edit.inner_cone) {
+    if (differs(edit.inner_cone, light.inner_cosine)) {
         light.inner_cosine = std::cos(glm::radians(*edit.inner_cone));
     }
     if (edit.inner_cone || edit.outer_cone) {

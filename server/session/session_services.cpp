@@ -8,7 +8,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
           s.server, s.policy.clock(), s.policy.settings().snapshots,
           [&live = s.live](std::uint32_t epoch) { return make_earlier_scene(live, epoch); }),
       snapshots({s.live, snapshot_queue, s.receivers, s.server}),
-      lighting({s.live, s.viewers, s.server}),
+      lighting({s.live, s.server}),
       changes({s.live, s.viewers, s.pictures, s.receivers, snapshot_queue, lighting.scenes(),
                s.demand, s.policy.changes(), s.server, s.metrics}),
       errors({s.live, s.viewers, s.policy}),

@@ -238,6 +238,15 @@ TEST(LightingScenes, AreBoundedAndReplacedByName) {
     EXPECT_FALSE(scenes.save("one too many", "who", scene));
     EXPECT_EQ(scenes.refusal().code(), v1::Error::RESOURCE_EXHAUSTED);
     EXPECT_TRUE(scenes.save("a", "who", scene));
+    // Saved by day, applied by night: the sun stays where the day has it.
+    PunctualLight sun;
+    sun.kind = PunctualKind::directional;
+    sun.of_sky = true;
+    sun.intensity = glm::vec3(9e4F);
+    scene.punctual_lights.push_back(sun);
+    ASSERT_TRUE(scenes.save("a", "who", scene));
+    scene.punctual_lights[0].intensity = glm::vec3(0.0F);
+    EXPECT_TRUE(scenes.changes_to("a", scene)->empty());
     EXPECT_FALSE(scenes.remove("c"));
     EXPECT_EQ(scenes.refusal().code(), v1::Error::NOT_FOUND);
 }

@@ -99,6 +99,29 @@ TEST(LightEdit, PlacesAndShapesWhatItNames) {
     EXPECT_GT(light.inner_cosine, light.outer_cosine);
 }
 
+/// As an undo does, whose state names everything: what stays keeps its bits.
+TEST(LightEdit, SetToWhatItIsStaysAsItIs) {
+    for (const glm::vec3 aim : {glm::vec3(0.3F, -0.8F, 0.5F), glm::vec3(0, -1, 1e-7F)}) {
+        PunctualLight light = lamp(PunctualKind::spot);
+        set_place({{0.1F, 2.3F, -0.7F}, glm::normalize(aim), 37.0F}, light);
+        Scene scene = scene_with(light);
+        const LightPlace place = place_of(light);
+        LightEdit edit;
+        edit.light = 1;
+        edit.position = place.position;
+        edit.aim = place.aim;
+        edit.rotation = place.rotation;
+        edit.inner_cone = glm::degrees(std::acos(light.inner_cosine));
+        edit.outer_cone = glm::degrees(std::acos(light.outer_cosine));
+        apply(scene, edit);
+        const PunctualLight& same = scene.punctual_lights[0];
+        EXPECT_EQ(same.axes, light.axes);
+        EXPECT_EQ(same.position, light.position);
+        EXPECT_EQ(same.inner_cosine, light.inner_cosine);
+        EXPECT_EQ(same.outer_cosine, light.outer_cosine);
+    }
+}
+
 TEST(LightEdit, DimsWithoutForgettingTheFullLight) {
     Scene scene = scene_with(lamp(PunctualKind::point));
     const auto intensity_after = [&scene](std::optional<float> dim, std::optional<bool> on,

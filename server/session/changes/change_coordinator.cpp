@@ -46,10 +46,13 @@ bool is_dragged(const PendingChange& pending) {
     return last.has_final() && !last.final();
 }
 
-/// A spot with another cone may need another kind of shadow map.
-bool reshapes_beam(const PendingChange& pending) {
-    const v1::SetLight& light = pending.change.set_light();
-    return light.has_inner_cone() || light.has_outer_cone();
+/// Of all lights: a spot with another outer cone may need another kind of shadow map.
+std::vector<float> cones_of(const Scene& scene) {
+    std::vector<float> cosines;
+    for (const PunctualLight& light : scene.punctual_lights) {
+        cosines.push_back(light.kind == PunctualKind::spot ? light.outer_cosine : 0.0F);
+    }
+    return cosines;
 }
 
 }  // namespace
@@ -128,18 +131,18 @@ bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
 /// Keeps of `pending` what could be saved.
 bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     ChangedMaterials changed(parts_.scene.scene(), pending);
+    const std::vector<float> cones = cones_of(parts_.scene.scene());
     std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
     if (pending.empty()) {
         return false;
     }
     changed.look_again(parts_.scene.scene(), pending);
     LiveScene& live = parts_.scene;
-    const bool reshaped = std::any_of(pending.begin(), pending.end(), reshapes_beam);
-    const bool covered = !reshaped && live.solver().covers_lights(live.scene()) &&
-                         std::all_of(changed.reflecting().begin(), changed.reflecting().end(),
-                                     [&](std::uint32_t material) {
-                                         return live.solver().covers(live.scene(), material);
-                                     });
+    const bool covered =
+        cones_of(live.scene()) == cones && live.solver().covers_lights(live.scene()) &&
+        std::all_of(
+            changed.reflecting().begin(), changed.reflecting().end(),
+            [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });
     if (covered) {
         gather_all();
         begin_phase(live.solver(), false);

@@ -9,6 +9,12 @@
 namespace raybundle {
 namespace {
 
+/// Lamps: sky and sun go by the day.
+bool in_lighting_scenes(const Scene& scene, std::uint32_t id) {
+    const auto punctual = punctual_index(scene, id);
+    return !is_sky_light(scene, id) && !(punctual && scene.punctual_lights[*punctual].of_sky);
+}
+
 /// What a lighting scene sets: not where lights are, nor what groups they belong to.
 v1::SetLight setting_of_light(const Scene& scene, std::uint32_t id) {
     const v1::SetLight state = state_of_light(scene, id);
@@ -53,7 +59,9 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
     saved.mutable_scene()->set_name(name);
     saved.mutable_scene()->set_by_name(by_name);
     for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
-        *saved.add_lights() = setting_of_light(scene, id);
+        if (in_lighting_scenes(scene, id)) {
+            *saved.add_lights() = setting_of_light(scene, id);
+        }
     }
     if (!log_.keep_note(NoteKind::lighting_scene, saved.number(), saved.SerializeAsString())) {
         return refuse(v1::Error::INTERNAL, "the lighting scene could not be saved");
@@ -84,7 +92,8 @@ std::optional<std::vector<v1::SceneChanged>> LightingScenes::changes_to(const st
     }
     std::vector<v1::SceneChanged> changes;
     for (const v1::SetLight& wanted : known->second.lights()) {
-        const bool exists = wanted.light() >= 1 && wanted.light() <= light_count(scene);
+        const bool exists = wanted.light() >= 1 && wanted.light() <= light_count(scene) &&
+                            in_lighting_scenes(scene, wanted.light());
         if (!exists || !problem_of(scene, wanted).empty() ||
             setting_of_light(scene, wanted.light()).SerializeAsString() ==
                 wanted.SerializeAsString()) {

@@ -5,7 +5,7 @@
 #include "session/changes/lighting_scenes.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
-#include "session/viewers/viewers.h"
+#include "session/viewers/viewer_session.h"
 
 namespace raybundle {
 
@@ -14,7 +14,6 @@ class LightingService {
   public:
     struct Parts {
         LiveScene& scene;
-        const Viewers& viewers;
         Server& server;
     };
     explicit LightingService(const Parts& parts) : parts_(parts), scenes_(parts.scene.log()) {}
