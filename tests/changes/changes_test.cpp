@@ -85,6 +85,18 @@ TEST(ChangesOfFewPatches, AreNotHeldBackByWhatWasKept) {
     EXPECT_LT(error_of(served, truth, 0.005 * c.bright), 0.09);
 }
 
+/// A door that slides shut in 40 steps sends light back that has left the room before. A pixel that
+/// few bundles of a step hit kept its weight beside patches that had lost theirs: 8 to 9 % too dark
+/// after 100 iterations, 5 % after 300 (16 seeds).
+TEST(ChangesOfManySteps, ReachPixelsAsSoonAsPatches) {
+    ChangeCase c = change_case("door_slides_shut");
+    c.coarse = {128, 200};
+    constexpr double truth = 136.9;  // 5 solves of 4000 iterations, +-0.2 %
+    const std::uint64_t at[] = {144};
+    const double served = change_and_solve(c, 1, iterations_before, at).front().mean;
+    EXPECT_NEAR(served, truth, 0.055 * truth);
+}
+
 /// A room whose lamp goes out is dark, and no error is stated of nothing.
 TEST(ChangesDark, IsSaidWhereALampGoesOut) {
     ChangeCase c = change_case("swap_gets_dark");
@@ -115,9 +127,10 @@ const std::vector<std::uint64_t> after = {50, 100, 300, 1000};
 class HeavyChanges : public testing::TestWithParam<ChangeCase> {};
 
 /// Root mean square errors of the 25 points over 20 seeds of a change and of a new solve. The truth
-/// for one seed is the mean of the new solves of the others after 1000 iterations; where the light
-/// goes out, errors below a thousandth of what there was before count for none. 20 seeds tell a
-/// ratio to +-0.15 or so.
+/// is the mean of longer solves: after 1000 iterations a new solve of a room behind a curtain still
+/// has 40 % of light that comes from its start, which a mean of such would take for true. Where the
+/// light goes out, errors below a thousandth of what there was before count for none. 20 seeds tell
+/// a ratio to +-0.15 or so.
 TEST_P(HeavyChanges, AreNoWorseThanANewSolve) {
     const ChangeCase& c = GetParam();
     std::vector<std::vector<Served> > fresh;
@@ -127,22 +140,22 @@ TEST_P(HeavyChanges, AreNoWorseThanANewSolve) {
         changed.push_back(
             change_and_solve(c, static_cast<unsigned>(seed), iterations_before, after));
     }
-    const auto truth_without = [&](int seed) {
-        std::vector<double> truth(fresh.front().back().points.size(), 0.0);
-        for (int other = 0; other < seeds; ++other) {
-            for (std::size_t i = 0; other != seed && i < truth.size(); ++i) {
-                truth[i] += fresh[static_cast<std::size_t>(other)].back().points[i] / (seeds - 1);
-            }
+    constexpr int long_solves = 5;
+    const std::uint64_t long_at[] = {4000};
+    std::vector<double> truth;
+    for (unsigned i = 0; i < long_solves; ++i) {
+        const std::vector<double> points = solve_anew(c, 5000U + i, long_at).front().points;
+        truth.resize(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            truth[k] += points[k] / long_solves;
         }
-        return truth;
-    };
+    }
     const double scale = 1e-3 * c.bright;
     for (std::size_t k = 0; k < after.size(); ++k) {
         double of_fresh = 0.0;
         double of_changed = 0.0;
         for (int seed = 0; seed < seeds; ++seed) {
             const auto run = static_cast<std::size_t>(seed);
-            const std::vector<double> truth = truth_without(seed);
             of_fresh += std::pow(error_of(fresh[run][k], truth, scale), 2.0);
             of_changed += std::pow(error_of(changed[run][k], truth, scale), 2.0);
         }
@@ -151,7 +164,7 @@ TEST_P(HeavyChanges, AreNoWorseThanANewSolve) {
         std::printf("%s after %llu: new %.4f, changed %.4f, ratio %.3f\n", c.name.c_str(),
                     static_cast<unsigned long long>(after[k]), std::sqrt(of_fresh / seeds),
                     std::sqrt(of_changed / seeds), ratio);
-        const double none = mean_of(truth_without(0)) < scale ? 1.0 : 1e-2;
+        const double none = mean_of(truth) < scale ? 1.0 : 1e-2;
         EXPECT_TRUE(ratio <= 1.1 || std::sqrt(of_changed / seeds) < none)
             << after[k] << ": " << ratio;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // End of a special iteration phase for a viewer: the signed increments join the pixels' means; where
 // they are uncertain the weight shrinks, as in solution_correct.comp. How uncertain, relative to their size,
-// the pixel's patch has measured.
+// the pixel's patch has measured. No pixel knows its light better than its patch does: what few bundles have not
+// brought to a pixel, or not yet, they have to others of the patch.
 #include "layouts.glsl"
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"
@@ -11,6 +12,7 @@ layout(local_size_x = 64) in;
 #include "pixel_sum.glsl"
 #include "corrected_weight.glsl"
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
+layout(std430, binding = BINDING_IRRADIANCE) readonly buffer IrradianceBuffer { vec4 irradiance[]; };
 layout(std430, binding = BINDING_CHECKPOINT) readonly buffer CheckpointBuffer { vec4 checkpoint[]; };
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 layout(std430, binding = BINDING_PIXEL_IRRADIANCE) buffer PixelIrradianceBuffer { vec4 pixel_irradiance[]; };
@@ -41,7 +43,8 @@ void main() {
         return;
     }
     float moved = moved_error(triangle_of_side(side), luminance(pixel_mean(sum, view.weights.x)));
-    if (increment == vec3(0.0) && old_weight <= most_weight && moved <= 0.0) {
+    float most = min(most_weight, irradiance[patch_of_side(side)].w);
+    if (increment == vec3(0.0) && old_weight <= most && moved <= 0.0) {
         return;
     }
     float noise = checkpoint[patch_of_side(side)].z;
@@ -52,7 +55,7 @@ void main() {
     // The common weight stays: a weight below it is a negative one of the pixel's own.
     float value = luminance(mean);
     float error = left_error(noise, bundles_noise, change * change, value) + moved;
-    float weight = min(old_weight * kept_weight(old_weight, value, error), most_weight);
+    float weight = min(old_weight * kept_weight(old_weight, value, error), most);
     pixel_irradiance[index] = vec4(mean * weight - constant, weight - view.weights.x);
 #ifdef GLOSSY
     vec4 gloss = pixel_gloss[index];
