@@ -15,7 +15,12 @@ Ends with one line: raybundle tests: N passed, N failed
 TEXT
 }
 
-packages=(clang-format clang-tidy chromium git libgtest-dev openssl python3 shellcheck)
+packages=(
+    clang-format clang-tidy chromium git libgtest-dev openssl python3 shellcheck
+    # the Python client and its test
+    python3-matplotlib python3-numpy python3-pil python3-pip python3-protobuf python3-setuptools python3-venv
+    python3-websockets python3-wheel
+)
 min_node_version=18
 passed=0
 failed=0

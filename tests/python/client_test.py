@@ -1,0 +1,294 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The Python client against a real server; run by run_in_environment.py."""
+import asyncio
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from datetime import datetime, timedelta, timezone
+from pathlib import Path
+
+import numpy as np
+
+import raybundle
+from raybundle import link
+from served import ROOT, Daemon
+
+BOX = str(ROOT / "scenes/cornell_box.gltf")
+EXAMPLES = ROOT / "protocol/python/examples"
+
+
+def room_with_a_lamp(folder):
+    """The Cornell box with a point light named `lamp`, where lamps may be moved."""
+    scene = json.loads(Path(BOX).read_text())
+    scene.setdefault("extensionsUsed", []).append("KHR_lights_punctual")
+    scene.setdefault("extensions", {})["KHR_lights_punctual"] = {
+        "lights": [{"type": "point", "name": "lamp", "color": [1, 1, 1], "intensity": 200}]}
+    scene["nodes"].append({"name": "lamp", "translation": [2.7, 4.5, 2.7],
+                           "extensions": {"KHR_lights_punctual": {"light": 0}}})
+    scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
+    file = Path(folder) / "room.gltf"
+    file.write_text(json.dumps(scene))
+    return str(file)
+
+
+class WithServer(unittest.IsolatedAsyncioTestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.daemon = Daemon(room_with_a_lamp(folder.name))
+        cls.addClassCleanup(cls.daemon.end)
+
+    async def connect(self, **options):
+        client = await raybundle.connect(self.daemon.address, viewport=(160, 120), **options)
+        self.addAsyncCleanup(client.close)
+        return client
+
+    async def asyncTearDown(self):
+        client = await raybundle.connect(self.daemon.address, viewport=(64, 48))
+        if client.epoch:
+            await client.undo(0)
+        await client.close()
+
+
+class Requests(WithServer):
+    async def test_the_welcome_lists_the_scene(self):
+        client = await self.connect(name="Ada")
+        self.assertEqual(client.role, "EDITOR")
+        self.assertIn("short box", [thing.name for thing in client.scene.objects])
+        self.assertEqual(client.welcome.name, "Ada")
+
+    async def test_a_picture_is_an_array_of_its_size(self):
+        client = await self.connect()
+        await client.use_camera(client.scene.cameras[0].name)
+        await client.settled(0.5)
+        frame = await client.picture()
+        pixels = frame.image()
+        self.assertEqual(pixels.shape, (frame.header.height, frame.header.width, 3))
+        self.assertGreater(int(pixels.max()), 64)
+
+    async def test_a_picture_shows_the_changes_made_before_it(self):
+        client = await self.connect()
+        await client.set_light("lamp", dim=0.5)
+        changed = await client.set_light("lamp", on=False)
+        frame = await client.picture()
+        self.assertGreaterEqual(frame.header.epoch, changed.epoch)
+
+    async def test_a_move_keeps_what_it_does_not_name(self):
+        client = await self.connect()
+        box = client.state.object("short box")
+        scale, before = box.transform.scale.x, client.epoch
+        changed = await client.move("short box", translation=(2.0, 0.0, 1.7))
+        self.assertEqual(changed.epoch, before + 1)
+        self.assertEqual(client.epoch, before + 1)
+        now = client.state.object(box.id).transform
+        self.assertAlmostEqual(now.translation.x, 2.0)
+        self.assertEqual(now.translation.y, 0.0)
+        self.assertEqual(now.scale.x, scale)
+
+    async def test_others_see_changes_of_lights_groups_materials_and_pins(self):
+        one, other = await self.connect(name="one"), await self.connect(name="other")
+        stream = other.messages()
+        first = asyncio.ensure_future(stream.__anext__())
+        await one.set_light("lamp", intensity=321.0, position=(1.0, 4.0, 1.0), colour_temperature=3000)
+        await one.set_group("desks", dim=0.25, lights=["lamp"])
+        material = one.scene.materials[0]
+        await one.set_material(material.id, base_colour=(0.1, 0.2, 0.3))
+        pin = await one.add_pin("glare", (1.0, 0.0, 1.0))
+        await other.wait_for(lambda: pin.pin in other.pins)
+        lamp = other.state.light("lamp")
+        self.assertAlmostEqual(lamp.intensity, 321.0, places=3)
+        self.assertAlmostEqual(lamp.position.y, 4.0, places=5)
+        self.assertAlmostEqual(lamp.dim, 0.25)
+        self.assertEqual([list(group.lights) for group in other.scene.groups], [[lamp.id]])
+        self.assertAlmostEqual(other.state.material(material.id).base_colour.z, 0.3, places=6)
+        self.assertTrue((await first).HasField("reply_to") is False)
+        history = await other.changes()
+        self.assertEqual(history[-1].by_name, "one")
+        await one.remove_pin(pin.pin)
+        await other.wait_for(lambda: pin.pin not in other.pins)
+        await stream.aclose()
+
+    async def test_lighting_scenes_come_back(self):
+        client = await self.connect()
+        await client.set_light("lamp", dim=0.5)
+        await client.save_lighting_scene("dim")
+        self.assertEqual([scene.name for scene in client.scene.lighting_scenes], ["dim"])
+        await client.set_light("lamp", dim=1.0)
+        await client.apply_lighting_scene("dim")
+        self.assertAlmostEqual(client.state.light("lamp").dim, 0.5)
+
+    async def test_daylight_by_the_clock(self):
+        client = await self.connect()
+        noon = datetime(2026, 6, 21, 13, 10, tzinfo=timezone(timedelta(hours=2)))
+        changed = await client.set_daylight("clear", time=noon, place=(52.52, 13.4))
+        self.assertAlmostEqual(changed.set_daylight.sun_elevation, 61.0, delta=1.0)
+        self.assertIn("SKY", [raybundle.messages.Light.Kind.Name(light.kind) for light in client.scene.lights])
+        with self.assertRaises(ValueError):
+            await client.set_daylight(time=datetime(2026, 6, 21))
+
+    async def test_refusals_name_code_and_field(self):
+        client = await self.connect()
+        with self.assertRaises(raybundle.RequestRefused) as caught:
+            await client.request(move_object=raybundle.messages.MoveObject(
+                object=99, transform=raybundle.messages.Transform()))
+        self.assertIn(caught.exception.code, ("INVALID_ARGUMENT", "NOT_FOUND"))
+        self.assertIn("moveObject.object", caught.exception.message)
+        with self.assertRaises(KeyError) as unknown:
+            await client.set_light("nothing")
+        self.assertIn("lamp", str(unknown.exception))
+
+    async def test_measured_light_has_an_interval(self):
+        client = await self.connect()
+        found = await client.measure(area=((1, 2, 1), (3, 0, 0), (0, 0, 3)), grid=(3, 2), relative_error=0.2)
+        self.assertEqual((found.columns, found.rows, len(found.points)), (3, 2, 6))
+        self.assertLess(found.mean_low, found.mean)
+        self.assertLess(found.mean, found.mean_high)
+
+    async def test_a_snapshot_is_radiance(self):
+        client = await self.connect()
+        await client.use_camera(client.scene.cameras[0].name)
+        shot = await client.snapshot(96, 64, relative_error=0.3)
+        self.assertLessEqual(shot.relative_error, 0.3)
+        luminance = shot.luminance()
+        self.assertEqual(luminance.shape, (64, 96))
+        self.assertTrue(np.isfinite(luminance).all())
+        self.assertGreater(float(luminance.mean()), 1.0)  # a lamp of 1356 cd/m² is in view
+        png = await client.snapshot(96, 64, relative_error=0.5, format="PNG")
+        self.assertEqual(png.image().shape, (64, 96, 3))
+
+    async def test_a_snapshot_can_be_taken_back(self):
+        client = await self.connect()
+        task = asyncio.ensure_future(client.snapshot(640, 480, relative_error=1e-5))
+        await asyncio.sleep(0)
+        await client.wait_for(lambda: client.solution is not None)
+        task.cancel()
+        with self.assertRaises(asyncio.CancelledError):
+            await task
+
+
+class Reconnecting(unittest.IsolatedAsyncioTestCase):
+    async def test_a_client_comes_back_to_another_server_as_it_was(self):
+        first, second = Daemon(BOX), Daemon(BOX)
+        self.addCleanup(second.end)
+        async with await raybundle.connect([first.address, second.address], name="Ada", viewport=(160, 120)) as client:
+            await client.set_camera((2.7, 2.7, -5.0), (2.7, 2.7, 2.7), vertical_fov=0.9)
+            await client.set_viewport(96, 64)
+            await client.picture()
+            first.end(signal.SIGKILL)
+            await client.wait_for(lambda: client.connections == 2)
+            self.assertIn(str(second.port), client.address)
+            await client.wait_for(lambda: any(viewer.viewer == client.viewer and abs(viewer.eye.z + 5.0) < 1e-6
+                                              and abs(viewer.vertical_fov - 0.9) < 1e-6
+                                              for viewer in client.viewers))
+            frame = await client.wait_for(lambda: client.frame)
+            self.assertLessEqual(frame.header.width, 160)
+            self.assertEqual(client.welcome.name, "Ada")
+
+    async def test_without_reconnection_what_waits_hears_of_the_end(self):
+        daemon = Daemon(BOX)
+        async with await raybundle.connect(daemon.address, viewport=(64, 48), reconnect=False) as client:
+            waiting = asyncio.ensure_future(client.snapshot(640, 480, relative_error=1e-5))
+            await client.wait_for(lambda: client.solution is not None)
+            daemon.end(signal.SIGKILL)
+            with self.assertRaises(raybundle.ConnectionClosed):
+                await waiting
+            with self.assertRaises(raybundle.ConnectionClosed):
+                await client.wait_for(lambda: False)
+
+
+class Addresses(unittest.TestCase):
+    def test_of_page_and_socket(self):
+        for given, socket in (("127.0.0.1:8080", "ws://127.0.0.1:8080/ws"), ("http://a:1/", "ws://a:1/ws"),
+                              ("https://a.example/light/", "wss://a.example/light/ws"), ("ws://a:1/ws", "ws://a:1/ws"),
+                              ("http://[::1]:8080", "ws://[::1]:8080/ws")):
+            self.assertEqual(link.socket_address(given), socket)
+        self.assertEqual(link.page_address("wss://a.example/light/ws"), "https://a.example/light")
+        for wrong in ("ftp://a/", "", "ws://"):
+            with self.assertRaises(ValueError):
+                link.socket_address(wrong)
+
+
+class ExrFiles(unittest.TestCase):
+    def test_what_is_none_is_an_error(self):
+        for wrong in (b"", b"\x89PNG" * 10, struct.pack("<i", 20000630) + b"\2\0\0\0",
+                      struct.pack("<i", 20000630) + zlib.compress(b"a" * 100)):
+            with self.assertRaises(raybundle.RaybundleError):
+                raybundle.read_exr(wrong)
+
+
+class Shell(WithServer):
+    def run_client(self, *arguments, status=0):
+        done = subprocess.run([os.environ["RAYBUNDLE_CLIENT"], "--server", self.daemon.address, "--size", "96x64",
+                               *arguments], capture_output=True, text=True)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads(done.stdout) if done.stdout else done.stderr
+
+    def test_commands(self):
+        self.assertEqual(self.run_client("info")["role"], "EDITOR")
+        self.assertEqual(self.run_client("light", "lamp", "--dim", "0.5")["setLight"]["dim"], 0.5)
+        self.assertIn("moveObject", self.run_client("move", "short box", "2,0,1.7"))
+        self.assertIn("setDaylight", self.run_client("daylight", "overcast", "--elevation", "30", "--azimuth", "180"))
+        self.assertEqual(len(self.run_client("measure", "--point", "2,2,2", "--error", "0.3")["points"]), 1)
+        self.assertIn("ok", self.run_client("send", '{"setTarget":{"seconds":1}}'))
+        self.assertGreaterEqual(len(self.run_client("changes")["changes"]), 3)
+        self.assertGreater(self.run_client("undo", "0")["epoch"], 3)
+        with tempfile.TemporaryDirectory() as folder:
+            self.run_client("picture", "--error", "0.5", "-o", f"{folder}/a.jpg")
+            self.run_client("snapshot", "--error", "0.5", "-o", f"{folder}/a.exr")
+            self.assertEqual(raybundle.read_exr(Path(f"{folder}/a.exr").read_bytes()).shape, (64, 96, 3))
+
+    def test_exit_status_and_reason(self):
+        self.assertIn("no light 'x'", self.run_client("light", "x", "--dim", "0.5", status=2))
+        self.assertIn("INVALID_ARGUMENT", self.run_client("light", "lamp", "--dim", "7", status=1))
+        done = subprocess.run([os.environ["RAYBUNDLE_CLIENT"], "--server", "127.0.0.1:1", "info"], capture_output=True,
+                              text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+
+
+class Examples(WithServer):
+    def run_example(self, name, *arguments):
+        return subprocess.run([sys.executable, EXAMPLES / name, *arguments], capture_output=True, text=True)
+
+    def test_lamp_positions_end_in_a_plot_and_leave_the_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "plot.svg"
+            done = self.run_example("lamp_positions.py", self.daemon.address, "lamp", "--from", "1,4.5,2.7", "--to",
+                                    "4.5,4.5,2.7", "--steps", "2", "--plane", "1,2,1", "3,0,0", "0,0,3", "--error",
+                                    "0.3", "-o", file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count(" lx, uniformity"), 2)
+            self.assertIn("<svg", file.read_text())
+
+        async def lamp():
+            async with await raybundle.connect(self.daemon.address) as client:
+                return client.state.light("lamp").position.x
+        self.assertAlmostEqual(asyncio.run(lamp()), 2.7, places=5)
+
+    def test_a_day_is_numbered_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_example("day_time_lapse.py", self.daemon.address, "--place", "52.52,13.4", "--date",
+                                    "2026-06-21", "--zone", "2", "--begin", "12", "--end", "13", "--error", "0.5",
+                                    "--size", "96x64", "-o", folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(sorted(path.name for path in Path(folder).iterdir()), ["000.jpg", "001.jpg"])
+
+    def test_a_check_ends_by_what_it_has_found(self):
+        plane = [[1, 2, 1], [3, 0, 0], [0, 0, 3]]
+        for required, status in ((1, 0), (1e6, 1)):
+            with self.subTest(required), tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "requirements.json"
+                file.write_text(json.dumps([{"name": "plane", "plane": plane, "grid": [3, 3], "mean": required}]))
+                done = self.run_example("check_lighting.py", self.daemon.address, file, "--error", "0.3")
+                self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
