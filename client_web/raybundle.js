@@ -41,7 +41,7 @@ export function socketOf(src) {
 }
 
 /**
- * Attributes: `src` (address of the server; absent: the page's own), `camera` (name of the first
+ * Attributes: `src` (address of the server, or several of one project with spaces between; absent: the page's own), `camera` (name of the first
  * view), `token`, `name`, `mode` (orbit or walk). Events: `welcome` (detail Welcome), `frame` (detail
  * FrameHeader). Properties: `client`, `camera`.
  */
@@ -94,7 +94,7 @@ export class RaybundleView extends HTMLElement {
      */
     #start(picture, note) {
         const client = new RaybundleClient({
-            url: socketOf(this.getAttribute('src') ?? '.'),
+            url: (this.getAttribute('src')?.trim() || '.').split(/\s+/).map(socketOf),
             name: this.getAttribute('name') ?? '',
             token: this.getAttribute('token') ?? '',
             viewport: () => picture.viewport,

@@ -11,7 +11,8 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
  * @typedef {import('./protocol.js').Viewport} Viewport
  * @typedef {'idle' | 'connecting' | 'connected' | 'reconnecting' | 'refused'} ConnectionState
  * @typedef {object} ClientSettings
- * @property {string} url  of the WebSocket, e.g. "ws://127.0.0.1:8080/ws"
+ * @property {string | string[]} url  of the WebSocket, e.g. "ws://127.0.0.1:8080/ws"; several: of servers of one project,
+ *     of which the next one is tried where one is lost
  * @property {string} [name]  shown to other viewers
  * @property {string} [token]
  * @property {() => Viewport} viewport  size of the pictures wanted, asked at each connection
@@ -64,6 +65,8 @@ export class RaybundleClient extends EventTarget {
     #waiting = new Map();
     #nextId = 1;
     #attempt = 0;
+    /** Counts the servers that have been lost. */
+    #server = 0;
     #lastHeard = 0;
     #pinging = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -90,12 +93,18 @@ export class RaybundleClient extends EventTarget {
         this.welcome = null;
     }
 
+    /** The server that it is connected to, or tries. */
+    get address() {
+        const addresses = [this.settings.url].flat();
+        return addresses[this.#server % addresses.length];
+    }
+
     /** Connects, or tries again at once. */
     connect() {
         clearTimeout(this.#retryTimer);
         this.#drop();
         this.#become(this.welcome ? 'reconnecting' : 'connecting', '');
-        const socket = new WebSocket(this.settings.url, SUBPROTOCOL);
+        const socket = new WebSocket(this.address, SUBPROTOCOL);
         socket.binaryType = 'arraybuffer';
         this.#socket = socket;
         this.#lastHeard = performance.now();
@@ -232,6 +241,7 @@ export class RaybundleClient extends EventTarget {
      * @param {string} code  of the server's error, if it was one
      */
     #retryLater(reason, code = '') {
+        this.#server++;
         const delay = retryDelay(this.#attempt++, Math.random());
         this.retryAt = performance.now() + delay;
         this.#retryTimer = setTimeout(() => this.connect(), delay);
