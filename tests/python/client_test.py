@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python client against a real server; run by run_in_environment.py."""
 import asyncio
+import io
 import json
 import os
 import signal
@@ -17,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import raybundle
-from raybundle import link
+from raybundle import link, recording
 from served import ROOT, Daemon
 
 BOX = str(ROOT / "scenes/cornell_box.gltf")
@@ -172,6 +173,55 @@ class Requests(WithServer):
         task.cancel()
         with self.assertRaises(asyncio.CancelledError):
             await task
+
+
+class Recording(WithServer):
+    async def meeting(self, file):
+        listener, ada = await self.connect(name="listener"), await self.connect(name="Ada")
+        end = asyncio.Event()
+        task = asyncio.ensure_future(recording.record(listener, file, end))
+        await asyncio.sleep(0)
+        await ada.move("short box", translation=(2.0, 0.8, 1.7))
+        await ada.set_light("lamp", intensity=50.0, position=(1.0, 4.0, 1.0))
+        await ada.set_material(ada.scene.materials[0].id, base_colour=(0.1, 0.2, 0.3))
+        await ada.add_pin("too dark", (1.0, 0.0, 1.0))
+        await listener.wait_for(lambda: listener.epoch == ada.epoch and listener.pins)
+        end.set()
+        await task
+        for pin in list(ada.pins):
+            await ada.remove_pin(pin)
+        await listener.wait_for(lambda: not listener.pins)
+        await ada.undo(0)
+        return ada
+
+    async def test_what_is_replayed_ends_as_the_meeting_did(self):
+        file = io.StringIO()
+        ada = await self.meeting(file)
+        file.seek(0)
+        self.assertEqual(await recording.replay(ada, file), [])
+        self.assertAlmostEqual(ada.state.light("lamp").intensity, 50.0, places=3)
+        self.assertEqual([pin.text for pin in ada.pins.values()], ["too dark"])
+        await ada.set_light("lamp", intensity=60.0)
+        last = json.loads(file.getvalue().splitlines()[-1])["end"]["state"]
+        self.assertEqual(len(recording.differences(last, recording.state_of(ada.scene))), 1)
+        for pin in list(ada.pins):
+            await ada.remove_pin(pin)
+
+    async def test_minutes_say_who_did_what(self):
+        file = io.StringIO()
+        await self.meeting(file)
+        file.seek(0)
+        text = recording.minutes(file)
+        self.assertIn("Ada moved object", text)
+        self.assertIn("Ada: too dark", text)
+
+    def test_what_is_no_recording_is_refused_and_a_torn_end_is_not(self):
+        with self.assertRaises(raybundle.RaybundleError):
+            list(recording.read(io.StringIO("{}\n")))
+        with self.assertRaises(raybundle.RaybundleError):
+            list(recording.read(io.StringIO('{"s":0,"begin":{"format":"other"}}\n')))
+        begin = json.dumps({"s": 0, "begin": {"format": recording.FORMAT}}) + "\n"
+        self.assertEqual(len(list(recording.read(io.StringIO(begin + '{"s":1,"sce')))), 1)
 
 
 class Reconnecting(unittest.IsolatedAsyncioTestCase):

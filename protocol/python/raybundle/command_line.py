@@ -12,7 +12,7 @@ from typing import Any, Awaitable, Callable, Optional, Sequence
 
 from google.protobuf import json_format
 
-from . import messages
+from . import messages, recording
 from .client import Client, connect
 from .errors import RaybundleError
 
@@ -120,6 +120,25 @@ async def _watch(client: Client, _: argparse.Namespace) -> None:
         print(json_format.MessageToJson(message, indent=None, ensure_ascii=False), flush=True)
 
 
+async def _record(client: Client, wanted: argparse.Namespace) -> None:
+    with open(wanted.file, "x", encoding="utf-8") as file:
+        await recording.record(client, file)
+
+
+async def _replay(client: Client, wanted: argparse.Namespace) -> None:
+    with open(wanted.file, encoding="utf-8") as file:
+        found = await recording.replay(client, file, wanted.speed)
+    for difference in found:
+        print(difference)
+    if found:
+        raise RaybundleError(f"the scene differs from the recorded one in {len(found)} places")
+
+
+def _minutes(wanted: argparse.Namespace) -> None:
+    with open(wanted.file, encoding="utf-8") as file:
+        print(recording.minutes(file), end="")
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="raybundle-client", description=__doc__,
@@ -181,6 +200,13 @@ def _parser() -> argparse.ArgumentParser:
     undo.add_argument("epoch", type=int)
     add("changes", _changes, "who has changed what, and when")
     add("watch", _watch, "prints what the server tells, one line each, until interrupted")
+    record = add("record", _record, "records the session to a file until interrupted")
+    record.add_argument("file", help="must not exist")
+    replay = add("replay", _replay, "makes what was recorded again; fails where the scene then differs from the recorded one")
+    replay.add_argument("file")
+    replay.add_argument("--speed", type=float, default=0.0, help="of the pauses between changes (default: without them)")
+    text = commands.add_parser("minutes", help="prints what was recorded for people (needs no server)")
+    text.add_argument("file")
     send = add("send", _send, "sends any message of the protocol, as JSON")
     send.add_argument("message", help='e.g. \'{"setTarget":{"seconds":10}}\'')
     return parser
@@ -196,13 +222,19 @@ async def _run(wanted: argparse.Namespace) -> None:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     wanted = _parser().parse_args(arguments)
     try:
-        asyncio.run(_run(wanted))
+        if wanted.command == "minutes":
+            _minutes(wanted)
+        else:
+            asyncio.run(_run(wanted))
     except RaybundleError as error:
         print(f"raybundle-client: {error}", file=sys.stderr)
         return EXIT_REFUSED
     except asyncio.TimeoutError:
         print("raybundle-client: not in time", file=sys.stderr)
         return EXIT_TIMEOUT
+    except (FileExistsError, FileNotFoundError) as error:
+        print(f"raybundle-client: {error.filename}: {error.strerror}", file=sys.stderr)
+        return EXIT_USAGE
     except OSError as error:
         print(f"raybundle-client: no server: {error}", file=sys.stderr)
         return EXIT_NO_SERVER
