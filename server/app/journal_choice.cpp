@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
+
 namespace raybundle {
 
 namespace {
@@ -14,10 +16,25 @@ void warn(const JournalError& error) {
                  error.what());
 }
 
+/// A secret: the environment wins over the configuration file.
+std::string of_environment(const char* name, const std::string& otherwise) {
+    const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+    return value == nullptr ? otherwise : value;
+}
+
 }  // namespace
 
 JournalChoice::JournalChoice(const Options& options)
     : file_(options.serve.journal == none ? "" : options.serve.journal) {
+    if (!options.serve.redis.empty()) {
+        const auto [host, port] = parse_address(options.serve.redis);
+        redis_.emplace();
+        redis_->address = {
+            host, port, of_environment("RAYBUNDLE_REDIS_USER", options.serve.redis_user),
+            of_environment("RAYBUNDLE_REDIS_PASSWORD", options.serve.redis_password)};
+        redis_->project = options.serve.project;
+        return;
+    }
     if (options.serve.journal.empty()) {
         try {
             folder_ = StateFolder::of_user();
@@ -25,6 +42,16 @@ JournalChoice::JournalChoice(const Options& options)
             warn(error);
         }
     }
+}
+
+std::optional<RedisLogSettings> JournalChoice::redis_for(const std::string& digest) const {
+    constexpr std::size_t digits = 16;  // of SHA-256: enough to tell scenes apart
+    std::optional<RedisLogSettings> settings = redis_;
+    if (settings) {
+        settings->scene_digest = digest;
+        settings->project = redis_->project.empty() ? digest.substr(0, digits) : redis_->project;
+    }
+    return settings;
 }
 
 std::string JournalChoice::file_for(const std::string& digest) const {
@@ -59,9 +86,9 @@ void JournalChoice::remember_scene(ChangeLog& log, const std::string& started_wi
 std::string where_saved(const ChangeLog& log) {
     switch (log.saving()) {
         case v1::SAVED:
-            return "changes and pins are saved in " + log.file();
+            return "changes and pins are saved in " + log.place();
         case v1::FAILING:
-            return "changes and pins cannot be saved in " + log.file();
+            return "changes and pins cannot be saved in " + log.place();
         default:
             return "changes and pins are not saved: a restart loses them";
     }

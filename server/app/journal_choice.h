@@ -4,19 +4,23 @@
 #include <optional>
 #include <string>
 
+#include "journal/redis/redis_log.h"
 #include "journal/state_folder.h"
 #include "options/cli_options.h"
 #include "session/changes/change_log.h"
 
 namespace raybundle {
 
-/// Where `serve` keeps changes, pins and viewpoints: in the file of --journal, nowhere with
+/// Where `serve` keeps changes, pins and viewpoints: in the Redis of --redis, in the file of
+/// --journal, nowhere with
 /// `--journal none`, else in a file of the user's folder for each scene. Where that folder cannot
 /// be used the server works without; the log says why.
 class JournalChoice {
   public:
     explicit JournalChoice(const Options& options);
 
+    /// The project of a scene file in Redis; nothing where it is not to be used.
+    [[nodiscard]] std::optional<RedisLogSettings> redis_for(const std::string& digest) const;
     /// The journal of a scene file; empty: none.
     [[nodiscard]] std::string file_for(const std::string& digest) const;
 
@@ -28,6 +32,7 @@ class JournalChoice {
                         const std::string& shown) const;
 
   private:
+    std::optional<RedisLogSettings> redis_;
     std::string file_;
     std::optional<StateFolder> folder_;
 };

@@ -19,6 +19,7 @@
 #include "app/signal_watch.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
+#include "journal/redis/redis_log.h"
 #include "net/server.h"
 #include "options/config_file.h"
 #include "options/log_settings.h"
@@ -47,6 +48,10 @@ void reload_settings(const Options& options, Server& server) {
 }
 
 ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& loaded) {
+    if (const auto redis = journals.redis_for(loaded.digest)) {
+        return {"project " + redis->project + " of Redis at " + redis->address.text(),
+                [settings = *redis] { return std::make_unique<RedisLog>(settings); }};
+    }
     JournalSettings settings;
     settings.file = journals.file_for(loaded.digest);
     if (settings.file.empty()) {

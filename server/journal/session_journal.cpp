@@ -207,7 +207,8 @@ std::vector<v1::SceneChanged> SessionJournal::past() {
     return result;
 }
 
-void SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChanged& before) {
+Appended SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
+                                const std::vector<std::string>& /*keys*/) {
     try {
         const std::int64_t subject = subject_of(change).second;
         SqliteTransaction transaction(*database_);
@@ -227,6 +228,7 @@ void SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChang
         keep_past(change.epoch(), before);
         transaction.commit();
         epoch_ = change.epoch();
+        return Appended::yes;
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());
     }

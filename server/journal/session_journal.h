@@ -3,23 +3,15 @@
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "journal/file_lock.h"
+#include "journal/project_log.h"
 #include "journal/sqlite_database.h"
 #include "raybundle.pb.h"
 
 namespace raybundle {
-
-/// The journal cannot be used; the text names the file and the reason, for the operator.
-class JournalError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// What viewers leave in a session besides changes; the numbers are stored.
-enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3, lighting_scene = 4 };
 
 struct JournalSettings {
     std::string file;
@@ -34,7 +26,7 @@ struct JournalSettings {
 /// what was before them as many states as are kept for undo, so the file does not grow with time.
 /// Others may read the file meanwhile, as `sqlite3 FILE '.backup COPY'` does; one server at a time
 /// writes it. One thread only.
-class SessionJournal {
+class SessionJournal final : public ProjectLog {
   public:
     static constexpr std::uint32_t most_past = 16384;
 
@@ -44,32 +36,24 @@ class SessionJournal {
     explicit SessionJournal(const JournalSettings& settings);
 
     /// Changes applied in this session, 0 in a new one.
-    [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
+    [[nodiscard]] std::uint32_t epoch() const override { return epoch_; }
 
-    /// What brings the scene file to the state of this session, in order of epochs. One that cannot
-    /// be read has its epoch only.
-    [[nodiscard]] std::vector<v1::SceneChanged> changes();
+    [[nodiscard]] std::vector<v1::SceneChanged> changes() override;
+    /// Without `before` nobody can go back beyond this change after a restart. Always `yes`; where
+    /// it throws, nothing is written, and a later attempt may succeed.
+    Appended append(const v1::SceneChanged& change, const v1::SceneChanged& before = {},
+                    const std::vector<std::string>& keys = {}) override;
+    /// most_past at most.
+    [[nodiscard]] std::vector<v1::SceneChanged> past() override;
 
-    /// Writes a change, whose epoch must be epoch() + 1, and what its subject was like before, for
-    /// undo; where that is empty nobody can go back beyond this change after a restart. Throws
-    /// JournalError: nothing is written then, and a later attempt may succeed.
-    void append(const v1::SceneChanged& change, const v1::SceneChanged& before = {});
-    /// What the subjects of the last changes were like before them, most_past at most, in order and
-    /// each with the epoch of its change; without gaps up to epoch(), so maybe none. Throws
-    /// JournalError.
-    [[nodiscard]] std::vector<v1::SceneChanged> past();
+    [[nodiscard]] std::uint32_t new_number(NoteKind /*kind*/, std::uint32_t free) override {
+        return free;
+    }
+    void keep_note(NoteKind kind, std::uint32_t number, const std::string& body) override;
+    void drop_note(NoteKind kind, std::uint32_t number) override;
+    [[nodiscard]] std::vector<std::string> notes(NoteKind kind) override;
 
-    /// Keeps a note, in place of an earlier one of its number. Survives as a change does. Throws
-    /// JournalError: nothing is written then.
-    void keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
-    /// Forgets a note; no error where there is none.
-    void drop_note(NoteKind kind, std::uint32_t number);
-    /// Bodies of all notes of a kind, by number. Throws JournalError.
-    [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
-
-    /// Keeps in mind which scene of the library is shown in place of the one that the server was
-    /// started with. Throws JournalError.
-    void remember_scene(const std::string& started_with, const std::string& shown);
+    void remember_scene(const std::string& started_with, const std::string& shown) override;
     /// The same in a file that holds no session. Throws JournalError.
     static void remember_scene(const std::string& file, const std::string& started_with,
                                const std::string& shown);
@@ -77,7 +61,7 @@ class SessionJournal {
     /// where it remembers nothing or cannot be read.
     static std::string remembered_scene(const std::string& file, const std::string& started_with);
 
-    [[nodiscard]] const std::optional<std::string>& set_aside() const { return set_aside_; }
+    [[nodiscard]] std::optional<std::string> set_aside() const override { return set_aside_; }
 
   private:
     void open(const JournalSettings& settings);

@@ -98,7 +98,11 @@ struct NetworkOptions {
 /// What a server does for its viewers.
 struct ServeOptions {
     std::string journal;  ///< file, "none", or empty: one of the user's folder
-    std::string scenes;   ///< folder
+    std::string redis;    ///< HOST:PORT, in place of a journal; empty: none
+    std::string project;  ///< its name there; empty: by the scene file
+    /// From the configuration file or the environment only.
+    std::string redis_user, redis_password;
+    std::string scenes;  ///< folder
     double min_frames_per_second = 0.0;
     int max_viewers = 64;
     int max_upload_megabytes = 256;

@@ -21,6 +21,9 @@ constexpr std::size_t max_file_bytes = 1U << 20U;
 constexpr std::size_t max_tokens = 1000;
 constexpr const char* scene_key = "scene";
 constexpr const char* tokens_key = "tokens";
+// Not on the command line, which others can see.
+constexpr const char* redis_user_key = "redisUser";
+constexpr const char* redis_password_key = "redisPassword";
 
 /// A value that does not fit; the caller adds file and key.
 class BadValue : public std::runtime_error {
@@ -63,7 +66,7 @@ std::string suggestion(const std::string& key, const std::vector<std::string>& k
 }
 
 std::vector<std::string> known_keys() {
-    std::vector<std::string> keys{scene_key, tokens_key};
+    std::vector<std::string> keys{scene_key, tokens_key, redis_user_key, redis_password_key};
     for (const OptionRow& option : option_table()) {
         keys.emplace_back(option.key);
     }
@@ -199,6 +202,11 @@ void read_key(const std::string& key, const Json& value, Options& options) {
     }
     if (key == tokens_key) {
         options.network.tokens = read_tokens(value);
+        return;
+    }
+    if (key == redis_user_key || key == redis_password_key) {
+        read(value,
+             key == redis_user_key ? options.serve.redis_user : options.serve.redis_password);
         return;
     }
     const auto table = option_table();

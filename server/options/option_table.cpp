@@ -55,6 +55,20 @@ std::string address_problem(const std::string& text) {
     }
 }
 
+std::string redis_problem(const std::string& text) {
+    return text.empty() ? "" : address_problem(text);
+}
+
+std::string project_problem(const std::string& text) {
+    constexpr std::size_t max_letters = 64;
+    const bool fits =
+        text.size() <= max_letters && std::all_of(text.begin(), text.end(), [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ||
+                   c == '.';
+        });
+    return fits ? "" : "'" + text + "' is not a name of at most 64 letters, digits, -, _ and .";
+}
+
 std::string ies_problem(const std::string& text) {
     const std::size_t equals = text.find('=');
     const bool fits = equals != std::string::npos && equals > 0 && equals + 1 < text.size();
@@ -115,6 +129,13 @@ constexpr std::array serve_table{
               "by default "
               "a file in ~/.local/state/raybundle, one for each scene",
               field<&Options::serve, &ServeOptions::journal>()},
+    OptionRow{
+        "redis",
+        "HOST:PORT of a Redis that keeps changes and pins for several servers of one project, "
+        "in place of a journal",
+        field<&Options::serve, &ServeOptions::redis>(), 0, 0, redis_problem},
+    OptionRow{"project", "Name of the project in Redis (default: by the scene file)",
+              field<&Options::serve, &ServeOptions::project>(), 0, 0, project_problem},
     OptionRow{"watch", "Read the scene again when its file is replaced",
               field<&Options::serve, &ServeOptions::watch>()},
     OptionRow{"scenes", "Folder of .gltf and .glb files that editors may open",

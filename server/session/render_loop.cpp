@@ -47,9 +47,11 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 
 /// One round of what is due. False: there was nothing to do.
 bool RenderLoop::turn() {
+    services_.follower.step();
     services_.changes.start_pending();
     const bool sent = services_.frames.send();
     send_solutions();
+    services_.presence.hear_peers();
     services_.presence.send();
     services_.errors.check_pictures();
     services_.measurements.step();

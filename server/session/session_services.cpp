@@ -15,7 +15,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
       solver({s.live, s.viewers, s.receivers, snapshot_queue, changes, errors, s.demand, s.policy,
               s.server, s.metrics, settings.lost_after_change}),
       frames({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
-      presence({s.viewers, s.policy, s.server}),
+      presence({s.viewers, s.policy, s.live.log(), s.server}),
       views({s.live, presence, s.policy, s.server}),
       admission({s.viewers, s.policy, s.server, settings.software_rendering}),
       probes({s.live, s.pictures, s.server}),
@@ -33,7 +33,8 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 s.metrics,
                 {settings.renderer, settings.software_rendering,
                  static_cast<bool>(settings.scene_requests)}}),
-      status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}) {}
+      status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
+      follower({s.live, changes, lighting, review, views}) {}
 
 void SessionServices::forget(SessionState& state, ViewerId viewer) {
     frames.forget(viewer);

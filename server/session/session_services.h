@@ -3,6 +3,7 @@
 
 #include "session/changes/change_coordinator.h"
 #include "session/changes/lighting_service.h"
+#include "session/changes/project_follower.h"
 #include "session/measure/error_service.h"
 #include "session/measure/measure_service.h"
 #include "session/measure/probe_service.h"
@@ -46,6 +47,7 @@ struct SessionServices {
     SceneService scenes;
     ArrivalService arrivals;
     StatusReporter status;
+    ProjectFollower follower;
 };
 
 }  // namespace raybundle

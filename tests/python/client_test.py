@@ -146,6 +146,16 @@ class Requests(WithServer):
             await client.set_light("nothing")
         self.assertIn("lamp", str(unknown.exception))
 
+    async def test_a_request_that_is_repeated_under_its_key_is_made_once(self):
+        client = await self.connect()
+        body = raybundle.messages.SetLight(light=client.state.light("lamp").id, dim=0.5)
+        first = await client.request(request_key="key-1", set_light=body)
+        again = await client.request(request_key="key-1", set_light=body)
+        self.assertEqual(first.scene_changed.epoch, again.scene_changed.epoch)
+        self.assertEqual(client.epoch, first.scene_changed.epoch)
+        with self.assertRaises(raybundle.RequestRefused):
+            await client.request(request_key="with blanks", set_light=body)
+
     async def test_measured_light_has_an_interval(self):
         client = await self.connect()
         found = await client.measure(area=((1, 2, 1), (3, 0, 0), (0, 0, 3)), grid=(3, 2), relative_error=0.2)

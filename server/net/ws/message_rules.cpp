@@ -44,6 +44,12 @@ glm::dvec3 to_vector(const v1::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};
 }
 
+/// Of a request that may be asked for again.
+bool is_request_key(const std::string& text) {
+    return !text.empty() && text.size() <= kMaxName &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
 std::size_t characters(const std::string& utf8) {
     return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char byte) {
         return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
@@ -445,6 +451,8 @@ v1::Role required_role(Client::BodyCase body) {
 std::optional<Refusal> validate(const Client& message, const WireLimits& limits) {
     MessageChecker checker(limits);
     check_numbers(message, "", checker);
+    checker.require(!message.has_request_key() || is_request_key(message.request_key()),
+                    "requestKey", "must be 1..64 visible ASCII characters");
     if (const MessageRule* const rule = rule_of(message.body_case());
         rule != nullptr && rule->check != nullptr) {
         rule->check(message, checker);

@@ -15,13 +15,10 @@
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
-#include "session/unix_time.h"
 
 namespace raybundle {
 
 namespace {
-
-constexpr const char* not_saved = "the change could not be saved, so it was not made";
 
 /// Whether a change can be worked in together with those that come before it.
 bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
@@ -58,6 +55,9 @@ std::vector<float> cones_of(const Scene& scene) {
 }  // namespace
 
 HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const ClientEvent& event) {
+    if (recorder_.answer_made(event)) {
+        return HandlerResult::answered;
+    }
     const v1::SceneChanged change = change_of(event);
     if (change.change_case() != v1::SceneChanged::CHANGE_NOT_SET) {
         const v1::Error problem = problem_of(parts_.scene.scene(), change);
@@ -76,6 +76,10 @@ void ChangeCoordinator::start_pending() {
         return;
     }
     PendingChange first = queue_.take();
+    if (!recorder_.fits_scene(first)) {
+        recorder_.refuse_unfit(first);
+        return;
+    }
     if (first.stands_for_several()) {
         start_several(first);
         return;
@@ -86,7 +90,8 @@ void ChangeCoordinator::start_pending() {
     if (pending.front().change.has_set_daylight()) {
         undim_sky(pending);
     }
-    while (!queue_.empty() && fits(queue_.front(), pending)) {
+    while (!queue_.empty() && fits(queue_.front(), pending) &&
+           recorder_.fits_scene(queue_.front())) {
         pending.push_back(queue_.take());
     }
     if (start(std::move(pending))) {
@@ -109,7 +114,7 @@ bool ChangeCoordinator::start(std::vector<PendingChange> pending) {
 
 /// Keeps of `pending` what could be saved.
 bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
-    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    queue_.put_back(recorder_.record(pending));
     std::vector<ObjectMove> moves;
     for (const PendingChange& p : pending) {
         const std::uint32_t object = p.change.move_object().object() - 1;
@@ -132,7 +137,7 @@ bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
 bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     ChangedMaterials changed(parts_.scene.scene(), pending);
     const std::vector<float> cones = cones_of(parts_.scene.scene());
-    std::erase_if(pending, [this](PendingChange& p) { return !record(p); });
+    queue_.put_back(recorder_.record(pending));
     if (pending.empty()) {
         return false;
     }
@@ -176,12 +181,12 @@ void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
 void ChangeCoordinator::start_several(const PendingChange& pending) {
     if (pending.expanded) {
         for (const ClientEvent& request : pending.requests) {
-            some_failed_ ? parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved)
-                         : parts_.server.reply_ok(request);
+            recorder_.some_failed() ? recorder_.refuse_unsaved(request)
+                                    : parts_.server.reply_ok(request);
         }
         return;
     }
-    some_failed_ = false;
+    recorder_.begin_several();
     const Expansion expansion =
         expand(pending, parts_.scene.scene(), parts_.scene.log(), parts_.lighting);
     if (expansion.problem.code() == v1::Error::CODE_UNSPECIFIED) {
@@ -212,46 +217,6 @@ void ChangeCoordinator::undim_sky(std::vector<PendingChange>& pending) const {
         *set.mutable_colour() = light.loaded_colour();
         pending.insert(pending.end() - 1, std::move(undimmed));
     }
-}
-
-/// Numbers, saves and applies a change to the scene. False: it could not be saved and is answered.
-bool ChangeCoordinator::record(PendingChange& pending) {
-    Scene& scene = parts_.scene.scene();
-    ChangeLog& log = parts_.scene.log();
-    if (pending.change.has_set_light()) {
-        *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
-    } else if (pending.change.has_set_daylight()) {
-        *pending.change.mutable_set_daylight() = resolved(scene, pending.change.set_daylight());
-    }
-    const v1::SceneChanged before = state_of(scene, pending.change);
-    sign(pending);
-    if (!log.record(pending.change, before)) {
-        some_failed_ = true;
-        for (const ClientEvent& request : pending.requests) {
-            parts_.server.reply_error(request, v1::Error::INTERNAL, not_saved);
-        }
-        return false;
-    }
-    apply(scene, pending.change);
-    v1::SceneChanged after = state_of(scene, pending.change);
-    after.set_epoch(log.epoch());
-    log.note_states(before, after);
-    set_before(before, pending.change);
-    log.records().tell_beginning(pending.change);
-    if (pending.change.has_set_daylight()) {
-        describe_sky_lights(scene, pending.change.mutable_set_daylight());
-    }
-    return true;
-}
-
-/// Notes in a change who makes it, and when.
-void ChangeCoordinator::sign(PendingChange& pending) const {
-    if (!pending.requests.empty()) {
-        pending.change.set_by(pending.requests.back().viewer);
-    }
-    const ViewerSession* const viewer = parts_.viewers.find(pending.change.by());
-    pending.change.set_by_name(viewer == nullptr ? "" : viewer->name());
-    pending.change.set_at_ms(unix_ms());
 }
 
 /// All pictures take part in a special phase, those of viewers who look away, too.

@@ -8,6 +8,7 @@
 #include "net/server.h"
 #include "scheduling/change_policy.h"
 #include "session/changes/change_queue.h"
+#include "session/changes/change_recorder.h"
 #include "session/changes/lighting_scenes.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
@@ -36,12 +37,16 @@ class ChangeCoordinator {
         Server& server;
         LoopMetrics& metrics;
     };
-    explicit ChangeCoordinator(const Parts& parts) : parts_(parts) {}
+    explicit ChangeCoordinator(const Parts& parts)
+        : parts_(parts), recorder_({parts.scene, parts.viewers, parts.server}) {}
 
     /// Handles moveObject, setLight, setMaterial, and what stands for several of them (undo,
     /// setGroup, applyLightingScene): each waits for its turn, and is answered when it has been
     /// made.
     HandlerResult request(ViewerSession& session, const ClientEvent& event);
+
+    /// A change that another server of the project has made and recorded: its turn is next.
+    void follow(LogEntry entry) { queue_.add_recorded(std::move(entry)); }
 
     /// Makes the change that waits longest, with those right behind it that one special phase can
     /// work in: lights and materials, or some moved objects. Does nothing while the policy wants
@@ -60,8 +65,6 @@ class ChangeCoordinator {
     bool start_surfaces(std::vector<PendingChange>& pending);
     void undim_sky(std::vector<PendingChange>& pending) const;
     void start_several(const PendingChange& pending);
-    bool record(PendingChange& pending);
-    void sign(PendingChange& pending) const;
     void gather_all();
     void begin_phase(Solver& solver, bool dragged);
     void shrink_for_drag();
@@ -71,7 +74,7 @@ class ChangeCoordinator {
 
     Parts parts_;
     ChangeQueue queue_;
-    bool some_failed_ = false;  // of the changes that one request stands for: not saved
+    ChangeRecorder recorder_;
     std::uint64_t replans_ = 0;
 };
 

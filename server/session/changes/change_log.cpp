@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "session/messages/scene_messages.h"
 
@@ -49,21 +50,31 @@ v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChan
 
 }  // namespace
 
-ChangeLog::ChangeLog(const JournalSettings& settings) : settings_(settings), required_(true) {
-    open();
+ChangeLog::ChangeLog(const JournalSettings& settings)
+    : ChangeLog(settings.file, [settings] { return std::make_unique<SessionJournal>(settings); }) {}
+
+ChangeLog::ChangeLog(std::string place, Opener open)
+    : place_(std::move(place)), open_(std::move(open)), required_(true) {
+    this->open();
     epoch_ = journal_ ? journal_->epoch() : 0;
 }
 
+void ChangeLog::suspend() {
+    if (journal_ && !journal_->shared()) {
+        journal_.reset();
+    }
+}
+
 void ChangeLog::resume() {
-    if (required_) {
+    if (required_ && !journal_) {
         open();
     }
 }
 
 void ChangeLog::open() {
     try {
-        journal_.emplace(settings_);
-        working_ = true;
+        journal_ = open_();
+        working_ = !journal_->outage();
         problem_.clear();
         if (journal_->set_aside()) {
             spdlog::error("the journal was damaged; it is kept as {} and a new one begins",
@@ -122,6 +133,9 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
         refresh_surfaces(scene, materials, mesh);
     }
     restore_history(scene);
+    for (const LogEntry& entry : journal_->keyed()) {
+        note_keys(entry.keys, entry.change);
+    }
     if (epoch_ > 0) {
         spdlog::info("the session goes on after change {}", epoch_);
     }
@@ -158,8 +172,8 @@ void ChangeLog::restore_history(const Scene& scene) {
     }
 }
 
-bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before) {
-    change.set_epoch(epoch_ + 1);
+/// Whether there is a journal, where there has to be one.
+bool ChangeLog::usable() {
     if (required_ && !journal_) {
         open_again();
     }
@@ -167,30 +181,107 @@ bool ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before)
         ++failures_;
         return false;
     }
+    return true;
+}
+
+void ChangeLog::refused(const std::string& what, const std::string& reason) {
+    ++failures_;
+    working_ = false;
+    outage_ = journal_ && journal_->shared() ? reason : "";
+    spdlog::error("{} was refused, since it could not be saved: {}", what, reason);
+}
+
+v1::Error ChangeLog::refusal(const std::string& text) const {
+    v1::Error error;
+    error.set_code(outage_.empty() ? v1::Error::INTERNAL : v1::Error::UNAVAILABLE);
+    error.set_message(outage_.empty() ? text
+                                      : text +
+                                            ": what keeps the project does not answer. Looking "
+                                            "goes on; ask again later");
+    return error;
+}
+
+Recorded ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before,
+                           const std::vector<std::string>& keys) {
+    change.set_epoch(epoch_ + 1);
+    if (!usable()) {
+        return Recorded::no;
+    }
     try {
-        if (journal_) {
-            journal_->append(change, signed_state(before, change));
+        if (journal_ &&
+            journal_->append(change, signed_state(before, change), keys) == Appended::conflict) {
+            return Recorded::later;
         }
     } catch (const JournalError& error) {
-        ++failures_;
-        working_ = false;
-        spdlog::error("a change was refused, since it could not be saved: {}", error.what());
-        return false;
+        refused("a change", error.what());
+        return Recorded::no;
     }
     working_ = true;
+    return accept(change, before, keys) ? Recorded::yes : Recorded::no;
+}
+
+std::vector<LogEntry> ChangeLog::take_entries() {
+    if (!shared()) {
+        return {};
+    }
+    working_ = !journal_->outage();
+    return journal_->take_entries();
+}
+
+bool ChangeLog::accept(const v1::SceneChanged& change, const v1::SceneChanged& before,
+                       const std::vector<std::string>& keys) {
+    if (change.epoch() != epoch_ + 1) {
+        return false;
+    }
     ++epoch_;
     v1::SceneChanged record = change;
     set_before(before, record);
+    note_keys(keys, record);
     records_.add(std::move(record));
     return true;
 }
 
-bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
-    if (required_ && !journal_) {
-        open_again();
+void ChangeLog::publish(const v1::ServerMessage& message, bool lasting) {
+    if (shared()) {
+        journal_->publish(message.SerializeAsString(), lasting);
     }
-    if (required_ && !journal_) {
-        ++failures_;
+}
+
+std::vector<PeerNews> ChangeLog::take_news() {
+    return shared() ? journal_->take_news() : std::vector<PeerNews>();
+}
+
+void ChangeLog::note_keys(const std::vector<std::string>& keys, const v1::SceneChanged& change) {
+    for (const std::string& key : keys) {
+        if (made_.insert_or_assign(key, change).second) {
+            keys_.push_back(key);
+        }
+    }
+    while (keys_.size() > max_keys) {
+        made_.erase(keys_.front());
+        keys_.pop_front();
+    }
+}
+
+const v1::SceneChanged* ChangeLog::made(const std::string& key) const {
+    const auto found = made_.find(key);
+    return found == made_.end() ? nullptr : &found->second;
+}
+
+std::optional<std::uint32_t> ChangeLog::new_number(NoteKind kind, std::uint32_t free) {
+    if (!usable()) {
+        return std::nullopt;
+    }
+    try {
+        return journal_ ? journal_->new_number(kind, free) : free;
+    } catch (const JournalError& error) {
+        refused("a note", error.what());
+        return std::nullopt;
+    }
+}
+
+bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (!usable()) {
         return false;
     }
     try {
@@ -200,9 +291,7 @@ bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string
             journal_->keep_note(kind, number, body);
         }
     } catch (const JournalError& error) {
-        ++failures_;
-        working_ = false;
-        spdlog::error("a note was refused, since it could not be saved: {}", error.what());
+        refused("a note", error.what());
         return false;
     }
     return true;

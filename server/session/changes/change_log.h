@@ -3,10 +3,15 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "journal/project_log.h"
 #include "journal/session_journal.h"
 #include "raybundle.pb.h"
 #include "scene/mesh/patch_mesh.h"
@@ -16,31 +21,62 @@
 
 namespace raybundle {
 
+/// What has become of a change that was to be recorded.
+enum class Recorded : std::uint8_t {
+    yes,
+    later,  ///< other servers' changes come first: take_entries() has them
+    no,     ///< it could not be stored and must not be made; refusal() says why
+};
+
 /// The one ordered log of scene changes: gives each its epoch and, where a journal is configured,
-/// puts it on disk before anybody hears of it.
+/// puts it there before anybody hears of it.
 class ChangeLog {
   public:
+    using Opener = std::function<std::unique_ptr<ProjectLog>()>;
+    static constexpr std::size_t max_keys = 16384;
+
     ChangeLog() = default;  ///< without a journal
 
     /// With a journal. A journal that cannot be used is reported in the log and refuses changes;
     /// viewing does not depend on it. Each change looks again whether it can be used now, as after
     /// another server has given it free: with changes in it that this scene lacks it cannot.
     explicit ChangeLog(const JournalSettings& settings);
+    /// With any log. place: what to call it, for people. open: throws JournalError.
+    ChangeLog(std::string place, Opener open);
 
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
 
-    /// Closes the journal, so that another log can use it, and opens it again. No change may be
-    /// recorded meanwhile.
-    void suspend() { journal_.reset(); }
+    /// Closes a journal that one log alone may have, so that another one can use it, and opens it
+    /// again. No change may be recorded meanwhile.
+    void suspend();
     void resume();
 
     /// Brings a scene as read from its file to the state of the journal.
     void restore(Scene& scene, PatchMesh& mesh);
 
-    /// Numbers the change and stores it, with what its subject is like before it, and who makes it
-    /// when. False: it could not be stored and must not be made.
-    [[nodiscard]] bool record(v1::SceneChanged& change, const v1::SceneChanged& before);
+    /// Numbers the change and stores it, with what its subject is like before it, who makes it
+    /// when, and the keys of the requests for it.
+    [[nodiscard]] Recorded record(v1::SceneChanged& change, const v1::SceneChanged& before,
+                                  const std::vector<std::string>& keys = {});
+    /// What other servers of the project have added, in order.
+    [[nodiscard]] std::vector<LogEntry> take_entries();
+    /// Takes up the next change that is in the log already, of another server. False: it is not
+    /// the next one.
+    [[nodiscard]] bool accept(const v1::SceneChanged& change, const v1::SceneChanged& before,
+                              const std::vector<std::string>& keys);
+    /// Whether other servers have it, too.
+    [[nodiscard]] bool shared() const { return journal_ && journal_->shared(); }
+    /// See ProjectLog; nothing where nobody else has the log.
+    void publish(const v1::ServerMessage& message, bool lasting);
+    [[nodiscard]] std::vector<PeerNews> take_news();
+    /// What was made of a request with that key; null where it is not known.
+    [[nodiscard]] const v1::SceneChanged* made(const std::string& key) const;
+    /// Why nothing was stored, for who asked: what is answered in place of `text`.
+    [[nodiscard]] v1::Error refusal(const std::string& text) const;
 
+    /// A number for a new note; `free` is one that no known one has. Nothing where the log cannot
+    /// be used.
+    [[nodiscard]] std::optional<std::uint32_t> new_number(NoteKind kind, std::uint32_t free);
     /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
     /// be stored.
     [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
@@ -62,25 +98,32 @@ class ChangeLog {
     [[nodiscard]] v1::Saving saving() const {
         return !required_ ? v1::NOT_SAVED : working_ ? v1::SAVED : v1::FAILING;
     }
-    /// The journal; empty: there is none.
-    [[nodiscard]] const std::string& file() const { return settings_.file; }
+    /// What the journal is called; empty: there is none.
+    [[nodiscard]] const std::string& place() const { return place_; }
     /// Whether the next change is expected to be stored. Any thread.
     [[nodiscard]] bool working() const { return working_; }
 
   private:
     void open();
+    bool usable();
     void open_again();
+    void refused(const std::string& what, const std::string& reason);
+    void note_keys(const std::vector<std::string>& keys, const v1::SceneChanged& change);
     void restore_history(const Scene& scene);
 
-    JournalSettings settings_;
+    std::string place_;
+    Opener open_;
     std::string problem_;  ///< why the journal cannot be used, as last logged
     bool required_ = false;
     std::atomic<bool> working_{true};
-    std::optional<SessionJournal> journal_;
+    std::unique_ptr<ProjectLog> journal_;
+    std::string outage_;  ///< why the last attempt failed, of a log that others share
     std::uint32_t epoch_ = 0;
     SceneHistory history_;
     ChangeRecords records_;
     std::uint64_t failures_ = 0;
+    std::map<std::string, v1::SceneChanged> made_;  ///< by request key
+    std::deque<std::string> keys_;                  ///< of made_, oldest first
 };
 
 }  // namespace raybundle

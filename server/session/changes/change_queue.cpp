@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/changes/change_queue.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace raybundle {
@@ -45,13 +47,15 @@ void ChangeQueue::add(const ClientEvent& event) {
     for (PendingChange& pending : pending_) {
         if (pending.stands_for_several()) {
             waiting = nullptr;
+        } else if (pending.recorded) {
+            continue;
         } else if (subject_of(pending.change) == subject_of(change)) {
             waiting = &pending;
         }
     }
     const bool several = change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
     if (several || waiting == nullptr || waiting->requests.size() >= max_requests) {
-        pending_.push_back({change, {event}, false});
+        pending_.push_back({change, {event}});
         return;
     }
     add_change(change, waiting->change);
@@ -63,9 +67,26 @@ void ChangeQueue::add_expanded(const std::vector<v1::SceneChanged>& changes,
     pending_.push_front(request);
     pending_.front().expanded = true;
     for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
-        pending_.push_front({*change, {}, false});
+        pending_.push_front({*change, {}});
         pending_.front().change.set_by(request.requests.back().viewer);
     }
+}
+
+std::deque<PendingChange>::iterator ChangeQueue::behind_recorded() {
+    return std::find_if(pending_.begin(), pending_.end(),
+                        [](const PendingChange& pending) { return !pending.recorded; });
+}
+
+void ChangeQueue::add_recorded(LogEntry entry) {
+    PendingChange pending{std::move(entry.change), {}};
+    pending.recorded = true;
+    pending.keys = std::move(entry.keys);
+    pending_.insert(behind_recorded(), std::move(pending));
+}
+
+void ChangeQueue::put_back(std::vector<PendingChange> changes) {
+    pending_.insert(behind_recorded(), std::make_move_iterator(changes.begin()),
+                    std::make_move_iterator(changes.end()));
 }
 
 PendingChange ChangeQueue::take() {

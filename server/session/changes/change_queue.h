@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "journal/change_sum.h"
+#include "journal/project_log.h"
 #include "net/ws/client_event.h"
 
 namespace raybundle {
@@ -15,6 +17,10 @@ struct PendingChange {
     v1::SceneChanged change;  ///< without epoch; not set: stands for several ones
     std::vector<ClientEvent> requests;
     bool expanded = false;  ///< of several ones: they have been made, it is to be answered
+    /// Is in the log already, by another server of the project, with its epoch and these keys.
+    bool recorded = false;
+    std::vector<std::string> keys = {};
+    bool again = false;  ///< has had its turn, when other servers were quicker
 
     /// An undo, a group of lights, a lighting scene: which changes these are is found out when it
     /// is their turn.
@@ -33,6 +39,10 @@ class ChangeQueue {
     /// Puts the changes that a request stands for in front, and itself, now `expanded`, behind
     /// them.
     void add_expanded(const std::vector<v1::SceneChanged>& changes, const PendingChange& request);
+    /// A change that another server has made: behind those of the kind, before all others.
+    void add_recorded(LogEntry entry);
+    /// Puts changes back whose turn has not come after all, in order, behind recorded ones.
+    void put_back(std::vector<PendingChange> changes);
     [[nodiscard]] bool empty() const { return pending_.empty(); }
     [[nodiscard]] std::size_t size() const { return pending_.size(); }
     [[nodiscard]] const PendingChange& front() const { return pending_.front(); }
@@ -42,6 +52,7 @@ class ChangeQueue {
 
   private:
     [[nodiscard]] bool joins_last(const ClientEvent& event) const;
+    [[nodiscard]] std::deque<PendingChange>::iterator behind_recorded();
 
     std::deque<PendingChange> pending_;
 };

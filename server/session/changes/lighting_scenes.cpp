@@ -42,6 +42,28 @@ LightingScenes::LightingScenes(ChangeLog& log) : log_(log) {
     }
 }
 
+v1::ServerMessage LightingScenes::follow(std::uint32_t number, const std::string& body) {
+    v1::ServerMessage news;
+    v1::JournalLightingScene content;
+    if (!body.empty() && content.ParseFromString(body)) {
+        next_number_ = std::max(next_number_, number + 1);
+        news.mutable_lighting_scene_changed()->set_name(content.scene().name());
+        news.mutable_lighting_scene_changed()->set_by_name(content.scene().by_name());
+        const std::string name = content.scene().name();
+        scenes_[name] = std::move(content);
+        return news;
+    }
+    const auto known = std::find_if(scenes_.begin(), scenes_.end(), [number](const auto& scene) {
+        return scene.second.number() == number;
+    });
+    if (body.empty() && known != scenes_.end()) {
+        news.mutable_lighting_scene_changed()->set_name(known->first);
+        news.mutable_lighting_scene_changed()->set_removed(true);
+        scenes_.erase(known);
+    }
+    return news;
+}
+
 bool LightingScenes::refuse(v1::Error::Code code, const std::string& reason) {
     refusal_.set_code(code);
     refusal_.set_message(reason);
@@ -55,7 +77,10 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
                       "saveLightingScene: there are 64, remove some");
     }
     v1::JournalLightingScene saved;
-    saved.set_number(known == scenes_.end() ? next_number_ : known->second.number());
+    const auto number = known == scenes_.end()
+                            ? log_.new_number(NoteKind::lighting_scene, next_number_)
+                            : std::optional(known->second.number());
+    saved.set_number(number.value_or(0));
     saved.mutable_scene()->set_name(name);
     saved.mutable_scene()->set_by_name(by_name);
     for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
@@ -63,8 +88,9 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
             *saved.add_lights() = setting_of_light(scene, id);
         }
     }
-    if (!log_.keep_note(NoteKind::lighting_scene, saved.number(), saved.SerializeAsString())) {
-        return refuse(v1::Error::INTERNAL, "the lighting scene could not be saved");
+    if (!number || !log_.keep_note(NoteKind::lighting_scene, *number, saved.SerializeAsString())) {
+        refusal_ = log_.refusal("the lighting scene could not be saved");
+        return false;
     }
     next_number_ = std::max(next_number_, saved.number() + 1);
     scenes_[name] = std::move(saved);
@@ -78,7 +104,8 @@ bool LightingScenes::remove(const std::string& name) {
                       "removeLightingScene.name: no lighting scene '" + name + "'");
     }
     if (!log_.keep_note(NoteKind::lighting_scene, known->second.number(), {})) {
-        return refuse(v1::Error::INTERNAL, "the removal could not be saved");
+        refusal_ = log_.refusal("the removal could not be saved");
+        return false;
     }
     scenes_.erase(known);
     return true;

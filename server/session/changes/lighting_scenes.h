@@ -26,6 +26,9 @@ class LightingScenes {
     /// Keeps the lights as they are, in place of what has that name. False where there are too many
     /// or it cannot be stored; the reason is in refusal().
     bool save(const std::string& name, const std::string& by_name, const Scene& scene);
+    /// Takes up one that another server of the project has stored or, where `body` is empty, taken
+    /// away. What is to be told to viewers; unset where that is nothing.
+    v1::ServerMessage follow(std::uint32_t number, const std::string& body);
     /// False where there is none (NOT_FOUND) or that cannot be stored.
     bool remove(const std::string& name);
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }

@@ -15,6 +15,13 @@ HandlerResult LightingService::answer(const ClientEvent& event, bool done,
     return HandlerResult::answered;
 }
 
+void LightingService::follow(const LogEntry& note) {
+    const v1::ServerMessage news = scenes_.follow(note.number, note.body);
+    if (news.body_case() != v1::ServerMessage::BODY_NOT_SET) {
+        parts_.server.broadcast(news);
+    }
+}
+
 HandlerResult LightingService::save(ViewerSession& session, const ClientEvent& event) {
     const std::string& name = event.message.save_lighting_scene().name();
     const bool done = scenes_.save(name, session.name(), parts_.scene.scene());

@@ -21,6 +21,9 @@ class LightingService {
     HandlerResult save(ViewerSession& session, const ClientEvent& event);
     HandlerResult remove(ViewerSession& session, const ClientEvent& event);
 
+    /// A lighting scene of another server of the project.
+    void follow(const LogEntry& note);
+
     [[nodiscard]] const LightingScenes& scenes() const { return scenes_; }
 
   private:

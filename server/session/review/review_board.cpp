@@ -23,13 +23,10 @@ std::string stored(const Pin& pin) {
 
 }  // namespace
 
-ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count) : log_(log) {
+ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count)
+    : log_(log), side_count_(side_count) {
     for (const std::string& body : log.notes(NoteKind::pin)) {
-        v1::JournalPin note;
-        if (note.ParseFromString(body)) {
-            const std::uint32_t patch = std::min(note.patch(), side_count - 1);
-            pins_[note.pin().pin()] = {note.pin(), patch, note.patch_illuminance()};
-        }
+        add_stored_pin(body);
     }
     for (const std::string& body : log.notes(NoteKind::viewpoint)) {
         v1::ViewpointChanged viewpoint;
@@ -39,6 +36,50 @@ ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count) : log_(log) {
     }
     next_pin_number_ = pins_.empty() ? 1 : pins_.rbegin()->first + 1;
     next_viewpoint_number_ = viewpoints_.empty() ? 1 : viewpoints_.rbegin()->first + 1;
+}
+
+void ReviewBoard::add_stored_pin(const std::string& body) {
+    v1::JournalPin note;
+    if (note.ParseFromString(body)) {
+        const std::uint32_t patch = std::min(note.patch(), side_count_ - 1);
+        pins_[note.pin().pin()] = {note.pin(), patch, note.patch_illuminance()};
+    }
+}
+
+v1::ServerMessage ReviewBoard::follow(NoteKind kind, std::uint32_t number,
+                                      const std::string& body) {
+    v1::ServerMessage news;
+    if (kind == NoteKind::pin) {
+        const auto known = pins_.find(number);
+        if (!body.empty()) {
+            add_stored_pin(body);
+            next_pin_number_ = std::max(next_pin_number_, number + 1);
+            *news.mutable_pin_changed() = pins_[number].message;
+        } else if (known != pins_.end()) {
+            *news.mutable_pin_changed() = known->second.message;
+            news.mutable_pin_changed()->set_removed(true);
+            pins_.erase(known);
+        }
+        if (news.has_pin_changed()) {
+            news.mutable_pin_changed()->set_by(0);  // viewers' numbers are each server's own
+        }
+        return news;
+    }
+    v1::ViewpointChanged viewpoint;
+    if (body.empty() && viewpoints_.erase(number) > 0) {
+        news.mutable_viewpoint_changed()->set_viewpoint(number);
+        news.mutable_viewpoint_changed()->set_removed(true);
+    } else if (!body.empty() && viewpoint.ParseFromString(body)) {
+        viewpoint.set_by(0);
+        next_viewpoint_number_ = std::max(next_viewpoint_number_, number + 1);
+        *news.mutable_viewpoint_changed() = viewpoints_[number] = viewpoint;
+    }
+    return news;
+}
+
+bool ReviewBoard::refuse_unsaved(const std::string& reason) {
+    refusal_ = log_.refusal(reason);
+    return false;
 }
 
 bool ReviewBoard::refuse(v1::Error::Code code, const std::string& reason) {
@@ -52,12 +93,14 @@ const Pin* ReviewBoard::add_pin(Pin pin) {
         refuse(v1::Error::RESOURCE_EXHAUSTED, "addPin: there are 256 pins, remove some");
         return nullptr;
     }
-    pin.message.set_pin(next_pin_number_);
-    if (!log_.keep_note(NoteKind::pin, next_pin_number_, stored(pin))) {
-        refuse(v1::Error::INTERNAL, "the pin could not be saved, so it was not set");
+    const auto number = log_.new_number(NoteKind::pin, next_pin_number_);
+    pin.message.set_pin(number.value_or(0));
+    if (!number || !log_.keep_note(NoteKind::pin, *number, stored(pin))) {
+        refuse_unsaved("the pin could not be saved, so it was not set");
         return nullptr;
     }
-    return &(pins_[next_pin_number_++] = std::move(pin));
+    next_pin_number_ = *number + 1;
+    return &(pins_[*number] = std::move(pin));
 }
 
 const v1::ViewpointChanged* ReviewBoard::add_viewpoint(v1::ViewpointChanged viewpoint) {
@@ -65,13 +108,14 @@ const v1::ViewpointChanged* ReviewBoard::add_viewpoint(v1::ViewpointChanged view
         refuse(v1::Error::RESOURCE_EXHAUSTED, "saveViewpoint: there are 64, remove some");
         return nullptr;
     }
-    viewpoint.set_viewpoint(next_viewpoint_number_);
-    if (!log_.keep_note(NoteKind::viewpoint, next_viewpoint_number_,
-                        viewpoint.SerializeAsString())) {
-        refuse(v1::Error::INTERNAL, "the viewpoint could not be saved");
+    const auto number = log_.new_number(NoteKind::viewpoint, next_viewpoint_number_);
+    viewpoint.set_viewpoint(number.value_or(0));
+    if (!number || !log_.keep_note(NoteKind::viewpoint, *number, viewpoint.SerializeAsString())) {
+        refuse_unsaved("the viewpoint could not be saved");
         return nullptr;
     }
-    return &(viewpoints_[next_viewpoint_number_++] = std::move(viewpoint));
+    next_viewpoint_number_ = *number + 1;
+    return &(viewpoints_[*number] = std::move(viewpoint));
 }
 
 bool ReviewBoard::remove_pin(std::uint32_t number) {
@@ -79,7 +123,7 @@ bool ReviewBoard::remove_pin(std::uint32_t number) {
         return refuse(v1::Error::NOT_FOUND, "removePin.pin: no pin " + std::to_string(number));
     }
     if (!log_.keep_note(NoteKind::pin, number, {})) {
-        return refuse(v1::Error::INTERNAL, "the pin's removal could not be saved");
+        return refuse_unsaved("the pin's removal could not be saved");
     }
     pins_.erase(number);
     return true;
@@ -91,7 +135,7 @@ bool ReviewBoard::remove_viewpoint(std::uint32_t number) {
                       "removeViewpoint.viewpoint: no viewpoint " + std::to_string(number));
     }
     if (!log_.keep_note(NoteKind::viewpoint, number, {})) {
-        return refuse(v1::Error::INTERNAL, "the viewpoint's removal could not be saved");
+        return refuse_unsaved("the viewpoint's removal could not be saved");
     }
     viewpoints_.erase(number);
     return true;

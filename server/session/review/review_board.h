@@ -42,6 +42,10 @@ class ReviewBoard {
     bool remove_viewpoint(std::uint32_t number);
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
 
+    /// Takes up a pin or viewpoint that another server of the project has stored or, where `body`
+    /// is empty, taken away. What is to be told to viewers; unset where that is nothing.
+    v1::ServerMessage follow(NoteKind kind, std::uint32_t number, const std::string& body);
+
     /// Stores what is known of the light at a pin, so that it is known after a restart. A failure
     /// is logged: the next value tries again.
     void keep(const Pin& pin);
@@ -56,10 +60,13 @@ class ReviewBoard {
 
   private:
     bool refuse(v1::Error::Code code, const std::string& reason);
+    bool refuse_unsaved(const std::string& reason);
+    void add_stored_pin(const std::string& body);
 
     ChangeLog& log_;
     std::map<std::uint32_t, Pin> pins_;
     std::map<std::uint32_t, v1::ViewpointChanged> viewpoints_;
+    std::uint32_t side_count_;
     std::uint32_t next_pin_number_ = 1;
     std::uint32_t next_viewpoint_number_ = 1;
     std::uint32_t last_checked_ = 0;

@@ -155,6 +155,7 @@ HandlerResult ReviewService::point_at(ViewerSession& /*session*/, const ClientEv
     message.mutable_pointed()->set_by(event.viewer);
     *message.mutable_pointed()->mutable_position() = event.message.point_at().position();
     parts_.server.broadcast(message, event.viewer);
+    parts_.scene.log().publish(message, false);
     return HandlerResult::ok;
 }
 
@@ -163,6 +164,13 @@ HandlerResult ReviewService::list_changes(ViewerSession& /*session*/, const Clie
     parts_.scene.log().records().fill(answer.mutable_change_history());
     parts_.server.reply(event, answer);
     return HandlerResult::answered;
+}
+
+void ReviewService::follow(const LogEntry& note) {
+    const v1::ServerMessage news = board_.follow(note.kind, note.number, note.body);
+    if (news.body_case() != v1::ServerMessage::BODY_NOT_SET) {
+        parts_.server.broadcast(news);
+    }
 }
 
 void ReviewService::check_pin() {

@@ -38,6 +38,9 @@ class ReviewService {
     /// What a newcomer is told.
     void fill_welcome(v1::Welcome* welcome) const { board_.fill_welcome(welcome); }
 
+    /// A pin or viewpoint of another server of the project.
+    void follow(const LogEntry& note);
+
     /// Looks at the light of one pin, and tells everybody where it has changed.
     void check_pin();
 

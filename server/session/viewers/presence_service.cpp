@@ -28,6 +28,17 @@ v1::Viewer describe_viewer(const ViewerSession& session) {
     return viewer;
 }
 
+Camera camera_of(const v1::Viewer& viewer) {
+    Camera camera;
+    camera.eye = from_message(viewer.eye());
+    camera.target = from_message(viewer.target());
+    camera.up = from_message(viewer.up());
+    camera.vertical_fov = viewer.vertical_fov();
+    return camera;
+}
+
+constexpr double heartbeat_s = 1.0;  // of what other servers are told, see PeerViewers::silence_s
+
 }  // namespace
 
 HandlerResult PresenceService::follow(ViewerSession& session, const ClientEvent& event) {
@@ -38,14 +49,15 @@ HandlerResult PresenceService::follow(ViewerSession& session, const ClientEvent&
         return HandlerResult::answered;
     }
     const ViewerSession* const found = parts_.viewers.find(leader);
-    if (leader != 0 && found == nullptr) {
+    const v1::Viewer* const peer = peers_.find(leader);
+    if (leader != 0 && found == nullptr && peer == nullptr) {
         parts_.server.reply_error(event, v1::Error::NOT_FOUND,
                                   "follow.viewer: no viewer " + std::to_string(leader));
         return HandlerResult::answered;
     }
     session.follow(leader);
     if (leader != 0) {
-        session.adopt_camera(found->camera());
+        session.adopt_camera(found != nullptr ? found->camera() : camera_of(*peer));
         lead(session);
     }
     changed_ = true;
@@ -77,6 +89,62 @@ void PresenceService::forget(ViewerId viewer) {
     }
 }
 
+void PresenceService::hear_peers() {
+    if (!parts_.log.shared()) {
+        return;
+    }
+    const TimePoint now = parts_.policy.clock().now();
+    bool changed = peers_.forget_silent(now);
+    for (const PeerNews& news : parts_.log.take_news()) {
+        v1::ServerMessage message;
+        if (!message.ParseFromString(news.body)) {
+            continue;
+        }
+        if (message.has_presence()) {
+            changed |= peers_.note(news.server, message.presence(), now);
+        } else if (message.has_pointed()) {
+            message.mutable_pointed()->set_by(
+                PeerViewers::number_here(news.server, message.pointed().by()));
+            parts_.server.broadcast(message);
+        }
+    }
+    if (changed) {
+        changed_ = true;
+        follow_peers();
+    }
+    v1::Presence own;
+    if (seconds(now - told_) >= heartbeat_s) {
+        for (const auto& [id, session] : parts_.viewers) {
+            *own.add_viewers() = describe_viewer(*session);
+        }
+        tell_peers(own, now);
+    }
+}
+
+/// Who follows somebody on another server sees what that one sees, until it is gone.
+void PresenceService::follow_peers() {
+    for (const auto& [id, session] : parts_.viewers) {
+        const ViewerId leader = session->following();
+        if (leader == 0 || parts_.viewers.find(leader) != nullptr) {
+            continue;
+        }
+        const v1::Viewer* const peer = peers_.find(leader);
+        if (peer == nullptr) {
+            session->follow(0);
+        } else {
+            session->adopt_camera(camera_of(*peer));
+            lead(*session);
+        }
+    }
+}
+
+void PresenceService::tell_peers(const v1::Presence& own, TimePoint now) {
+    told_ = now;
+    v1::ServerMessage message;
+    *message.mutable_presence() = own;
+    parts_.log.publish(message, true);
+}
+
 void PresenceService::send() {
     const MessagePaceSettings& pace = parts_.policy.settings().messages;
     const TimePoint now = parts_.policy.clock().now();
@@ -93,6 +161,8 @@ void PresenceService::send() {
     for (const auto& [id, session] : parts_.viewers) {
         *message.mutable_presence()->add_viewers() = describe_viewer(*session);
     }
+    tell_peers(message.presence(), now);
+    peers_.describe(message.mutable_presence());
     parts_.server.broadcast(message);
 }
 

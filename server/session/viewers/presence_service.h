@@ -3,7 +3,9 @@
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
+#include "session/changes/change_log.h"
 #include "session/handler_result.h"
+#include "session/viewers/peer_viewers.h"
 #include "session/viewers/viewers.h"
 
 namespace raybundle {
@@ -14,6 +16,7 @@ class PresenceService {
     struct Parts {
         const Viewers& viewers;
         const FramePolicy& policy;
+        ChangeLog& log;
         Server& server;
     };
     explicit PresenceService(const Parts& parts) : parts_(parts) {}
@@ -26,11 +29,18 @@ class PresenceService {
     void note_arrival() { changed_ = true; }
     /// A viewer has left: nobody follows it any more.
     void forget(ViewerId viewer);
+    /// What other servers of the project tell of their viewers.
+    void hear_peers();
     /// Tells everybody who is here, where that has changed and not too often.
     void send();
 
   private:
+    void follow_peers();
+    void tell_peers(const v1::Presence& own, TimePoint now);
+
     Parts parts_;
+    PeerViewers peers_;
+    TimePoint told_;  ///< the other servers
     bool changed_ = false;
     TimePoint last_sent_;
 };

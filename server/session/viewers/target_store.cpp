@@ -15,6 +15,16 @@ TargetStore::TargetStore(ChangeLog& log) : log_(log) {
     }
 }
 
+void TargetStore::follow(std::uint32_t number, const std::string& body) {
+    v1::JournalTarget note;
+    if (!body.empty() && note.ParseFromString(body)) {
+        next_number_ = std::max(next_number_, number + 1);
+        targets_[note.name()] = note;
+    } else {
+        std::erase_if(targets_, [number](const auto& t) { return t.second.number() == number; });
+    }
+}
+
 /// Forgets the target of a name; true where there is none afterwards.
 bool TargetStore::drop(const std::string& name) {
     const auto found = targets_.find(name);
@@ -49,7 +59,12 @@ bool TargetStore::keep(const std::string& name, const v1::SetTarget& target) {
         }
     }
     v1::JournalTarget note;
-    note.set_number(earlier == targets_.end() ? next_number_ : earlier->second.number());
+    const auto number = earlier == targets_.end() ? log_.new_number(NoteKind::target, next_number_)
+                                                  : std::optional(earlier->second.number());
+    if (!number) {
+        return false;
+    }
+    note.set_number(*number);
     note.set_name(name);
     *note.mutable_target() = target;
     if (!log_.keep_note(NoteKind::target, note.number(), note.SerializeAsString())) {

@@ -24,6 +24,10 @@ class TargetStore {
     /// nothing has changed.
     [[nodiscard]] bool keep(const std::string& name, const v1::SetTarget& target);
 
+    /// Takes up one that another server of the project has stored or, where `body` is empty,
+    /// forgotten.
+    void follow(std::uint32_t number, const std::string& body);
+
     /// The target of that name; null where there is none.
     [[nodiscard]] const v1::SetTarget* of(const std::string& name) const;
 

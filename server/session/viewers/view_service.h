@@ -33,6 +33,8 @@ class ViewService {
     HandlerResult set_target(ViewerSession& session, const ClientEvent& event);
     HandlerResult get_walk_map(ViewerSession& session, const ClientEvent& event);
 
+    /// A target of another server of the project.
+    void follow(const LogEntry& note) { targets_.follow(note.number, note.body); }
     /// Gives a viewer the target that one of its name has set.
     void restore_target(ViewerSession& session) const;
 

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "journal/redis/redis_log.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "journal/redis/redis_setup.h"
+
+namespace raybundle {
+namespace {
+
+/// Before a change is refused; pictures stand still meanwhile, as while a journal's file is busy.
+constexpr int timeout_ms = 1000;
+constexpr int block_ms = 200;  ///< of XREAD: how long the end of a server waits for it
+constexpr std::chrono::milliseconds retry_after(200);
+constexpr const char* page_entries = "1000";
+constexpr int most_conflicts_of_a_note = 16;
+
+constexpr const char* lost_changes =
+    "the log in Redis lacks changes that are shown here: restart this server";
+
+/// XADD's answer to an ID that is not above the last one.
+bool is_conflict(const RedisRefusal& refusal) {
+    return std::string_view(refusal.what()).find("equal or smaller") != std::string_view::npos;
+}
+
+/// What XREAD of one stream gives.
+std::vector<StreamEntry> entries_read(const RedisReply& reply) {
+    const bool some = !reply.list.empty() && reply.list[0].list.size() == 2;
+    return some ? parse_entries(reply.list[0].list[1]) : std::vector<StreamEntry>();
+}
+
+}  // namespace
+
+RedisLog::RedisLog(const RedisLogSettings& settings) : settings_(settings), worker_(random_name()) {
+    const std::string prefix = "raybundle:{" + settings.project + "}:";
+    stream_ = prefix + "log";
+    scene_key_ = prefix + "scene";
+    snapshot_key_ = prefix + "snapshot";
+    numbers_key_ = prefix + "numbers";
+    try {
+        writer_ = std::make_unique<RedisConnection>(settings.address, timeout_ms);
+        check_project(*writer_);
+        check_durability(*writer_);
+        load(*writer_);
+    } catch (const RedisAway& away) {
+        writer_.reset();
+        outage_ = away.what();
+    } catch (const RedisRefusal& refusal) {
+        throw JournalError(refusal.what());
+    }
+    if (outage_) {
+        spdlog::error("changes cannot be stored until it is back: {}", *outage_);
+    }
+    cursor_ = state_.last();
+    epoch_ = static_cast<std::uint32_t>(cursor_.epoch);
+    peers_ = std::make_unique<PeerChannel>(settings.address, prefix, worker_);
+    follower_ = std::thread([this] { follow(); });
+}
+
+RedisLog::~RedisLog() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    woken_.notify_all();
+    follower_.join();
+}
+
+/// Throws JournalError where the project is about another scene.
+void RedisLog::check_project(RedisConnection& connection) const {
+    connection.command({"SET", scene_key_, settings_.scene_digest, "NX"});
+    const RedisReply digest = connection.command({"GET", scene_key_});
+    if (digest.text != settings_.scene_digest) {
+        throw JournalError("project '" + settings_.project + "' in Redis at " +
+                           settings_.address.text() + " has another scene file, that of SHA-256 " +
+                           digest.text);
+    }
+}
+
+void RedisLog::load(RedisConnection& connection) {
+    const RedisReply snapshot = connection.command({"GET", snapshot_key_});
+    if (!snapshot.text.empty() && !state_.from_snapshot(snapshot.text)) {
+        throw JournalError(snapshot_key_ + " in Redis cannot be read");
+    }
+    std::string begin = "-";
+    for (;;) {
+        const auto page = parse_entries(
+            connection.command({"XRANGE", stream_, begin, "+", "COUNT", page_entries}));
+        if (page.empty()) {
+            break;
+        }
+        begin = "(" + page.back().id.text();
+        for (const StreamEntry& entry : page) {
+            state_.apply(entry);
+            if (!entry.is_change) {
+                continue;
+            }
+            const bool known = entry.before.change_case() != v1::SceneChanged::CHANGE_NOT_SET;
+            if (!known) {
+                past_.clear();  // nobody can go back beyond it
+            } else {
+                past_.push_back(entry.before);
+                past_.back().set_epoch(entry.entry.change.epoch());
+            }
+            if (!entry.entry.keys.empty()) {
+                keyed_.push_back(entry.entry);
+            }
+        }
+    }
+    const auto shorten = [](auto& list, std::size_t most) {
+        if (list.size() > most) {
+            list.erase(list.begin(), list.end() - static_cast<std::ptrdiff_t>(most));
+        }
+    };
+    shorten(past_, settings_.most_past);
+    shorten(keyed_, keyed_changes);
+}
+
+/// Why the log in Redis does not go on where this server is: it was emptied, or its beginning is
+/// forgotten.
+std::optional<std::string> RedisLog::gap(RedisConnection& connection) const {
+    const auto last =
+        parse_entries(connection.command({"XREVRANGE", stream_, "+", "-", "COUNT", "1"}));
+    const auto first =
+        parse_entries(connection.command({"XRANGE", stream_, "-", "+", "COUNT", "1"}));
+    const std::lock_guard lock(mutex_);
+    if ((last.empty() ? StreamId() : last[0].id) < cursor_) {
+        return lost_changes;
+    }
+    if (!first.empty() && first[0].id.epoch > cursor_.epoch + 1) {
+        return "the log in Redis does not know any more what came after change " +
+               std::to_string(cursor_.epoch) + ": restart this server";
+    }
+    return std::nullopt;
+}
+
+void RedisLog::follow() {
+    do {
+        try {
+            RedisConnection connection(settings_.address, timeout_ms);
+            check_project(connection);
+            if (auto reason = gap(connection)) {
+                set_outage(std::move(reason));
+                continue;
+            }
+            set_outage(std::nullopt);
+            follow_by(connection);
+        } catch (const std::runtime_error& error) {
+            set_outage(error.what());
+        }
+    } while (!rest());
+}
+
+void RedisLog::follow_by(RedisConnection& connection) {
+    for (;;) {
+        std::string from;
+        {
+            const std::lock_guard lock(mutex_);
+            if (stop_) {
+                return;
+            }
+            from = cursor_.text();
+        }
+        take_in(
+            entries_read(connection.command({"XREAD", "COUNT", page_entries, "BLOCK",
+                                             std::to_string(block_ms), "STREAMS", stream_, from})));
+    }
+}
+
+/// Waits a little before the next attempt. True: the server ends.
+bool RedisLog::rest() {
+    std::unique_lock lock(mutex_);
+    return woken_.wait_for(lock, retry_after, [this] { return stop_; });
+}
+
+void RedisLog::set_outage(std::optional<std::string> reason) {
+    const std::lock_guard lock(mutex_);
+    if (reason && !outage_) {
+        spdlog::error("changes cannot be stored until it is back: {}", *reason);
+    } else if (!reason && outage_) {
+        spdlog::info("Redis is back: changes can be stored again");
+    }
+    outage_ = std::move(reason);
+}
+
+std::optional<std::string> RedisLog::outage() const {
+    const std::lock_guard lock(mutex_);
+    return outage_;
+}
+
+/// What has been read by the follower, or before a change that comes second.
+void RedisLog::take_in(std::vector<StreamEntry> entries) {
+    const std::lock_guard lock(mutex_);
+    for (StreamEntry& entry : entries) {
+        if (entry.id > cursor_) {
+            cursor_ = entry.id;
+            received_.push_back(std::move(entry));
+        }
+    }
+}
+
+std::vector<LogEntry> RedisLog::take_entries() {
+    std::deque<StreamEntry> received;
+    {
+        const std::lock_guard lock(mutex_);
+        received.swap(received_);
+    }
+    std::vector<LogEntry> entries;
+    for (StreamEntry& entry : received) {
+        state_.apply(entry);
+        const bool own = entry.worker == worker_;
+        if (entry.is_change) {
+            epoch_ = std::max(epoch_, static_cast<std::uint32_t>(entry.id.epoch));
+            if (own && entry.id.epoch % settings_.snapshot_every == 0) {
+                keep_snapshot();
+            }
+        }
+        if (!own || done_.erase(entry.request) == 0) {
+            entries.push_back(std::move(entry.entry));
+        }
+    }
+    return entries;
+}
+
+/// So that the log need not be read from its beginning, which is forgotten then.
+void RedisLog::keep_snapshot() {
+    try {
+        writer().command({"SET", snapshot_key_, state_.to_snapshot()});
+        const std::uint64_t last = state_.last().epoch;
+        if (last > settings_.most_past) {
+            writer().command(
+                {"XTRIM", stream_, "MINID", StreamId{last - settings_.most_past, 0}.text()});
+        }
+    } catch (const std::runtime_error& error) {
+        writer_.reset();
+        spdlog::warn("the log of the project is not shortened: {}", error.what());
+    }
+}
+
+RedisConnection& RedisLog::writer() {
+    if (!writer_) {
+        writer_ = std::make_unique<RedisConnection>(settings_.address, timeout_ms);
+    }
+    return *writer_;
+}
+
+void RedisLog::read_now() {
+    std::string from;
+    {
+        const std::lock_guard lock(mutex_);
+        from = cursor_.text();
+    }
+    take_in(
+        entries_read(writer().command({"XREAD", "COUNT", page_entries, "STREAMS", stream_, from})));
+}
+
+/// Adds a change under its epoch. `again`: an earlier attempt may have arrived, although its answer
+/// has not.
+Appended RedisLog::add(const StreamEntry& entry, bool again) {
+    const std::string id = entry.id.text();
+    if (again) {
+        const auto there = parse_entries(writer().command({"XRANGE", stream_, id, id}));
+        if (!there.empty() && there[0].worker == worker_ && there[0].request == entry.request) {
+            return Appended::yes;
+        }
+    }
+    std::vector<std::string> words{"XADD", stream_};
+    if (entry.id.epoch > 1) {
+        words.emplace_back("NOMKSTREAM");
+    }
+    words.push_back(id);
+    const std::vector<std::string> fields = words_of(entry);
+    words.insert(words.end(), fields.begin(), fields.end());
+    try {
+        if (writer().command(words).kind == RedisReply::Kind::nothing) {
+            throw JournalError(lost_changes);
+        }
+        return Appended::yes;
+    } catch (const RedisRefusal& refusal) {
+        if (!is_conflict(refusal)) {
+            throw;
+        }
+        read_now();
+        return Appended::conflict;
+    }
+}
+
+Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
+                          const std::vector<std::string>& keys) {
+    if (const auto reason = outage()) {
+        throw JournalError(*reason);
+    }
+    StreamEntry entry;
+    entry.id = {change.epoch(), 0};
+    entry.worker = worker_;
+    entry.request = ++requests_;
+    entry.is_change = true;
+    entry.entry.change = change;
+    entry.entry.keys = keys;
+    entry.before = before;
+    for (const bool again : {false, true}) {
+        try {
+            const Appended result = add(entry, again);
+            if (result == Appended::yes) {
+                done_.insert(entry.request);
+                epoch_ = change.epoch();
+            }
+            return result;
+        } catch (const RedisAway& away) {
+            writer_.reset();
+            if (again) {
+                throw JournalError(away.what());
+            }
+        } catch (const RedisRefusal& refusal) {
+            throw JournalError(refusal.what());
+        }
+    }
+    throw JournalError("not reached");
+}
+
+std::uint32_t RedisLog::new_number(NoteKind kind, std::uint32_t free) {
+    if (const auto reason = outage()) {
+        throw JournalError(*reason);
+    }
+    const auto take = [&](std::int64_t step) {
+        return writer()
+            .command({"HINCRBY", numbers_key_, std::to_string(static_cast<unsigned>(kind)),
+                      std::to_string(step)})
+            .number;
+    };
+    try {
+        const std::int64_t number = take(1);
+        return static_cast<std::uint32_t>(number >= free ? number : take(free - number));
+    } catch (const RedisAway& away) {
+        writer_.reset();
+        throw JournalError(away.what());
+    } catch (const RedisRefusal& refusal) {
+        throw JournalError(refusal.what());
+    }
+}
+
+/// Adds it behind the last change. One that arrives twice, since an answer was lost, says the same
+/// twice.
+void RedisLog::append_note(const StreamEntry& entry) {
+    const std::vector<std::string> fields = words_of(entry);
+    for (int i = 0;; ++i) {
+        std::uint64_t last = 0;
+        {
+            const std::lock_guard lock(mutex_);
+            last = std::max<std::uint64_t>(cursor_.epoch, epoch_);
+        }
+        std::vector<std::string> words{"XADD", stream_, std::to_string(last) + "-*"};
+        words.insert(words.end(), fields.begin(), fields.end());
+        try {
+            writer().command(words);
+            return;
+        } catch (const RedisRefusal& refusal) {
+            if (!is_conflict(refusal) || i == most_conflicts_of_a_note) {
+                throw;
+            }
+            read_now();
+        }
+    }
+}
+
+void RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    if (const auto reason = outage()) {
+        throw JournalError(*reason);
+    }
+    StreamEntry entry;
+    entry.worker = worker_;
+    entry.request = ++requests_;
+    entry.entry.kind = kind;
+    entry.entry.number = number;
+    entry.entry.body = body;
+    for (const bool again : {false, true}) {
+        try {
+            append_note(entry);
+            done_.insert(entry.request);
+            return;
+        } catch (const RedisAway& away) {
+            writer_.reset();
+            if (again) {
+                throw JournalError(away.what());
+            }
+        } catch (const RedisRefusal& refusal) {
+            throw JournalError(refusal.what());
+        }
+    }
+}
+
+}  // namespace raybundle

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "journal/redis/stream_entry.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+namespace raybundle {
+namespace {
+
+constexpr char key_separator = '\n';
+
+template <typename Number>
+bool parse_number(std::string_view text, Number& number) {
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    return parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+}
+
+std::vector<std::string> split_keys(const std::string& text) {
+    std::vector<std::string> keys;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(key_separator, begin), text.size());
+        keys.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return keys;
+}
+
+void read_field(const std::string& name, const std::string& value, StreamEntry& entry) {
+    std::uint8_t kind = 0;
+    if (name == "worker") {
+        entry.worker = value;
+    } else if (name == "request") {
+        parse_number(value, entry.request);
+    } else if (name == "keys") {
+        entry.entry.keys = split_keys(value);
+    } else if (name == "change") {
+        entry.is_change = true;
+        if (!entry.entry.change.ParseFromString(value)) {
+            entry.entry.change.Clear();
+        }
+        entry.entry.change.set_epoch(static_cast<std::uint32_t>(entry.id.epoch));
+    } else if (name == "before") {
+        if (!entry.before.ParseFromString(value)) {
+            entry.before.Clear();
+        }
+    } else if (name == "kind" && parse_number(value, kind)) {
+        entry.entry.kind = static_cast<NoteKind>(kind);
+    } else if (name == "number") {
+        parse_number(value, entry.entry.number);
+    } else if (name == "body") {
+        entry.entry.body = value;
+    }
+}
+
+}  // namespace
+
+std::optional<StreamId> parse_stream_id(const std::string& text) {
+    StreamId id;
+    const std::size_t dash = text.find('-');
+    const bool fits = dash != std::string::npos &&
+                      parse_number(std::string_view(text).substr(0, dash), id.epoch) &&
+                      parse_number(std::string_view(text).substr(dash + 1), id.sequence);
+    return fits ? std::optional(id) : std::nullopt;
+}
+
+std::vector<std::string> words_of(const StreamEntry& entry) {
+    std::vector<std::string> words{"worker", entry.worker, "request",
+                                   std::to_string(entry.request)};
+    if (!entry.is_change) {
+        words.insert(words.end(),
+                     {"kind", std::to_string(static_cast<unsigned>(entry.entry.kind)), "number",
+                      std::to_string(entry.entry.number), "body", entry.entry.body});
+        return words;
+    }
+    std::string keys;
+    for (const std::string& key : entry.entry.keys) {
+        keys += (keys.empty() ? "" : std::string(1, key_separator)) + key;
+    }
+    words.insert(words.end(), {"change", entry.entry.change.SerializeAsString(), "before",
+                               entry.before.SerializeAsString()});
+    if (!keys.empty()) {
+        words.insert(words.end(), {"keys", keys});
+    }
+    return words;
+}
+
+std::vector<StreamEntry> parse_entries(const RedisReply& reply) {
+    std::vector<StreamEntry> entries;
+    for (const RedisReply& item : reply.list) {
+        const auto id = item.list.size() == 2 ? parse_stream_id(item.list[0].text) : std::nullopt;
+        if (!id) {
+            continue;
+        }
+        StreamEntry& entry = entries.emplace_back();
+        entry.id = *id;
+        const std::vector<RedisReply>& fields = item.list[1].list;
+        for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
+            read_field(fields[i].text, fields[i + 1].text, entry);
+        }
+    }
+    return entries;
+}
+
+}  // namespace raybundle

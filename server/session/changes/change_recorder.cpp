@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/changes/change_recorder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <utility>
+
+#include "session/messages/daylight_messages.h"
+#include "session/messages/light_messages.h"
+#include "session/messages/scene_messages.h"
+#include "session/unix_time.h"
+
+namespace raybundle {
+
+namespace {
+
+constexpr const char* not_saved = "the change could not be saved, so it was not made";
+
+std::vector<std::string> keys_of(const PendingChange& pending) {
+    std::vector<std::string> keys;
+    for (const ClientEvent& request : pending.requests) {
+        if (request.message.has_request_key()) {
+            keys.push_back(request.message.request_key());
+        }
+    }
+    return keys;
+}
+
+}  // namespace
+
+std::vector<PendingChange> ChangeRecorder::record(std::vector<PendingChange>& pending) {
+    std::vector<PendingChange> kept;
+    std::vector<PendingChange> later;
+    for (PendingChange& change : pending) {
+        switch (record_one(change)) {
+            case Recorded::yes:
+                kept.push_back(std::move(change));
+                break;
+            case Recorded::later:
+                later.push_back(std::move(change));
+                later.back().again = true;
+                break;
+            case Recorded::no:
+                break;
+        }
+    }
+    pending = std::move(kept);
+    return later;
+}
+
+/// Numbers, saves and applies a change to the scene. `no`: it could not be saved and is answered.
+Recorded ChangeRecorder::record_one(PendingChange& pending) {
+    Scene& scene = parts_.scene.scene();
+    ChangeLog& log = parts_.scene.log();
+    if (drop_made(pending)) {
+        return Recorded::no;
+    }
+    if (pending.recorded) {
+        pending.change.set_by(0);  // numbers of viewers are each server's own
+    } else if (pending.change.has_set_light()) {
+        *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
+    } else if (pending.change.has_set_daylight()) {
+        *pending.change.mutable_set_daylight() = resolved(scene, pending.change.set_daylight());
+    }
+    const v1::SceneChanged before = state_of(scene, pending.change);
+    const Recorded recorded = number(pending, before);
+    if (recorded != Recorded::yes) {
+        return recorded;
+    }
+    apply(scene, pending.change);
+    v1::SceneChanged after = state_of(scene, pending.change);
+    after.set_epoch(log.epoch());
+    log.note_states(before, after);
+    set_before(before, pending.change);
+    log.records().tell_beginning(pending.change);
+    if (pending.change.has_set_daylight()) {
+        describe_sky_lights(scene, pending.change.mutable_set_daylight());
+    }
+    return Recorded::yes;
+}
+
+bool ChangeRecorder::fits_scene(const PendingChange& pending) const {
+    return problem_now(pending).code() == v1::Error::CODE_UNSPECIFIED;
+}
+
+/// Of changes that nobody has checked against the scene as it is now that their turn has come.
+v1::Error ChangeRecorder::problem_now(const PendingChange& pending) const {
+    v1::Error problem;
+    if (pending.recorded && pending.stands_for_several()) {
+        problem.set_code(v1::Error::INTERNAL);
+        problem.set_message("it cannot be read");
+    } else if (pending.recorded || pending.again) {
+        problem = problem_of(parts_.scene.scene(), pending.change);
+    }
+    return problem;
+}
+
+void ChangeRecorder::refuse_unfit(const PendingChange& pending) const {
+    const v1::Error problem = problem_now(pending);
+    if (pending.recorded) {  // it keeps its number
+        spdlog::error("change {} of another server does not fit the scene: {}",
+                      pending.change.epoch(), problem.message());
+        static_cast<void>(parts_.scene.log().accept(pending.change, {}, pending.keys));
+    }
+    for (const ClientEvent& request : pending.requests) {
+        parts_.server.reply_error(request, problem.code(), problem.message());
+    }
+}
+
+/// Gives a change its epoch, in the log.
+Recorded ChangeRecorder::number(PendingChange& pending, const v1::SceneChanged& before) {
+    ChangeLog& log = parts_.scene.log();
+    if (pending.recorded) {
+        return log.accept(pending.change, before, pending.keys) ? Recorded::yes : Recorded::no;
+    }
+    sign(pending);
+    const Recorded recorded = log.record(pending.change, before, keys_of(pending));
+    if (recorded == Recorded::no) {
+        some_failed_ = true;
+        for (const ClientEvent& request : pending.requests) {
+            refuse_unsaved(request);
+        }
+    }
+    return recorded;
+}
+
+void ChangeRecorder::refuse_unsaved(const ClientEvent& request) const {
+    const v1::Error error = parts_.scene.log().refusal(not_saved);
+    parts_.server.reply_error(request, error.code(), error.message());
+}
+
+bool ChangeRecorder::answer_made(const ClientEvent& request) const {
+    const v1::SceneChanged* const made =
+        request.message.has_request_key() ? parts_.scene.log().made(request.message.request_key())
+                                          : nullptr;
+    if (made == nullptr) {
+        return false;
+    }
+    v1::ServerMessage message;
+    *message.mutable_scene_changed() = *made;
+    parts_.server.reply(request, message);
+    return true;
+}
+
+/// Answers those requests that another server has carried out meanwhile. True: none is left.
+bool ChangeRecorder::drop_made(PendingChange& pending) const {
+    if (pending.requests.empty()) {
+        return false;
+    }
+    std::erase_if(pending.requests,
+                  [this](const ClientEvent& request) { return answer_made(request); });
+    return pending.requests.empty();
+}
+
+/// Notes in a change who makes it, and when.
+void ChangeRecorder::sign(PendingChange& pending) const {
+    if (!pending.requests.empty()) {
+        pending.change.set_by(pending.requests.back().viewer);
+    }
+    const ViewerSession* const viewer = parts_.viewers.find(pending.change.by());
+    pending.change.set_by_name(viewer == nullptr ? "" : viewer->name());
+    pending.change.set_at_ms(unix_ms());
+}
+
+}  // namespace raybundle

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two servers of one project share its changes and what reviewers leave.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "daemon.h"
+#include "json_viewer.h"
+#include "redis_server.h"
+
+namespace raybundle {
+namespace {
+
+Json light(double intensity) {
+    return {{"setLight", {{"light", 1}, {"intensity", intensity}}}};
+}
+
+Json box_at(double x) {
+    return {{"moveObject",
+             {{"object", kShortBox},
+              {"transform", {{"translation", {{"x", x}, {"y", 0.825}, {"z", 1.7}}}}}}}};
+}
+
+std::uint32_t epoch_of(const Json& answer) {
+    return answer.at("sceneChanged").at("epoch").get<std::uint32_t>();
+}
+
+class TwoServers : public testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_TRUE(one.says("is ready")) << one.output();
+        ASSERT_TRUE(other.says("is ready")) << other.output();
+    }
+
+    std::vector<std::string> options() { return {"--redis", redis.text(), "--project", "box"}; }
+
+    RedisServer redis;
+    Daemon one{scene_file("cornell_box.gltf"), options()};
+    Daemon other{scene_file("cornell_box.gltf"), options()};
+};
+
+TEST_F(TwoServers, AChangeSentToOneArrivesAtTheOther) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    ASSERT_TRUE(here.join().contains("welcome")) << one.output();
+    ASSERT_TRUE(there.join().contains("welcome")) << other.output();
+    EXPECT_EQ(epoch_of(here.request(box_at(2.0))), 1U);
+    Json news = there.next_with("sceneChanged");
+    EXPECT_EQ(epoch_of(news), 1U);
+    EXPECT_EQ(news.at("sceneChanged").at("by"), 0) << "viewers' numbers are each server's own";
+    EXPECT_EQ(news.at("sceneChanged").at("byName"), "test");
+    EXPECT_NEAR(news.at("sceneChanged").at("moveObject").at("transform").at("translation").at("x"),
+                2.0, 1e-6);
+    EXPECT_EQ(epoch_of(there.request(light(500.0))), 2U);
+    EXPECT_EQ(epoch_of(here.next_with("sceneChanged")), 2U);
+    // The pictures of both show it.
+    for (JsonViewer* viewer : {&here, &there}) {
+        EXPECT_FALSE(
+            viewer->next_frame([](const Json& header) { return header.at("epoch") == 2; }).empty());
+    }
+    // An undo at one is one at the other.
+    EXPECT_TRUE(here.request({{"undo", {{"epoch", 1}}}}).contains("ok"));
+    news = there.next_with("sceneChanged");
+    EXPECT_EQ(epoch_of(news), 3U);
+    EXPECT_NEAR(news.at("sceneChanged").at("setLight").at("intensity"), 1355.8, 1.0);
+}
+
+TEST_F(TwoServers, SoDoPinsViewpointsAndLightingScenes) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    here.join();
+    there.join();
+    const Json pin = here.request(
+        {{"addPin", {{"text", "glare"}, {"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}});
+    EXPECT_EQ(pin.at("pinChanged").at("pin"), 1);
+    EXPECT_EQ(there.next_with("pinChanged").at("pinChanged").at("text"), "glare");
+    const Json second = there.request(
+        {{"addPin", {{"text", "dark"}, {"position", {{"x", 2.0}, {"y", 0.0}, {"z", 1.0}}}}}});
+    EXPECT_EQ(second.at("pinChanged").at("pin"), 2) << "no number is given twice";
+    here.request({{"saveLightingScene", {{"name", "evening"}}}});
+    EXPECT_EQ(there.next_with("lightingSceneChanged").at("lightingSceneChanged").at("name"),
+              "evening");
+    EXPECT_TRUE(there.request({{"applyLightingScene", {{"name", "evening"}}}}).contains("ok"));
+    there.request({{"removePin", {{"pin", 1}}}});
+    const Json removed = here.next([](const Json& message) {
+        return message.contains("pinChanged") && message.at("pinChanged").at("removed") == true;
+    });
+    EXPECT_EQ(removed.at("pinChanged").at("pin"), 1);
+    // Who comes later finds all of it.
+    Daemon third(scene_file("cornell_box.gltf"), options());
+    ASSERT_TRUE(third.says("is ready"));
+    JsonViewer late(third.port());
+    const Json welcome = late.join().at("welcome");
+    ASSERT_EQ(welcome.at("pins").size(), 1U);
+    EXPECT_EQ(welcome.at("pins").at(0).at("text"), "dark");
+    EXPECT_EQ(welcome.at("scene").at("lightingScenes").size(), 1U);
+}
+
+TEST_F(TwoServers, WhatIsAskedForAgainUnderItsKeyIsMadeOnce) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    here.join();
+    there.join();
+    Json request = box_at(2.0);
+    request["requestKey"] = "a-1";
+    EXPECT_EQ(epoch_of(here.request(request)), 1U);
+    EXPECT_EQ(epoch_of(there.request(request)), 1U) << "whether it has heard of it or not";
+    EXPECT_EQ(epoch_of(here.request(request)), 1U);
+    EXPECT_EQ(epoch_of(there.request(light(400.0))), 2U);
+}
+
+TEST_F(TwoServers, BothChangeAtATimeAndAgreeInTheEnd) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    here.join();
+    there.join();
+    constexpr int rounds = 10;
+    std::vector<std::uint32_t> epochs;
+    for (int i = 0; i < rounds; ++i) {
+        Json a = box_at(1.5 + 0.05 * i);
+        Json b = light(300.0 + i);
+        a["id"] = 1 + i;
+        b["id"] = 1 + i;
+        here.send(a);
+        there.send(b);
+        epochs.push_back(epoch_of(here.answer_to(static_cast<std::uint32_t>(1 + i))));
+        epochs.push_back(epoch_of(there.answer_to(static_cast<std::uint32_t>(1 + i))));
+    }
+    std::sort(epochs.begin(), epochs.end());
+    for (std::uint32_t i = 0; i < 2 * rounds; ++i) {
+        EXPECT_EQ(epochs[i], i + 1) << "each epoch is of one change";
+    }
+    for (Daemon* daemon : {&one, &other}) {
+        JsonViewer late(daemon->port());
+        // Who was second hears of the last one.
+        Json welcome = late.join().at("welcome");
+        while (welcome.at("epoch") != 2 * rounds) {
+            JsonViewer again(daemon->port());
+            welcome = again.join().at("welcome");
+        }
+        for (const Json& object : welcome.at("scene").at("objects")) {
+            if (object.at("id") == kShortBox) {
+                EXPECT_NEAR(object.at("transform").at("translation").at("x"),
+                            1.5 + 0.05 * (rounds - 1), 1e-5);
+            }
+        }
+        EXPECT_NEAR(welcome.at("scene").at("lights").at(0).at("intensity"), 300.0 + rounds - 1,
+                    1e-3);
+    }
+}
+
+TEST_F(TwoServers, WithoutRedisLookingGoesOnAndChangesAreRefused) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    here.join();
+    there.join();
+    ASSERT_EQ(epoch_of(here.request(light(500.0))), 1U);
+    redis.kill_it();
+    for (const Json& request :
+         {light(600.0),
+          Json{{"addPin", {{"text", "glare"}, {"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}},
+          Json{{"saveLightingScene", {{"name", "evening"}}}}, Json{{"undo", {{"epoch", 0}}}}}) {
+        const Json answer = here.request(request);
+        ASSERT_TRUE(answer.contains("error")) << answer.dump();
+        EXPECT_EQ(answer.at("error").at("code"), "UNAVAILABLE");
+        EXPECT_NE(answer.at("error").at("message").get<std::string>().find("ask again later"),
+                  std::string::npos);
+    }
+    const Json before = here.next_with("solution");
+    EXPECT_EQ(here.next([](const Json& m) {
+                      return m.contains("solution") && m.at("solution").at("saving") == "FAILING";
+                  })
+                  .empty(),
+              false);
+    EXPECT_FALSE(here.next([&](const Json& m) {
+                         return m.contains("solution") &&
+                                m.at("solution").at("iterations") >
+                                    before.at("solution").at("iterations");
+                     })
+                     .empty())
+        << "solving goes on";
+    here.send({{"id", 77},
+               {"setCamera",
+                {{"eye", {{"x", 2.7}, {"y", 2.7}, {"z", -6.0}}},
+                 {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+    EXPECT_FALSE(here.next_frame([](const Json& h) { return h.at("cameraId") == 77; }).empty());
+    redis.start();
+    here.next([](const Json& m) {
+        return m.contains("solution") && m.at("solution").at("saving") == "SAVED";
+    });
+    EXPECT_EQ(epoch_of(here.request(light(700.0))), 2U) << "nothing of what was refused is there";
+    const Json news = there.next([](const Json& m) {
+        return m.contains("sceneChanged") && m.at("sceneChanged").at("epoch") == 2;
+    });
+    EXPECT_NEAR(news.at("sceneChanged").at("setLight").at("intensity"), 700.0, 1e-3);
+}
+
+/// The viewer of the other server in a presence; an empty object where there is none.
+Json peer_in(const Json& message) {
+    constexpr unsigned first_peer = 1U << 20U;
+    if (message.contains("presence")) {
+        for (const Json& viewer : message.at("presence").at("viewers")) {
+            if (viewer.at("viewer") >= first_peer) {
+                return viewer;
+            }
+        }
+    }
+    return {};
+}
+
+TEST_F(TwoServers, ViewersSeeAndFollowThoseOfTheOther) {
+    JsonViewer here(one.port());
+    JsonViewer there(other.port());
+    const Json own = here.join().at("welcome").at("viewer");
+    there.join();
+    const Json peer =
+        peer_in(here.next([](const Json& message) { return !peer_in(message).is_null(); }));
+    ASSERT_TRUE(peer.contains("viewer"));
+    EXPECT_EQ(peer.at("name"), "test");
+    EXPECT_TRUE(here.request({{"follow", {{"viewer", peer.at("viewer")}}}}).contains("ok"));
+    there.request({{"setCamera",
+                    {{"eye", {{"x", 2.7}, {"y", 2.7}, {"z", -6.5}}},
+                     {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+    const Json followed = here.next([&](const Json& message) {
+        if (!message.contains("presence")) {
+            return false;
+        }
+        for (const Json& viewer : message.at("presence").at("viewers")) {
+            if (viewer.at("viewer") == own && viewer.at("eye").at("z") == -6.5) {
+                return true;
+            }
+        }
+        return false;
+    });
+    EXPECT_FALSE(followed.empty()) << "who follows looks where the other one looks";
+    there.request({{"pointAt", {{"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}});
+    EXPECT_EQ(here.next_with("pointed").at("pointed").at("by"), peer.at("viewer"));
+    other.end(SIGKILL);
+    EXPECT_FALSE(here.next([](const Json& message) {
+                         return message.contains("presence") &&
+                                message.at("presence").at("viewers").size() == 1;
+                     })
+                     .empty())
+        << "whose server is gone is gone";
+}
+
+TEST(ClusterStart, ASecretOnTheCommandLineIsNoOption) {
+    for (const char* flag : {"--redis-password", "--redis-user"}) {
+        Daemon daemon(Daemon::Unready{}, scene_file("cornell_box.gltf"), {flag, "secret"});
+        EXPECT_EQ(daemon.wait(), 2);
+    }
+}
+
+TEST(ClusterStart, ASecretInTheFileIsNotPrinted) {
+    const TestFolder folder;
+    folder.write("a.json", R"({"redisPassword": "open sesame", "redisUser": "office"})");
+    Daemon daemon(Daemon::Unready{}, scene_file("cornell_box.gltf"),
+                  {"--config", folder.path("a.json"), "--print-config"});
+    EXPECT_EQ(daemon.wait(), 0);
+    EXPECT_EQ(daemon.output().find("sesame"), std::string::npos) << daemon.output();
+}
+
+}  // namespace
+}  // namespace raybundle
