@@ -22,7 +22,7 @@ namespace raybundle {
 namespace {
 
 constexpr int kKills = 8;
-constexpr int kLeastChanges = 20;  ///< of each client
+constexpr int kChangesBetween = 3;  ///< acknowledged, at least, from one kill to the next
 
 using Ports = std::array<std::atomic<std::uint16_t>, 2>;
 
@@ -31,9 +31,9 @@ class Changer {
   public:
     Changer(int number, const Ports& ports) : number_(number), ports_(ports) {}
 
-    /// Changes until `enough` and some have been made; each again until it is acknowledged.
-    void run(const std::atomic<bool>& enough) {
-        for (int i = 0; i < kLeastChanges || !enough; ++i) {
+    /// Changes until there are `enough`; each again until it is acknowledged.
+    void run(const std::atomic<bool>& enough, std::atomic<int>& made) {
+        for (int i = 0; !enough; ++i) {
             Json request = number_ == 0
                                ? Json{{"setLight", {{"light", 1}, {"intensity", 300.0 + i}}}}
                                : Json{{"moveObject",
@@ -44,6 +44,7 @@ class Changer {
             const std::string key = std::to_string(number_) + "-" + std::to_string(i);
             request["requestKey"] = key;
             acknowledged[key] = epoch_of(request);
+            ++made;
         }
     }
 
@@ -110,11 +111,15 @@ TEST(Chaos, NothingAcknowledgedIsLostOrDoubled) {
     start(1);
     std::atomic<bool> enough{false};
     std::array<Changer, 2> changers{Changer(0, ports), Changer(1, ports)};
-    std::thread first([&] { changers[0].run(enough); });
-    std::thread second([&] { changers[1].run(enough); });
+    std::atomic<int> made{0};
+    std::thread first([&] { changers[0].run(enough, made); });
+    std::thread second([&] { changers[1].run(enough, made); });
     std::mt19937 random(11);
     for (int i = 0; i < kKills; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 700));
+        for (const int before = made; made < before + kChangesBetween;) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 300));
         const std::size_t victim = i % 3;
         if (victim == 2) {
             redis.kill_it();
