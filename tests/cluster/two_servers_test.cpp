@@ -42,8 +42,8 @@ class TwoServers : public testing::Test {
 
 TEST_F(TwoServers, AChangeSentToOneArrivesAtTheOther) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     ASSERT_TRUE(here.join().contains("welcome")) << one.output();
+    JsonViewer there(other.port());
     ASSERT_TRUE(there.join().contains("welcome")) << other.output();
     EXPECT_EQ(epoch_of(here.request(box_at(2.0))), 1U);
     Json news = there.next_with("sceneChanged");
@@ -68,8 +68,8 @@ TEST_F(TwoServers, AChangeSentToOneArrivesAtTheOther) {
 
 TEST_F(TwoServers, SoDoPinsViewpointsAndLightingScenes) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     here.join();
+    JsonViewer there(other.port());
     there.join();
     const Json pin = here.request(
         {{"addPin", {{"text", "glare"}, {"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}});
@@ -99,8 +99,8 @@ TEST_F(TwoServers, SoDoPinsViewpointsAndLightingScenes) {
 
 TEST_F(TwoServers, WhatIsAskedForAgainUnderItsKeyIsMadeOnce) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     here.join();
+    JsonViewer there(other.port());
     there.join();
     Json request = box_at(2.0);
     request["requestKey"] = "a-1";
@@ -112,8 +112,8 @@ TEST_F(TwoServers, WhatIsAskedForAgainUnderItsKeyIsMadeOnce) {
 
 TEST_F(TwoServers, BothChangeAtATimeAndAgreeInTheEnd) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     here.join();
+    JsonViewer there(other.port());
     there.join();
     constexpr int rounds = 10;
     std::vector<std::uint32_t> epochs;
@@ -152,8 +152,8 @@ TEST_F(TwoServers, BothChangeAtATimeAndAgreeInTheEnd) {
 
 TEST_F(TwoServers, WithoutRedisLookingGoesOnAndChangesAreRefused) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     here.join();
+    JsonViewer there(other.port());
     there.join();
     ASSERT_EQ(epoch_of(here.request(light(500.0))), 1U);
     redis.kill_it();
@@ -211,8 +211,8 @@ Json peer_in(const Json& message) {
 
 TEST_F(TwoServers, ViewersSeeAndFollowThoseOfTheOther) {
     JsonViewer here(one.port());
-    JsonViewer there(other.port());
     const Json own = here.join().at("welcome").at("viewer");
+    JsonViewer there(other.port());
     there.join();
     const Json peer =
         peer_in(here.next([](const Json& message) { return !peer_in(message).is_null(); }));
