@@ -2,7 +2,8 @@
 #include "walkthrough/light_chunks.h"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace raybundle {
@@ -14,10 +15,12 @@ using Group = std::vector<std::uint32_t>;
 
 class ChunkBuilder {
   public:
-    ChunkBuilder(const Scene& scene, const PatchMesh& mesh, const VertexLight& light)
+    ChunkBuilder(const Scene& scene, const PatchMesh& mesh, const VertexLight& light,
+                 ChunkGroups cut)
         : scene_(scene),
           mesh_(mesh),
           light_(light),
+          cut_(cut),
           positions_(world_positions(scene, mesh)),
           normals_(world_normals(scene, mesh)),
           local_(mesh.positions.size(), none) {}
@@ -36,19 +39,33 @@ class ChunkBuilder {
         return mesh_.back_side[triangle] != PatchMesh::no_patch;
     }
 
+    [[nodiscard]] std::uint32_t object_of(std::uint32_t triangle) const {
+        return cut_ == ChunkGroups::by_object ? mesh_.vertex_object[mesh_.triangles[triangle].x]
+                                              : 0U;
+    }
+
     [[nodiscard]] std::vector<Group> groups() const {
-        const std::size_t materials = scene_.materials.size();
-        std::vector<Group> groups(2 * materials);
+        std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, Group> groups;
         for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-            groups[2 * mesh_.triangle_material[t] + (two_sided(t) ? 1 : 0)].push_back(t);
+            groups[{mesh_.triangle_material[t], two_sided(t), object_of(t)}].push_back(t);
         }
-        std::erase_if(groups, [](const Group& group) { return group.empty(); });
-        return groups;
+        std::vector<Group> result;
+        result.reserve(groups.size());
+        for (auto& [key, group] : groups) {
+            result.push_back(std::move(group));
+        }
+        return result;
+    }
+
+    [[nodiscard]] bool shines_by_texture(std::uint32_t triangle) const {
+        return cut_ == ChunkGroups::by_object &&
+               scene_.materials[mesh_.triangle_material[triangle]].emission_texture.texture >= 0;
     }
 
     void add(const Group& group) {
         const glm::vec3 emission = mesh_.emission[group.front()];
-        own_emission_ = std::any_of(group.begin(), group.end(),
+        own_emission_ = shines_by_texture(group.front()) ||
+                        std::any_of(group.begin(), group.end(),
                                     [&](std::uint32_t t) { return mesh_.emission[t] != emission; });
         begin(group.front());
         for (const std::uint32_t triangle : group) {
@@ -64,8 +81,12 @@ class ChunkBuilder {
     void begin(std::uint32_t triangle) {
         LightChunk& chunk = chunks_.emplace_back();
         chunk.material = mesh_.triangle_material[triangle];
+        chunk.object = object_of(triangle);
         chunk.two_sided = two_sided(triangle);
         chunk.emission = own_emission_ ? glm::vec3(0.0F) : mesh_.emission[triangle];
+        if (!own_emission_) {
+            chunk.emission_triangles.push_back(triangle);
+        }
     }
 
     void end() {
@@ -86,6 +107,7 @@ class ChunkBuilder {
             chunks_.back().indices.push_back(static_cast<std::uint16_t>(index_of(vertex)));
             if (own_emission_) {
                 chunks_.back().emissions.push_back(mesh_.emission[triangle]);
+                chunks_.back().emission_triangles.push_back(triangle);
             }
         }
     }
@@ -104,6 +126,7 @@ class ChunkBuilder {
 
     void add_vertex(std::uint32_t vertex) {
         LightChunk& chunk = chunks_.back();
+        chunk.vertices.push_back(vertex);
         chunk.positions.push_back(positions_[vertex]);
         chunk.normals.push_back(normals_[vertex]);
         const TextureSlot& slot = scene_.materials[chunk.material].base_colour_texture;
@@ -122,6 +145,7 @@ class ChunkBuilder {
     const Scene& scene_;
     const PatchMesh& mesh_;
     const VertexLight& light_;
+    const ChunkGroups cut_;
     std::vector<glm::vec3> positions_, normals_;
     std::vector<std::uint32_t> local_;  // index in the chunk
     std::vector<std::uint32_t> used_;
@@ -132,8 +156,8 @@ class ChunkBuilder {
 }  // namespace
 
 std::vector<LightChunk> make_light_chunks(const Scene& scene, const PatchMesh& mesh,
-                                          const VertexLight& light) {
-    return ChunkBuilder(scene, mesh, light).build();
+                                          const VertexLight& light, ChunkGroups groups) {
+    return ChunkBuilder(scene, mesh, light, groups).build();
 }
 
 }  // namespace raybundle

@@ -5,16 +5,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <glm/gtc/constants.hpp>
+#include <sstream>
 #include <stdexcept>
-
-#include "scene/light/environment.h"
 
 namespace raybundle {
 
 static_assert(std::endian::native == std::endian::little);
-
-namespace {
 
 std::vector<std::uint32_t> packed_light(std::span<const glm::vec3> values, float scale) {
     std::vector<std::uint32_t> packed(values.size());
@@ -22,6 +20,8 @@ std::vector<std::uint32_t> packed_light(std::span<const glm::vec3> values, float
                    [scale](const glm::vec3& value) { return rgb9e5(scale * value); });
     return packed;
 }
+
+namespace {
 
 float largest(std::span<const glm::vec3> values) {
     float most = 0.0F;
@@ -37,22 +37,35 @@ std::size_t add_values(ArrayFile& file, const std::vector<std::uint32_t>& values
 
 }  // namespace
 
+ArrayFile::ArrayFile() : stream_(std::make_unique<std::ostringstream>(std::ios::binary)) {}
+
 ArrayFile::ArrayFile(const std::filesystem::path& path)
-    : path_(path), stream_(path, std::ios::binary) {}
+    : path_(path), stream_(std::make_unique<std::ofstream>(path, std::ios::binary)) {}
+
+std::string ArrayFile::text() const {
+    return dynamic_cast<const std::ostringstream&>(*stream_).str();
+}
 
 std::size_t ArrayFile::add_bytes(const void* data, std::size_t size) {
     constexpr std::size_t alignment = 4;
     const std::size_t first = bytes_;
     const std::size_t gap = (alignment - size % alignment) % alignment;
-    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
-    stream_.write("\0\0\0", static_cast<std::streamsize>(gap));
+    stream_->write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    stream_->write("\0\0\0", static_cast<std::streamsize>(gap));
     bytes_ += size + gap;
     return first;
 }
 
 void ArrayFile::close() {
-    stream_.close();
-    if (!stream_) {
+    stream_->flush();
+    const auto on_disk = [this] {
+        auto* const file = dynamic_cast<std::ofstream*>(stream_.get());
+        if (file != nullptr) {
+            file->close();
+        }
+        return !stream_->fail();
+    };
+    if (!on_disk()) {
         throw std::runtime_error(path_.string() + ": cannot be written: the disk may be full");
     }
 }
@@ -96,8 +109,17 @@ float light_unit(std::span<const LightChunk> chunks, float most) {
     return most > 0.0F ? std::exp2(std::ceil(std::log2(most)) - 15.0F) : 1.0F;
 }
 
-std::vector<glm::vec3> sky_texels(const Scene& scene) {
-    const Sky sky = sky_of(scene);
+std::optional<SunDisc> sun_disc(const Environment& environment) {
+    if (!environment.draws_sources() || environment.sources().empty()) {
+        return std::nullopt;
+    }
+    const SkySource& sun = environment.sources().front();
+    const float sine = std::max(std::sin(sun.angular_radius), 1e-4F);
+    return SunDisc{glm::vec3(sun.direction), std::sqrt(1.0F - sine * sine),
+                   sun.illuminance / (glm::pi<float>() * sine * sine)};
+}
+
+std::vector<glm::vec3> sky_texels(const Sky& sky) {
     if (!sky.environment) {
         return {};
     }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "walkthrough/scene_manifest.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
-
 #include "scene/light/environment.h"
 #include "scene/mesh/patch_colour.h"
 
@@ -49,6 +45,16 @@ Json material_json(const ManifestParts& parts, std::size_t index) {
             {"unlit", material.unlit}};
 }
 
+Json matrix_json(const glm::mat4& matrix) {
+    Json numbers = Json::array();
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            numbers.push_back(matrix[column][row]);
+        }
+    }
+    return numbers;
+}
+
 Json chunk_json(const LightChunk& chunk, const ChunkPlaces& places) {
     return {{"material", chunk.material},
             {"vertexCount", chunk.positions.size()},
@@ -63,16 +69,14 @@ Json chunk_json(const LightChunk& chunk, const ChunkPlaces& places) {
             {"emissions", to_json(places.emissions)}};
 }
 
-/// The sun as GpuScene::set_background() shows it.
 Json sun_json(const Environment& environment) {
-    if (!environment.draws_sources() || environment.sources().empty()) {
+    const std::optional<SunDisc> sun = sun_disc(environment);
+    if (!sun) {
         return nullptr;
     }
-    const SkySource& sun = environment.sources().front();
-    const float sine = std::max(std::sin(sun.angular_radius), 1e-4F);
-    return {{"direction", to_json(glm::vec3(sun.direction))},
-            {"cosine", std::sqrt(1.0F - sine * sine)},
-            {"radiance", to_json(sun.illuminance / (glm::pi<float>() * sine * sine))}};
+    return {{"direction", to_json(sun->direction)},
+            {"cosine", sun->cosine},
+            {"radiance", to_json(sun->radiance)}};
 }
 
 Json sky_json(const ManifestParts& parts) {
@@ -102,27 +106,39 @@ Json scene_manifest(const ManifestParts& parts) {
     }
     Json chunks = Json::array();
     for (std::size_t i = 0; i < parts.chunks.size(); ++i) {
-        chunks.push_back(chunk_json(parts.chunks[i], parts.places[i]));
+        Json& chunk = chunks.emplace_back(chunk_json(parts.chunks[i], parts.places[i]));
+        if (parts.live) {
+            chunk["object"] = parts.chunks[i].object;
+            chunk["emissionAt"] = to_json(parts.places[i].emission);
+        }
     }
-    return {{"format", "raybundle-walkthrough"},
-            {"version", format_version},
-            {"name", parts.scene.name},
-            {"solve", parts.solve},
-            {"geometry", {{"file", "geometry.bin"}, {"bytes", parts.geometry_bytes}}},
-            {"light",
-             {{"file", "light.bin"}, {"bytes", parts.light_bytes}, {"unit", parts.light_unit}}},
-            {"grid", {{"origin", to_json(parts.grid.origin)}, {"step", to_json(parts.grid.step)}}},
-            {"bounds", bounds_json(parts.scene.bounds)},
-            {"cameras", list(parts.scene.cameras, camera_json)},
-            {"sky", sky_json(parts)},
-            {"materials", materials},
-            {"textures", list(parts.written,
-                              [](const WrittenTexture& texture) {
-                                  return Json{{"file", texture.file},
-                                              {"repeatU", texture.repeat_u},
-                                              {"repeatV", texture.repeat_v}};
-                              })},
-            {"chunks", chunks}};
+    Json manifest = {
+        {"format", "raybundle-walkthrough"},
+        {"version", format_version},
+        {"name", parts.scene.name},
+        {"solve", parts.solve},
+        {"geometry", {{"file", "geometry.bin"}, {"bytes", parts.geometry_bytes}}},
+        {"light",
+         {{"file", "light.bin"}, {"bytes", parts.light_bytes}, {"unit", parts.light_unit}}},
+        {"grid", {{"origin", to_json(parts.grid.origin)}, {"step", to_json(parts.grid.step)}}},
+        {"bounds", bounds_json(parts.scene.bounds)},
+        {"cameras", list(parts.scene.cameras, camera_json)},
+        {"sky", sky_json(parts)},
+        {"materials", materials},
+        {"textures", list(parts.written,
+                          [](const WrittenTexture& texture) {
+                              return Json{{"file", texture.file},
+                                          {"repeatU", texture.repeat_u},
+                                          {"repeatV", texture.repeat_v}};
+                          })},
+        {"chunks", chunks}};
+    if (parts.live) {
+        manifest["light"]["file"] = nullptr;
+        manifest["objects"] = list(parts.scene.objects, [](const Object& object) {
+            return Json{{"worldFromObject", matrix_json(object.world_from_object())}};
+        });
+    }
+    return manifest;
 }
 
 }  // namespace raybundle

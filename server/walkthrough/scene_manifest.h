@@ -5,18 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "scene/light/environment.h"
 #include "walkthrough/scene_binary.h"
+#include "walkthrough/scene_textures.h"
 
 namespace raybundle {
-
-/// A texture in the folder.
-struct WrittenTexture {
-    std::string file;
-    bool repeat_u = true, repeat_v = true;
-};
 
 /// What scene.json describes.
 struct ManifestParts {
@@ -31,6 +26,7 @@ struct ManifestParts {
     std::optional<std::size_t> sky{};  ///< in the light
     std::size_t geometry_bytes = 0, light_bytes = 0;
     nlohmann::ordered_json solve{};  ///< how the light was found, for people
+    bool live = false;  ///< light and sky come apart; chunks have objects, which can be moved
 };
 
 /// The description that the page begins with; its version is that of client_web/walkthrough.

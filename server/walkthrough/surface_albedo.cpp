@@ -54,30 +54,39 @@ AlbedoRow glass_row(const SpecularSurface& glass) {
     return row;
 }
 
+std::optional<AlbedoRow> row_of(const Scene& scene, std::size_t index,
+                                const std::vector<glm::vec2>& details) {
+    const Material material = with_all_lobes(scene.materials[index]);
+    if (material.unlit) {
+        return std::nullopt;
+    }
+    if (is_glass(material)) {
+        return glass_row(specular_surface(material, mean_base_colour(scene, material)));
+    }
+    const bool own = !details.empty() && material.metallic_roughness_texture.texture >= 0;
+    const ReflectanceModel model =
+        own ? reflectance_model(material, details[index]) : reflectance_model(material);
+    return model.lobe.kind != LobeKind::none ? std::optional(row_of(model)) : std::nullopt;
+}
+
+std::vector<glm::vec2> details_of(const Scene& scene, const PatchMesh& mesh) {
+    return mesh.metallic_roughness.empty() ? std::vector<glm::vec2>() : mean_details(scene, mesh);
+}
+
 }  // namespace
 
 std::vector<std::optional<AlbedoRow>> surface_albedos(const Scene& scene, const PatchMesh& mesh) {
-    const bool textured = !mesh.metallic_roughness.empty();
-    const std::vector<glm::vec2> details =
-        textured ? mean_details(scene, mesh) : std::vector<glm::vec2>();
+    const std::vector<glm::vec2> details = details_of(scene, mesh);
     std::vector<std::optional<AlbedoRow>> rows(scene.materials.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Material material = with_all_lobes(scene.materials[i]);
-        if (material.unlit) {
-            continue;
-        }
-        if (is_glass(material)) {
-            rows[i] = glass_row(specular_surface(material, mean_base_colour(scene, material)));
-            continue;
-        }
-        const bool own = textured && material.metallic_roughness_texture.texture >= 0;
-        const ReflectanceModel model =
-            own ? reflectance_model(material, details[i]) : reflectance_model(material);
-        if (model.lobe.kind != LobeKind::none) {
-            rows[i] = row_of(model);
-        }
+        rows[i] = row_of(scene, i, details);
     }
     return rows;
+}
+
+std::optional<AlbedoRow> surface_albedo(const Scene& scene, const PatchMesh& mesh,
+                                        std::size_t material) {
+    return row_of(scene, material, details_of(scene, mesh));
 }
 
 glm::vec3 transparency(const Scene& scene, std::size_t material) {

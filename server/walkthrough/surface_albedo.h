@@ -26,6 +26,10 @@ constexpr float albedo_cosine(std::size_t entry) {
 /// metalness of textures are their means over the surface.
 std::vector<std::optional<AlbedoRow>> surface_albedos(const Scene& scene, const PatchMesh& mesh);
 
+/// The same of one material.
+std::optional<AlbedoRow> surface_albedo(const Scene& scene, const PatchMesh& mesh,
+                                        std::size_t material);
+
 /// Share of the light that passes a pane, or one boundary of a body of glass, straight on, at
 /// normal incidence; half of what the body's mean chord absorbs counts for each of its boundaries.
 /// 0 where a material is no glass.

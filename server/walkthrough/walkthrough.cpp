@@ -2,19 +2,18 @@
 #include "walkthrough/walkthrough.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/light/environment.h"
-#include "scene/mesh/patch_colour.h"
 #include "walkthrough/baked_gltf.h"
 #include "walkthrough/page_files.h"
 #include "walkthrough/scene_manifest.h"
+#include "walkthrough/scene_textures.h"
 #include "walkthrough/texture_images.h"
 
 namespace raybundle {
 
 namespace {
-
-constexpr int most_texels = 1024;  // along an edge: a metre of wall, 1 mm a texel
 
 /// Writes one walkthrough.
 class Writer {
@@ -74,32 +73,15 @@ class Writer {
         return bounds;
     }
 
-    /// Each texture once, but once more where only some of its materials have holes.
     std::vector<TextureImage> write_textures(ManifestParts& parts) {
-        const Scene& scene = solved_.scene;
-        std::vector<TextureImage> images;
-        std::vector<std::optional<std::size_t>> known(2 * scene.textures.size());
-        for (const Material& material : scene.materials) {
-            std::optional<std::size_t>& own = parts.textures.emplace_back();
-            if (material.base_colour_texture.texture < 0) {
-                continue;
-            }
-            const auto index = static_cast<std::size_t>(material.base_colour_texture.texture);
-            const bool alpha = texture_alpha_cutoff(material).has_value();
-            std::optional<std::size_t>& written = known[2 * index + (alpha ? 1 : 0)];
-            if (!written) {
-                written = images.size();
-                images.push_back(texture_image(scene.textures[index], alpha, most_texels));
-                const std::string file =
-                    "textures/" + std::to_string(*written) + (images.back().png ? ".png" : ".jpg");
-                write_bytes(folder_.file(file), images.back().bytes);
-                sizes_.textures += images.back().bytes.size();
-                parts.written.push_back(
-                    {file, scene.textures[index].repeat_u, scene.textures[index].repeat_v});
-            }
-            own = written;
+        SceneTextures textures = scene_textures(solved_.scene);
+        for (std::size_t i = 0; i < textures.images.size(); ++i) {
+            write_bytes(folder_.file(textures.written[i].file), textures.images[i].bytes);
+            sizes_.textures += textures.images[i].bytes.size();
         }
-        return images;
+        parts.textures = std::move(textures.of_materials);
+        parts.written = std::move(textures.written);
+        return std::move(textures.images);
     }
 
     void write_geometry(ManifestParts& parts) {
@@ -120,7 +102,7 @@ class Writer {
 
     void write_light(ManifestParts& parts) {
         ArrayFile file(folder_.file("light.bin"));
-        const std::vector<glm::vec3> sky = sky_texels(solved_.scene);
+        const std::vector<glm::vec3> sky = sky_texels(sky_of(solved_.scene));
         float most = 0.0F;
         for (const glm::vec3& texel : sky) {
             most = std::max({most, texel.r, texel.g, texel.b});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "walkthrough/light_stream.h"
+#include "walkthrough/live/light_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "walkthrough/light_block_code.h"
+#include "walkthrough/live/light_block_code.h"
 #include "walkthrough/quantise.h"
 
 namespace raybundle {
@@ -125,7 +125,7 @@ TEST(LightStream, WhoComesInHasTheLightToItsQuantisation) {
     Copy copy(row.stream);
     const auto message = follower.next(row.stream, {}, wide_open);
     ASSERT_TRUE(message.has_value());
-    EXPECT_EQ(copy.take(row.stream, message->bytes).size(), 10U);
+    EXPECT_EQ(copy.take(row.stream, *message->bytes).size(), 10U);
     EXPECT_LT(error_of(copy, row.light), 1.0F / 256.0F);
     EXPECT_FALSE(follower.next(row.stream, {}, wide_open).has_value());
 }
@@ -151,6 +151,37 @@ TEST(LightStream, OneEncodingServesAll) {
     EXPECT_EQ(row.stream.encodings(), 30U);
 }
 
+TEST(LightStream, WhoIsEquallyFarGetsTheVerySameMessage) {
+    Row row;
+    LightFollower early, late;
+    const auto snapshot = early.next(row.stream, {}, wide_open);
+    row.publish(2.0F, 900);
+    const auto change = early.next(row.stream, {}, wide_open);
+    Copy copy(row.stream);
+    copy.take(row.stream, *snapshot->bytes);
+    EXPECT_EQ(copy.take(row.stream, *change->bytes), std::vector<std::size_t>{9});
+    EXPECT_LT(error_of(copy, row.light), 1.0F / 256.0F);
+    // Who comes late has nothing of before, and is as far as the other one then.
+    Copy other(row.stream);
+    EXPECT_EQ(other.take(row.stream, *late.next(row.stream, {}, wide_open)->bytes).size(), 10U);
+    row.publish(3.0F, 500);
+    EXPECT_EQ(early.next(row.stream, {}, wide_open)->bytes,
+              late.next(row.stream, {}, wide_open)->bytes);
+}
+
+TEST(LightStream, WhatHasChangedMoreComesFirst) {
+    Row row;
+    LightFollower follower;
+    ASSERT_TRUE(follower.next(row.stream, {}, wide_open).has_value());
+    row.publish(1.1F);
+    row.publish(4.0F, 900);
+    Copy copy(row.stream);
+    // Far away all are about as large.
+    const LightView view{{50.0F, 0.0F, 5000.0F}, {0.0F, 0.0F, -1.0F}, 0.6F};
+    const auto message = follower.next(row.stream, view, wide_open);
+    EXPECT_EQ(copy.take(row.stream, *message->bytes).front(), 9U);
+}
+
 TEST(LightStream, WhoAcknowledgesNothingGetsAWindowAndNoMore) {
     Row row;
     LightFollower follower;
@@ -167,10 +198,10 @@ TEST(LightStream, WhoAcknowledgesNothingGetsAWindowAndNoMore) {
     // Then he gets the newest light, and nothing of what he has missed.
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < sent.size(); ++i) {
-        copy.take(row.stream, sent[i].bytes);
+        copy.take(row.stream, *sent[i].bytes);
         follower.acknowledge(sent[i].number);
         if (auto message = follower.next(row.stream, {}, window)) {
-            bytes += message->bytes.size();
+            bytes += message->bytes->size();
             sent.push_back(std::move(*message));
         }
     }
@@ -185,7 +216,7 @@ TEST(LightStream, AWindowSmallerThanABlockStillMovesOn) {
     Copy copy(row.stream);
     int messages = 0;
     while (const auto message = follower.next(row.stream, {}, 1)) {
-        EXPECT_EQ(copy.take(row.stream, message->bytes).size(), 1U);
+        EXPECT_EQ(copy.take(row.stream, *message->bytes).size(), 1U);
         EXPECT_FALSE(follower.next(row.stream, {}, 1).has_value());
         follower.acknowledge(message->number + 5);  // not sent yet
         EXPECT_FALSE(follower.next(row.stream, {}, 1).has_value());
@@ -198,13 +229,14 @@ TEST(LightStream, AWindowSmallerThanABlockStillMovesOn) {
 
 TEST(LightStream, WhatIsSeenComesFirst) {
     Row row;
+    row.publish(2.0F);
     LightFollower follower;
     Copy copy(row.stream);
     // Between block 3 and block 4, looking along the row.
     const LightView view{{40.0F, 2.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, 0.6F};
     const auto message = follower.next(row.stream, view, wide_open);
     ASSERT_TRUE(message.has_value());
-    const std::vector<std::size_t> order = copy.take(row.stream, message->bytes);
+    const std::vector<std::size_t> order = copy.take(row.stream, *message->bytes);
     ASSERT_EQ(order.size(), 10U);
     const auto rank = [&](std::size_t block) {
         return std::find(order.begin(), order.end(), block) - order.begin();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "walkthrough/light_stream.h"
+#include "walkthrough/live/light_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "walkthrough/light_block_code.h"
+#include "walkthrough/live/light_block_code.h"
 #include "walkthrough/quantise.h"
 
 namespace raybundle {
@@ -44,6 +44,30 @@ std::pair<bool, float> seen(const LightBlock& block, const LightView& view) {
     return {std::acos(cosine) <= view.half_angle + half_size, 0.5F * (1.0F - std::cos(half_size))};
 }
 
+/// Blocks as LightMessage has them.
+class BlockMessage {
+  public:
+    void add(std::size_t block, const std::string& code) {
+        append(blocks_, block);
+        append(blocks_, code.size());
+        blocks_ += code;
+        ++count_;
+    }
+    [[nodiscard]] std::size_t size_with(const std::string& code) const {
+        constexpr std::size_t head = 8;  // of a block, bytes
+        return sizeof(std::uint32_t) + blocks_.size() + head + code.size();
+    }
+    [[nodiscard]] std::shared_ptr<const std::string> finish() const {
+        std::string bytes;
+        append(bytes, count_);
+        return std::make_shared<const std::string>(bytes + blocks_);
+    }
+
+  private:
+    std::string blocks_;
+    std::size_t count_ = 0;
+};
+
 }  // namespace
 
 std::vector<LightBlock> cut_into_blocks(std::span<const glm::vec3> positions, std::size_t count) {
@@ -70,21 +94,23 @@ LightStream::LightStream(std::vector<LightBlock> blocks)
     published_.resize(values);
 }
 
-bool LightStream::looks_otherwise(const LightBlock& block, std::span<const std::uint32_t> values,
+/// 0: it looks the same.
+float LightStream::visible_change(const LightBlock& block, std::span<const std::uint32_t> values,
                                   float faint) const {
+    float most = 0.0F;
     for (std::size_t i = block.first; i < block.first + block.count; ++i) {
         if (values[i] == published_[i]) {
             continue;
         }
         const glm::vec3 before = from_rgb9e5(published_[i]);
         const glm::vec3 now = from_rgb9e5(values[i]);
-        const float least =
-            std::max(visible_share * std::max(largest(before), largest(now)), faint);
-        if (largest(glm::abs(now - before)) >= least) {
-            return true;
+        const float brightness = std::max(largest(before), largest(now));
+        const float step = largest(glm::abs(now - before));
+        if (step >= std::max(visible_share * brightness, faint)) {
+            most = std::max(most, step / brightness);
         }
     }
-    return false;
+    return most;
 }
 
 std::size_t LightStream::publish(std::span<const std::uint32_t> values) {
@@ -100,14 +126,21 @@ std::size_t LightStream::publish(std::span<const std::uint32_t> values) {
     std::size_t changed = 0;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const LightBlock& block = blocks_[b];
-        if (states_[b].version > 0 && !looks_otherwise(block, values, faint)) {
+        State& state = states_[b];
+        const float change = state.version == 0 ? 1.0F : visible_change(block, values, faint);
+        if (change == 0.0F) {
             continue;
         }
         const auto own = values.subspan(block.first, block.count);
         std::copy(own.begin(), own.end(),
                   published_.begin() + static_cast<std::ptrdiff_t>(block.first));
-        ++states_[b].version;
+        state.version = publication_ + 1;
+        state.change = std::min(change, 1.0F);
         ++changed;
+    }
+    if (changed > 0) {
+        ++publication_;
+        last_changes_.reset();
     }
     return changed;
 }
@@ -123,45 +156,78 @@ const std::string& LightStream::code(std::size_t block) {
     return state.code;
 }
 
+std::shared_ptr<const std::string> LightStream::last_changes() {
+    if (!last_changes_) {
+        BlockMessage message;
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            if (states_[b].version == publication_) {
+                message.add(b, code(b));
+            }
+        }
+        last_changes_ = message.finish();
+    }
+    return last_changes_;
+}
+
+LightMessage LightFollower::send(std::shared_ptr<const std::string> bytes) {
+    LightMessage message{++last_number_, std::move(bytes)};
+    sent_.push_back({message.number, message.bytes->size()});
+    in_flight_ += message.bytes->size();
+    return message;
+}
+
 std::optional<LightMessage> LightFollower::next(LightStream& stream, const LightView& view,
                                                 std::size_t window) {
-    if (in_flight_ >= window && in_flight_ > 0) {
+    const std::uint32_t newest = stream.publication();
+    if (complete_ == newest || (in_flight_ >= window && in_flight_ > 0)) {
         return std::nullopt;
     }
-    versions_.resize(stream.blocks().size());
+    if (complete_ && *complete_ + 1 == newest) {
+        if (auto changes = stream.last_changes(); in_flight_ + changes->size() <= window) {
+            complete_ = newest;
+            return send(std::move(changes));
+        }
+    }
+    if (complete_) {
+        versions_.resize(stream.blocks().size());
+        for (std::size_t b = 0; b < versions_.size(); ++b) {
+            versions_[b] = std::min(stream.version(b), *complete_);
+        }
+        complete_.reset();
+    }
+    auto bytes = most_wanted(stream, view, window);
+    return bytes ? std::optional(send(std::move(bytes))) : std::nullopt;
+}
+
+/// Null where there is no room for any.
+std::shared_ptr<const std::string> LightFollower::most_wanted(LightStream& stream,
+                                                              const LightView& view,
+                                                              std::size_t window) {
     std::vector<std::pair<std::pair<bool, float>, std::size_t>> stale;
     for (std::size_t b = 0; b < versions_.size(); ++b) {
         if (versions_[b] != stream.version(b)) {
-            stale.push_back({seen(stream.blocks()[b], view), b});
+            auto [visible, cover] = seen(stream.blocks()[b], view);
+            stale.push_back({{visible, cover * stream.change(b)}, b});
         }
     }
     std::stable_sort(stale.begin(), stale.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    constexpr std::size_t head = 8;  // of a block, bytes
-    LightMessage message;
-    std::size_t count = 0;
-    std::string blocks;
+    BlockMessage message;
+    std::size_t sent = 0;
     for (const auto& [visibility, b] : stale) {
         const std::string& code = stream.code(b);
-        const std::size_t size = sizeof(std::uint32_t) + blocks.size() + head + code.size();
-        if (in_flight_ + size > window && (count > 0 || in_flight_ > 0)) {
+        if (in_flight_ + message.size_with(code) > window && (sent > 0 || in_flight_ > 0)) {
             break;
         }
-        append(blocks, b);
-        append(blocks, code.size());
-        blocks += code;
+        message.add(b, code);
         versions_[b] = stream.version(b);
-        ++count;
+        ++sent;
     }
-    if (count == 0) {
-        return std::nullopt;
+    if (sent == stale.size()) {
+        complete_ = stream.publication();
+        versions_ = {};
     }
-    append(message.bytes, count);
-    message.bytes += blocks;
-    message.number = ++last_number_;
-    sent_.push_back({message.number, message.bytes.size()});
-    in_flight_ += message.bytes.size();
-    return message;
+    return sent > 0 ? message.finish() : nullptr;
 }
 
 void LightFollower::acknowledge(std::uint32_t number) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "walkthrough/light_block_code.h"
+#include "walkthrough/live/light_block_code.h"
 
 #include <zlib.h>
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,10 +25,10 @@ struct LightBlock {
 /// Cuts values, one for each position, into blocks of so many in a row.
 std::vector<LightBlock> cut_into_blocks(std::span<const glm::vec3> positions, std::size_t count);
 
-/// The light as it was published last. Each block has a version and one encoding of it, which
-/// serves all viewers: a block is sent as it is, never as a change of what a viewer had, so that of
-/// a viewer no more is known than the versions that he has, and who is late skips what lies
-/// between.
+/// The light as it was published last. Each block has a version, the number of the publication
+/// that changed it last, and one encoding of it, which serves all viewers: a block is sent as it
+/// is, never as a change of what a viewer had, so that of a viewer no more is known than the
+/// versions that he has, and who is late skips what lies between.
 class LightStream {
   public:
     explicit LightStream(std::vector<LightBlock> blocks);
@@ -38,26 +39,36 @@ class LightStream {
     std::size_t publish(std::span<const std::uint32_t> values);
 
     [[nodiscard]] std::span<const LightBlock> blocks() const { return blocks_; }
+    /// How often something has been published that looks otherwise.
+    [[nodiscard]] std::uint32_t publication() const { return publication_; }
     /// 0: not yet published.
     [[nodiscard]] std::uint32_t version(std::size_t block) const { return states_[block].version; }
+    /// How much the block changed then: its largest step over what it was or is, 0 to 1.
+    [[nodiscard]] float change(std::size_t block) const { return states_[block].change; }
     /// Of the present version, as encode_light_block().
     [[nodiscard]] const std::string& code(std::size_t block);
+    /// All that the last publication changed, as LightMessage has it: one for all who had what was
+    /// before.
+    [[nodiscard]] std::shared_ptr<const std::string> last_changes();
     /// Blocks that have been encoded so far.
     [[nodiscard]] std::uint64_t encodings() const { return encodings_; }
 
   private:
     struct State {
         std::uint32_t version = 0;
+        float change = 1.0F;
         std::uint32_t encoded = 0;  ///< version of `code`
         std::string code;
     };
 
-    [[nodiscard]] bool looks_otherwise(const LightBlock& block,
+    [[nodiscard]] float visible_change(const LightBlock& block,
                                        std::span<const std::uint32_t> values, float faint) const;
 
     std::vector<LightBlock> blocks_;
     std::vector<State> states_;
     std::vector<std::uint32_t> published_;
+    std::uint32_t publication_ = 0;
+    std::shared_ptr<const std::string> last_changes_;
     std::uint64_t encodings_ = 0;
 };
 
@@ -72,16 +83,16 @@ struct LightView {
 /// bits, little-endian, then the code.
 struct LightMessage {
     std::uint32_t number = 0;  ///< to be acknowledged
-    std::string bytes;
+    std::shared_ptr<const std::string> bytes;
 };
 
 /// What one viewer has: who comes late has nothing, and gets all.
 class LightFollower {
   public:
     /// What is to be sent now: new versions of blocks, those in the picture first, and of these
-    /// what covers most of it. Nothing where he has all, or has yet to acknowledge `window` bytes.
-    /// Without any in flight a message has one block at least; otherwise what is in flight never
-    /// exceeds the window.
+    /// what covers most of it and has changed most. Nothing where he has all, or has yet to
+    /// acknowledge `window` bytes. Without any in flight a message has one block at least;
+    /// otherwise what is in flight never exceeds the window.
     std::optional<LightMessage> next(LightStream& stream, const LightView& view,
                                      std::size_t window);
     /// He has this message and all before it. Unknown numbers are ignored.
@@ -94,7 +105,13 @@ class LightFollower {
         std::size_t bytes;
     };
 
-    std::vector<std::uint32_t> versions_;  // of blocks; shorter: nothing
+    LightMessage send(std::shared_ptr<const std::string> bytes);
+    [[nodiscard]] std::shared_ptr<const std::string> most_wanted(LightStream& stream,
+                                                                 const LightView& view,
+                                                                 std::size_t window);
+
+    std::optional<std::uint32_t> complete_ = 0;  // he has all of this publication
+    std::vector<std::uint32_t> versions_;        // otherwise: of blocks
     std::deque<Sent> sent_;
     std::size_t in_flight_ = 0;
     std::uint32_t last_number_ = 0;
