@@ -8,6 +8,7 @@
 #include <string>
 
 #include "net/access/gate.h"
+#include "net/http/content_store.h"
 #include "net/http/snapshot_store.h"
 #include "net/http/upload.h"
 #include "net/server_settings.h"
@@ -38,6 +39,7 @@ struct NetworkState {
     ViewerTable viewers;
     NetworkCounters counters;
     SnapshotStore snapshots;
+    ContentStore contents;
     std::atomic<bool> ready{false};
 
     void set_metrics_source(std::function<std::string()> source);

@@ -143,6 +143,21 @@ void Server::send_frame(ViewerId viewer, const v1::FrameHeader& header,
     impl_->network.wake();
 }
 
+void Server::send_light(ViewerId viewer, const v1::LightHeader& header, std::string_view blocks) {
+    if (const auto link = impl_->state.viewers.find(viewer)) {
+        link->send_light(header, blocks);
+        impl_->network.wake();
+    }
+}
+
+LightAcks& Server::light_acks() {
+    return impl_->state.viewers.light_acks();
+}
+
+std::string Server::keep_content(std::string_view kind, ContentStore::Files files) {
+    return impl_->state.contents.add(kind, std::move(files));
+}
+
 void Server::set_access(Access access) {
     impl_->state.gate.set_access(std::move(access));
     impl_->network.recheck_passes();

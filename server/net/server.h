@@ -9,10 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "net/http/content_store.h"
 #include "net/http/upload.h"
 #include "net/server_settings.h"
 #include "net/ws/client_event.h"
 #include "net/ws/inbox.h"
+#include "net/ws/light_acks.h"
 
 namespace raybundle {
 
@@ -78,6 +80,17 @@ class Server {
     /// Sends a frame. One frame waits at most: a newer one replaces it.
     void send_frame(ViewerId viewer, const v1::FrameHeader& header,
                     const std::vector<std::uint8_t>& image);
+
+    /// Sends a message of light: blocks as LightMessage has them. The caller sees to it that few
+    /// bytes are not acknowledged.
+    void send_light(ViewerId viewer, const v1::LightHeader& header, std::string_view blocks);
+
+    /// Which messages of light have been acknowledged.
+    LightAcks& light_acks();
+
+    /// Serves files under a path that is a hash of them, e.g. "/light/9f...e1/"; the newest two
+    /// folders of a kind stay. Takes long.
+    std::string keep_content(std::string_view kind, ContentStore::Files files);
 
     /// Replaces tokens and origins. Viewers whose token is gone or means something else now are
     /// closed.

@@ -24,7 +24,7 @@ namespace raybundle {
 /// What FramePolicy has to know of a viewer.
 struct ViewerLoad {
     ViewerId viewer = 0;
-    bool has_picture = false;    ///< of its own
+    bool has_picture = false;    ///< of its own, which it does not draw by itself now
     bool moving = false;         ///< its picture changes
     bool paused = false;         ///< nobody seems to look
     double pixels = 0.0;         ///< of its full picture

@@ -56,7 +56,10 @@ struct ChangeSettings {
 
 /// When a viewer counts as moving or away, and how often its picture is worth a frame or a look.
 struct ViewerPaceSettings {
-    double moving_s = 0.4;                ///< after its last change a viewer counts as moving
+    double moving_s = 0.4;  ///< after its last change a viewer counts as moving
+    /// The same for one whose page draws by itself meanwhile: it sends a camera with each of its
+    /// frames, which are 133 ms apart where every second one is late at 15 a second.
+    double drawn_rest_s = 0.15;
     double moving_interval_s = 0.016;     ///< between frames of a picture that has changed
     double refining_share = 0.1;          ///< between frames of one that refines: of its age
     double min_refining_s = 0.1;          ///< but never less than this

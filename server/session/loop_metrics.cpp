@@ -70,6 +70,11 @@ std::string LoopMetrics::text() const {
     out.counter("raybundle_frames_total", "Frames encoded", static_cast<double>(frames_));
     out.counter("raybundle_frame_bytes_total", "Bytes of encoded frames",
                 static_cast<double>(frame_bytes_));
+    out.gauge("raybundle_light_viewers", "Viewers that get light to draw by themselves",
+              static_cast<double>(light_viewers_));
+    out.counter("raybundle_light_messages_total", "Messages of light",
+                static_cast<double>(light_messages_));
+    out.counter("raybundle_light_bytes_total", "Bytes of light", static_cast<double>(light_bytes_));
     out.counter("raybundle_non_finite_total", "Contributions dropped because not finite",
                 static_cast<double>(f.non_finite));
     out.gauge("raybundle_gl_memory_bytes", "OpenGL buffers and textures",

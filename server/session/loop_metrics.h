@@ -31,6 +31,12 @@ struct LoopFigures {
 class LoopMetrics {
   public:
     void count_frame(std::size_t bytes);
+    /// A message of light; any thread.
+    void count_light(std::size_t bytes) {
+        ++light_messages_;
+        light_bytes_ += bytes;
+    }
+    void set_light_viewers(std::size_t viewers) { light_viewers_ = viewers; }
     void count_turn() { ++turns_; }
     void count_refused_viewer() { ++refused_; }
     void count_phase() { ++phases_; }  ///< special iteration phases begun
@@ -50,6 +56,7 @@ class LoopMetrics {
     };
 
     std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0}, phases_{0}, turns_{0};
+    std::atomic<std::uint64_t> light_messages_{0}, light_bytes_{0}, light_viewers_{0};
     mutable std::mutex mutex_;
     Steps perspective_, layered_, special_;
     LoopFigures figures_;

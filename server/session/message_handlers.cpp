@@ -22,6 +22,7 @@ constexpr MessageHandler handlers[] = {
     {Body::kSetDisplay, call<&S::views, &ViewService::set_display>},
     {Body::kSetDepths, call<&S::views, &ViewService::set_depths>},
     {Body::kSetHidden, call<&S::views, &ViewService::set_hidden>},
+    {Body::kSetDrawing, call<&S::light, &LightService::set_drawing>},
     {Body::kSetTarget, call<&S::views, &ViewService::set_target>},
     {Body::kGetWalkMap, call<&S::views, &ViewService::get_walk_map>},
     {Body::kFollow, call<&S::presence, &PresenceService::follow>},

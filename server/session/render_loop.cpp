@@ -53,6 +53,7 @@ bool RenderLoop::turn() {
     send_solutions();
     services_.presence.hear_peers();
     services_.presence.send();
+    services_.light.step();
     services_.errors.check_pictures();
     services_.measurements.step();
     const bool smoothed = services_.frames.smooth();

@@ -16,7 +16,8 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
               s.server, s.metrics, settings.lost_after_change}),
       frames({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
       presence({s.viewers, s.policy, s.live.log(), s.server}),
-      views({s.live, presence, s.policy, s.server}),
+      light({s.live, s.policy.clock(), s.policy.settings().viewers, s.server, s.metrics}),
+      views({s.live, presence, light, s.policy, s.server}),
       admission({s.viewers, s.policy, s.server, settings.software_rendering}),
       probes({s.live, s.pictures, s.server}),
       measurements({s.live, s.policy, s.server}),
@@ -29,6 +30,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 review,
                 lighting.scenes(),
                 presence,
+                light,
                 s.server,
                 s.metrics,
                 {settings.renderer, settings.software_rendering,
@@ -44,6 +46,7 @@ void SessionServices::forget(SessionState& state, ViewerId viewer) {
     state.pictures.forget(state.viewers.at(viewer));
     state.viewers.erase(viewer);
     presence.forget(viewer);
+    light.forget(viewer);
 }
 
 }  // namespace raybundle

@@ -4,6 +4,7 @@
 #include "session/changes/change_coordinator.h"
 #include "session/changes/lighting_service.h"
 #include "session/changes/project_follower.h"
+#include "session/light/light_service.h"
 #include "session/measure/error_service.h"
 #include "session/measure/measure_service.h"
 #include "session/measure/probe_service.h"
@@ -39,6 +40,7 @@ struct SessionServices {
     SolverDriver solver;
     FrameDispatcher frames;
     PresenceService presence;
+    LightService light;
     ViewService views;
     ViewerAdmission admission;
     ProbeService probes;

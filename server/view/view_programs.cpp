@@ -72,6 +72,10 @@ Defines vertex_defines(const GpuScene& scene, const Defines& variant) {
 
 }  // namespace
 
+std::vector<std::string> patch_light_defines(const GpuScene& scene) {
+    return vertex_defines(scene, {patches_macro});
+}
+
 ViewPrograms::ViewPrograms(const GpuScene& scene, PixelLight shown)
     : ViewPrograms(scene, variant_of(shown)) {
     if (scene.specular_rays() != nullptr) {

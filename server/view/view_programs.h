@@ -19,6 +19,9 @@ namespace raybundle {
 /// over vertices.
 enum class PixelLight { gathered, patches };
 
+/// Macros of view_vertex_irradiance.comp for all light that patches have.
+std::vector<std::string> patch_light_defines(const GpuScene& scene);
+
 /// Programs that all viewers share.
 struct ViewPrograms {
     explicit ViewPrograms(const GpuScene& scene, PixelLight shown = PixelLight::gathered);

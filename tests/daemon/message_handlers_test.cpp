@@ -13,7 +13,8 @@ namespace {
 using Client = v1::ClientMessage;
 
 /// Answered on the network thread.
-const std::set<Client::BodyCase> without_handler{Client::kHello, Client::kAck, Client::kPing};
+const std::set<Client::BodyCase> without_handler{Client::kHello, Client::kAck, Client::kAckLight,
+                                                 Client::kPing};
 
 TEST(MessageHandlers, EveryMessageThatReachesTheRenderThreadHasOne) {
     const auto* const body = Client::descriptor()->FindOneofByName("body");

@@ -51,11 +51,12 @@ double weight_of(std::string_view parameters) {
     return 1.0;
 }
 
-/// Empty where zlib fails.
-std::string gzip(std::string_view bytes) {
+}  // namespace
+
+std::string gzip(std::string_view bytes, int level) {
     z_stream stream{};
-    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kGzipMemory,
-                     Z_DEFAULT_STRATEGY) != Z_OK) {
+    if (deflateInit2(&stream, level, Z_DEFLATED, kGzipWindow, kGzipMemory, Z_DEFAULT_STRATEGY) !=
+        Z_OK) {
         return {};
     }
     std::string packed(deflateBound(&stream, bytes.size()), '\0');
@@ -69,13 +70,11 @@ std::string gzip(std::string_view bytes) {
     return packed;
 }
 
-}  // namespace
-
 EncodedFiles::EncodedFiles(std::span<const EmbeddedFile> files) {
     for (const EmbeddedFile& file : files) {
         EncodedFile& encoded = files_[std::string(file.name)];
         encoded.etag = '"' + to_hex(token_digest(file.contents)).substr(0, 32) + '"';
-        std::string packed = gzip(file.contents);
+        std::string packed = gzip(file.contents, Z_BEST_COMPRESSION);
         if (!packed.empty() && packed.size() < file.contents.size()) {
             encoded.gzip = std::make_shared<const std::string>(std::move(packed));
         }

@@ -29,6 +29,9 @@ class EncodedFiles {
     std::map<std::string, EncodedFile, std::less<>> files_;
 };
 
+/// In gzip's format; level: of zlib. Empty where zlib fails.
+std::string gzip(std::string_view bytes, int level);
+
 /// Whether an Accept-Encoding header (RFC 9110, 12.5.3) takes gzip.
 bool accepts_gzip(std::string_view accept_encoding);
 

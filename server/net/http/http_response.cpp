@@ -22,13 +22,14 @@ constexpr std::array<NameValue, 6> kHeaders{{
 }};
 
 std::string_view content_type(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kTypes{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kTypes{{
         {".html", "text/html; charset=utf-8"},
         {".js", "text/javascript; charset=utf-8"},
         {".css", "text/css; charset=utf-8"},
         {".json", "application/json"},
         {".svg", "image/svg+xml"},
         {".png", "image/png"},
+        {".jpg", "image/jpeg"},
         {".ico", "image/x-icon"},
         {".woff2", "font/woff2"},
         {".exr", "image/x-exr"},
@@ -97,6 +98,24 @@ HttpResponse snapshot_response(std::string_view path, const SnapshotStore& store
     return response;
 }
 
+/// What lies under a hash of its contents never changes.
+HttpResponse content_response(std::string_view path, const HttpContent& content) {
+    const std::shared_ptr<const ContentFile> file = content.contents->find(path);
+    if (!file) {
+        return plain(404, "Not found, or not any more\n");
+    }
+    HttpResponse response;
+    response.content_type = content_type(path);
+    response.headers = {{"cache-control:", "private, max-age=31536000, immutable"},
+                        {"vary:", "Accept-Encoding"}};
+    const bool packed = file->gzip && accepts_gzip(content.accept_encoding);
+    response.file = packed ? file->gzip : file->bytes;
+    if (packed) {
+        response.headers.emplace_back("content-encoding:", "gzip");
+    }
+    return response;
+}
+
 /// Live: the network answers. Ready: there are pictures. Editable: changes can be saved, too.
 HttpResponse health(std::string_view path, const HttpContent& content) {
     if (path == "/healthz/live") {
@@ -132,6 +151,9 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
     }
     if (path.starts_with(SnapshotStore::kFolder) && content.snapshots != nullptr) {
         return snapshot_response(path, *content.snapshots);
+    }
+    if (path.starts_with(ContentStore::kFolder) && content.contents != nullptr) {
+        return content_response(path, content);
     }
     if (path == "/ws") {
         return upgrade_required("This is a WebSocket address\n");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "embedded_file.h"
+#include "net/http/content_store.h"
 #include "net/http/encoded_files.h"
 #include "net/http/snapshot_store.h"
 
@@ -41,6 +42,7 @@ struct HttpContent {
     std::string accept_encoding{};             ///< header of the request
     std::string if_none_match{};               ///< header of the request
     bool editable = true;                      ///< of /healthz/editable
+    const ContentStore* contents = nullptr;    ///< of /light/...; null: there are none
 };
 
 /// Decides about a request. `path` is the decoded path without query. Only names in the table are

@@ -104,6 +104,7 @@ int HttpService::on_request(lws* connection) {
     }
     HttpContent content{client_files(), state_.ready, {}, true, &state_.snapshots};
     content.encoded = &encoded_files_;
+    content.contents = &state_.contents;
     content.editable = state_.editable();
     content.accept_encoding = request_header(connection, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
     content.if_none_match = request_header(connection, WSI_TOKEN_HTTP_IF_NONE_MATCH);

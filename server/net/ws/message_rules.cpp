@@ -371,6 +371,10 @@ void check_body(const v1::Ack& ack, MessageChecker& check) {
     check.require(ack.decode_ms() >= 0.0, "ack.decodeMs", "must not be negative");
 }
 
+void check_body(const v1::AckLight& ack, MessageChecker& check) {
+    check.require(ack.light() >= 1, "ackLight.light", "is missing");
+}
+
 void check_body(const v1::Snapshot& snapshot, MessageChecker& check) {
     check.size(snapshot, false, "snapshot");
     check.require(snapshot.relative_error() > 0.0F && snapshot.relative_error() <= 1.0F,
@@ -409,6 +413,8 @@ constexpr MessageRule rules[] = {
     {Client::kListChanges, v1::VIEWER, Waiting::queued, nullptr},
     {Client::kAck, v1::VIEWER, Waiting::queued, check<&Client::ack>},
     {Client::kPing, v1::VIEWER, Waiting::queued, nullptr},
+    {Client::kAckLight, v1::VIEWER, Waiting::queued, check<&Client::ack_light>},
+    {Client::kSetDrawing, v1::VIEWER, Waiting::queued, nullptr},
     {Client::kAddPin, v1::REVIEWER, Waiting::queued, check<&Client::add_pin>},
     {Client::kRemovePin, v1::REVIEWER, Waiting::queued, check<&Client::remove_pin>},
     {Client::kSaveViewpoint, v1::REVIEWER, Waiting::queued, check<&Client::save_viewpoint>},

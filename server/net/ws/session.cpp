@@ -76,6 +76,15 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         if (id) {
             answer_ok(*id);
         }
+    } else if (message.has_ack_light()) {
+        if (!light_) {
+            refuse({v1::Error::INVALID_ARGUMENT, "ackLight: hello has not asked for light", id});
+            return;
+        }
+        link_.on_light_ack(message.ack_light().light());
+        if (id) {
+            answer_ok(*id);
+        }
     } else if (message.has_ping()) {
         v1::ServerMessage answer;
         if (id) {
@@ -141,6 +150,7 @@ void Session::on_hello(v1::ClientMessage message, double now_ms) {
         message.mutable_hello()->set_name(pass_->token_name);  // whatever its holder says
     }
     reading_ = reading_of(message.hello());
+    light_ = message.hello().light();
     spdlog::info("viewer {} from {} is '{}', {}{}", link_.viewer(), peer_, message.hello().name(),
                  v1::Role_Name(pass_->role),
                  pass_->token_name.empty() ? "" : " by the token '" + pass_->token_name + "'");

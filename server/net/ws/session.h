@@ -69,6 +69,7 @@ class Session {
     std::string buffer_;      ///< the message so far, at most limits_.max_message_bytes
     bool binary_ = false;
     Reading reading_ = Reading::lenient;  ///< until hello says how: anything else is refused anyway
+    bool light_ = false;                  ///< hello has asked for it
     std::optional<Pass> pass_;            ///< once hello has been accepted
     int wrong_tokens_ = 0;
     std::string peer_;  ///< for the log

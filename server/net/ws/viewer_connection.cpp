@@ -26,7 +26,7 @@ int write_flags(Outgoing::Kind kind, bool first, bool last) {
     if (kind == Outgoing::Kind::ping) {
         return LWS_WRITE_PING;
     }
-    return lws_write_ws_flags(kind == Outgoing::Kind::frame ? LWS_WRITE_BINARY : LWS_WRITE_TEXT,
+    return lws_write_ws_flags(kind == Outgoing::Kind::text ? LWS_WRITE_TEXT : LWS_WRITE_BINARY,
                               static_cast<int>(first), static_cast<int>(last));
 }
 

@@ -41,6 +41,7 @@ void ViewerLink::enqueue(std::string_view json) {
     if (queued_bytes_ > max_queued_bytes_) {
         messages_.clear();
         frame_.reset();
+        light_.clear();
         close_ = CloseRequest{CloseCode::policy_violation, "messages are not read"};
         return;
     }
@@ -58,6 +59,24 @@ bool ViewerLink::send_frame(const v1::FrameHeader& header, const std::vector<std
     const bool replaced = frame_.has_value();
     frame_ = std::move(frame);
     return replaced;
+}
+
+void ViewerLink::send_light(const v1::LightHeader& header, std::string_view blocks) {
+    std::vector<std::uint8_t> bytes = light_message(header, blocks, Outgoing::kHeadroom);
+    const std::lock_guard lock(mutex_);
+    if (!close_) {
+        light_.push_back(std::move(bytes));
+    }
+}
+
+void ViewerLink::on_light_ack(std::uint32_t number) {
+    {
+        const std::lock_guard lock(mutex_);
+        answers_ = true;
+    }
+    if (light_acks_ != nullptr) {
+        light_acks_->acknowledge(viewer_, number);
+    }
 }
 
 FrameAdvice ViewerLink::advise(const FrameDemand& demand, double now_ms) {
@@ -105,6 +124,7 @@ void ViewerLink::close(CloseCode code, std::string reason) {
     const std::lock_guard lock(mutex_);
     if (!close_) {
         frame_.reset();
+        light_.clear();
         close_ = CloseRequest{code, std::move(reason)};
     }
 }
@@ -116,7 +136,7 @@ bool ViewerLink::closing() const {
 
 bool ViewerLink::has_output() const {
     const std::lock_guard lock(mutex_);
-    return !messages_.empty() || (welcomed_ && !greeted_) || frame_ || close_;
+    return !messages_.empty() || (welcomed_ && !greeted_) || frame_ || !light_.empty() || close_;
 }
 
 std::optional<Outgoing> ViewerLink::take(double now_ms) {
@@ -140,6 +160,11 @@ std::optional<Outgoing> ViewerLink::take(double now_ms) {
                             now_ms);
         Outgoing message{Outgoing::Kind::frame, std::move(frame_->bytes)};
         frame_.reset();
+        return message;
+    }
+    if (!light_.empty()) {
+        Outgoing message{Outgoing::Kind::light, std::move(light_.front())};
+        light_.pop_front();
         return message;
     }
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "net/ws/light_acks.h"
 #include "raybundle.pb.h"
 #include "stream/congestion_window.h"
 #include "stream/viewer_id.h"
@@ -35,13 +36,14 @@ struct CloseRequest {
 struct Outgoing {
     static constexpr std::size_t kHeadroom = 32;  ///< at least LWS_PRE
 
-    enum class Kind { text, frame, ping };
+    enum class Kind { text, frame, light, ping };
 
     Kind kind = Kind::text;
     std::vector<std::uint8_t> bytes;  ///< headroom, then payload
 };
 
-/// What waits for one viewer: a bounded queue of text messages and at most one frame. Filled by any
+/// What waits for one viewer: a bounded queue of text messages, at most one frame, and light as
+/// far as its sender lets it. Filled by any
 /// thread, emptied by the network thread.
 class ViewerLink {
   public:
@@ -58,6 +60,12 @@ class ViewerLink {
 
     /// Makes this the frame that waits. True where it has replaced one.
     bool send_frame(const v1::FrameHeader& header, const std::vector<std::uint8_t>& image);
+
+    /// Queues a message of light; its sender sees to it that few bytes are not acknowledged.
+    void send_light(const v1::LightHeader& header, std::string_view blocks);
+    /// Tells who sends light what the viewer has taken in. acks must outlive the connection.
+    void report_light_to(LightAcks* acks) { light_acks_ = acks; }
+    void on_light_ack(std::uint32_t number);
 
     FrameAdvice advise(const FrameDemand& demand, double now_ms);
     void on_ack(const v1::Ack& ack, double now_ms);
@@ -84,7 +92,8 @@ class ViewerLink {
     [[nodiscard]] bool has_output() const;
 
     /// Takes the next message to write: text, then a ping after the welcome, which shows whether
-    /// anybody is there, or one that measures the round trip where that is due, then the frame.
+    /// anybody is there, or one that measures the round trip where that is due, then the frame,
+    /// then light.
     std::optional<Outgoing> take(double now_ms);
 
     /// The close request once nothing is left to be written before it.
@@ -106,6 +115,8 @@ class ViewerLink {
     std::deque<std::vector<std::uint8_t>> messages_;  ///< with headroom
     std::size_t queued_bytes_ = 0;
     std::optional<Frame> frame_;
+    std::deque<std::vector<std::uint8_t>> light_;  ///< with headroom
+    LightAcks* light_acks_ = nullptr;
     CongestionWindow congestion_;
     std::uint32_t pings_ = 0;  ///< sent so far to measure; its number is a ping's payload
     std::optional<CloseRequest> close_;

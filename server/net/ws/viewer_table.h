@@ -20,6 +20,7 @@ class ViewerTable {
         const std::lock_guard lock(mutex_);
         const ViewerId viewer = ++last_;
         auto link = std::make_shared<ViewerLink>(viewer, max_queued_bytes, congestion);
+        link->report_light_to(&light_acks_);
         links_.emplace(viewer, link);
         return link;
     }
@@ -27,6 +28,7 @@ class ViewerTable {
     void remove(ViewerId viewer) {
         const std::lock_guard lock(mutex_);
         links_.erase(viewer);
+        light_acks_.forget(viewer);
     }
 
     /// Null where the viewer has left.
@@ -46,6 +48,8 @@ class ViewerTable {
         return links;
     }
 
+    [[nodiscard]] LightAcks& light_acks() { return light_acks_; }
+
     [[nodiscard]] std::size_t size() const {
         const std::lock_guard lock(mutex_);
         return links_.size();
@@ -55,6 +59,7 @@ class ViewerTable {
     mutable std::mutex mutex_;
     std::map<ViewerId, std::shared_ptr<ViewerLink>> links_;
     ViewerId last_ = 0;
+    LightAcks light_acks_;
 };
 
 }  // namespace raybundle

@@ -193,18 +193,33 @@ v1::ServerMessage to_message(const Refusal& refusal) {
     return message;
 }
 
-std::vector<std::uint8_t> frame_message(const v1::FrameHeader& header,
-                                        std::span<const std::uint8_t> image, std::size_t headroom) {
-    const std::string json = to_json(header);
+namespace {
+
+/// Headroom, length of a header, the header, and what belongs to it.
+std::vector<std::uint8_t> binary_message(const std::string& json,
+                                         std::span<const std::uint8_t> body, std::size_t headroom) {
     const auto length = static_cast<std::uint32_t>(json.size());
     std::vector<std::uint8_t> message(headroom);
-    message.reserve(headroom + sizeof length + json.size() + image.size());
+    message.reserve(headroom + sizeof length + json.size() + body.size());
     for (unsigned shift = 0; shift < 32; shift += 8) {
         message.push_back(static_cast<std::uint8_t>(length >> shift));
     }
     message.insert(message.end(), json.begin(), json.end());
-    message.insert(message.end(), image.begin(), image.end());
+    message.insert(message.end(), body.begin(), body.end());
     return message;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> frame_message(const v1::FrameHeader& header,
+                                        std::span<const std::uint8_t> image, std::size_t headroom) {
+    return binary_message(to_json(header), image, headroom);
+}
+
+std::vector<std::uint8_t> light_message(const v1::LightHeader& header, std::string_view blocks,
+                                        std::size_t headroom) {
+    const std::span body(reinterpret_cast<const std::uint8_t*>(blocks.data()), blocks.size());
+    return binary_message(print(header), body, headroom);
 }
 
 }  // namespace raybundle

@@ -59,5 +59,8 @@ v1::ServerMessage to_message(const Refusal& refusal);
 std::vector<std::uint8_t> frame_message(const v1::FrameHeader& header,
                                         std::span<const std::uint8_t> image,
                                         std::size_t headroom = 0);
+/// The same of a message of light.
+std::vector<std::uint8_t> light_message(const v1::LightHeader& header, std::string_view blocks,
+                                        std::size_t headroom = 0);
 
 }  // namespace raybundle

@@ -219,13 +219,17 @@ void ChangeCoordinator::undim_sky(std::vector<PendingChange>& pending) const {
     }
 }
 
-/// All pictures take part in a special phase, those of viewers who look away, too.
+/// All pictures take part in a special phase, those of viewers who look away, too; but not of those
+/// who draw by themselves now.
 void ChangeCoordinator::gather_all() {
     parts_.snapshots.restart();
     parts_.pictures.note_change();
     parts_.receivers.clear();
+    const TimePoint now = parts_.policy.clock().now();
     for (const auto& [id, session] : parts_.viewers) {
-        if (session->has_image()) {
+        if (session->has_image() && session->draws_itself(now)) {
+            session->note_outdated();
+        } else if (session->has_image()) {
             parts_.receivers.add(session->image());
         }
     }

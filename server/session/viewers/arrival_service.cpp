@@ -28,6 +28,9 @@ void ArrivalService::join(const ClientEvent& event) {
     if (!event.message.has_id()) {
         parts_.server.send(event.viewer, message);
     }
+    if (hello.light()) {
+        parts_.light.join(session);
+    }
     spdlog::info("viewer {} '{}' joined", event.viewer, hello.name());
 }
 
@@ -46,6 +49,9 @@ void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
     welcome->set_software_rendering(parts_.traits.software_rendering);
     welcome->set_can_open_scenes(parts_.traits.can_open_scenes);
     welcome->set_saving(parts_.scene.log().saving());
+    if (event.message.hello().light()) {
+        welcome->set_light(true);
+    }
     welcome->set_name(event.message.hello().name());
     parts_.review.fill_welcome(welcome);
 }

@@ -6,6 +6,7 @@
 
 #include "net/server.h"
 #include "session/changes/lighting_scenes.h"
+#include "session/light/light_service.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
 #include "session/review/review_service.h"
@@ -34,6 +35,7 @@ class ArrivalService {
         const ReviewService& review;
         const LightingScenes& lighting;
         PresenceService& presence;
+        LightService& light;
         Server& server;
         LoopMetrics& metrics;
         ServerTraits traits;

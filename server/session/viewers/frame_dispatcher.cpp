@@ -74,7 +74,8 @@ FrameDispatcher::DueFrames FrameDispatcher::due_frames() {
             continue;
         }
         const bool watches = !session->paused() && session->acknowledged();
-        if (!watches || encoder_.busy(id) || !session->awaits_frame()) {
+        if (!watches || encoder_.busy(id) || !session->awaits_frame() ||
+            session->draws_itself(now)) {
             changes.excuse(id);
         }
         if (!session->due(now) || encoder_.busy(id)) {

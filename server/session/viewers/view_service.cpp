@@ -20,6 +20,7 @@ HandlerResult ViewService::set_camera(ViewerSession& session, const ClientEvent&
     session.follow(0);
     session.set_camera(event.message.set_camera(), event.message.id());
     parts_.presence.lead(session);
+    parts_.light.look(session);
     return HandlerResult::ok;
 }
 

@@ -6,6 +6,7 @@
 
 #include "net/server.h"
 #include "session/handler_result.h"
+#include "session/light/light_service.h"
 #include "session/live_scene.h"
 #include "session/viewers/presence_service.h"
 #include "session/viewers/target_store.h"
@@ -21,6 +22,7 @@ class ViewService {
     struct Parts {
         LiveScene& scene;
         PresenceService& presence;
+        LightService& light;
         const FramePolicy& policy;
         Server& server;
     };

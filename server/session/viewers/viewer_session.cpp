@@ -80,6 +80,13 @@ void ViewerSession::adopt_camera(const Camera& camera) {
 }
 
 void ViewerSession::apply_view() {
+    if (std::exchange(outdated_, false)) {
+        frame_.rendering = false;
+        view_waits_ = false;
+        motion_.redrawn = true;
+        image_->restart(camera_, size_);
+        return;
+    }
     if (!view_waits_) {
         return;
     }
@@ -106,6 +113,9 @@ void ViewerSession::set_moving_scale(double scale, TimePoint now) {
 
 void ViewerSession::note_drag(double scale, TimePoint now) {
     motion_.last = now;
+    if (drawing_) {
+        return;
+    }
     motion_.scale = scale;
     view_waits_ = view_waits_ || image_->size() != drawn_size();
     apply_view();
@@ -172,12 +182,12 @@ void ViewerSession::set_target(const v1::SetTarget& message) {
 }
 
 bool ViewerSession::moving(TimePoint now) const {
-    return view_waits_ || since_change_s(now) < pace_.moving_s;
+    return view_waits_ || since_change_s(now) < moving_s();
 }
 
 /// The camera has just moved, or an object has been dragged.
 bool ViewerSession::in_motion(TimePoint now) const {
-    return seconds(now - motion_.last) < pace_.moving_s;
+    return seconds(now - motion_.last) < moving_s();
 }
 
 bool ViewerSession::smooth(TimePoint now) {
@@ -190,7 +200,7 @@ bool ViewerSession::smooth(TimePoint now) {
 }
 
 bool ViewerSession::due(TimePoint now) const {
-    if (frame_.rendering) {
+    if (frame_.rendering || draws_itself(now)) {
         return false;
     }
     const double since_frame = seconds(now - frame_.last);

@@ -49,6 +49,12 @@ class ViewerSession {
     [[nodiscard]] double full_frame_ms() const { return motion_.full_frame_ms; }
     /// Notes the cost of the frame just rendered.
     void note_frame_cost(double cost_ms);
+    /// Whether the page draws by itself while its camera or an object moves.
+    void set_drawing(bool drawing) { drawing_ = drawing; }
+    /// True while it does, and wants no picture.
+    [[nodiscard]] bool draws_itself(TimePoint now) const { return drawing_ && in_motion(now); }
+    /// The picture takes no part in a change, and begins anew with its next frame.
+    void note_outdated() { outdated_ = true; }
     /// Shows what another viewer sees.
     void adopt_camera(const Camera& camera);
     /// The camera of the next frame.
@@ -145,6 +151,7 @@ class ViewerSession {
   private:
     [[nodiscard]] ImageStatistics measured_statistics();
     [[nodiscard]] double since_change_s(TimePoint now) const;
+    [[nodiscard]] double moving_s() const { return drawing_ ? pace_.drawn_rest_s : pace_.moving_s; }
     [[nodiscard]] bool in_motion(TimePoint now) const;
     [[nodiscard]] glm::uvec2 drawn_size() const;
     void compose(ViewerImage& image, const FrameAdvice& advice, const v1::FrameHeader& figures,
@@ -197,6 +204,8 @@ class ViewerSession {
     Target target_;
     Errors errors_;
     Frame frame_;
+    bool drawing_ = false;
+    bool outdated_ = false;
     bool paused_ = false;
     bool acknowledged_ = false;
 };

@@ -21,8 +21,10 @@ std::vector<ViewerLoad> Viewers::loads() const {
     std::vector<ViewerLoad> loads;
     loads.reserve(sessions_.size());
     for (const auto& [id, session] : sessions_) {
-        loads.push_back({id, session->has_image(), session->moving(now), session->paused(),
-                         session->pixels(), session->drawn_pixels(), session->full_frame_ms()});
+        const bool drawn_there = session->draws_itself(now);
+        loads.push_back({id, session->has_image() && !drawn_there,
+                         session->moving(now) && !drawn_there, session->paused(), session->pixels(),
+                         session->drawn_pixels(), session->full_frame_ms()});
     }
     return loads;
 }

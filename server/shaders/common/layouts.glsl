@@ -83,6 +83,8 @@
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use
 #define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/store/zone_balance.cpp
 #define BINDING_MEMBERS 60            // uvec2[]: see patch_members.glsl
+#define BINDING_LIGHT_SOURCES 25      // uint[]: where values of light come from, as BINDING_VERTEX_IRRADIANCE has it
+#define BINDING_LIGHT_VALUES 26       // uint[]: see view_light_values.comp
 #define BINDING_OLD_FIRST_SHOT 26    // as BINDING_FIRST_SHOT, before the change
 #define BINDING_VERTEX_LIGHT 24       // VertexLight[]
 #define BINDING_LAMP_CELLS 47         // uint[patches]: see lamps.glsl; with the other first shots

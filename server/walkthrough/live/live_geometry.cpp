@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "walkthrough/page_files.h"
 #include "walkthrough/quantise.h"
 #include "walkthrough/scene_manifest.h"
 
@@ -132,8 +133,13 @@ class Maker {
 
 }  // namespace
 
-LiveGeometry make_live_geometry(const Scene& scene, const PatchMesh& mesh, float brightest) {
-    return Maker(scene, mesh).make(mesh, brightest);
+LiveGeometry make_live_geometry(const Scene& scene, const PatchMesh& mesh, float brightest,
+                                std::span<const EmbeddedFile> shaders) {
+    LiveGeometry made = Maker(scene, mesh).make(mesh, brightest);
+    for (ShaderText& shader : walkthrough_shaders(shaders)) {
+        made.files.emplace_back(std::move(shader.name), std::move(shader.text));
+    }
+    return made;
 }
 
 std::vector<std::uint32_t> emission_values(const LiveGeometry& geometry,

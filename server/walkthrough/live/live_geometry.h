@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "embedded_file.h"
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "walkthrough/live/light_stream.h"
@@ -31,9 +32,11 @@ struct LiveGeometry {
 };
 
 /// Makes it of a scene as it is now. brightest: largest radiance that reflected light has now,
-/// cd/m²; lights may become eight times as bright as the brightest of all. Takes long: textures are
-/// encoded. Throws std::runtime_error where a texture cannot be.
-LiveGeometry make_live_geometry(const Scene& scene, const PatchMesh& mesh, float brightest);
+/// cd/m²; lights may become eight times as bright as the brightest of all. shaders: the embedded
+/// ones, of which the page draws with some. Takes long: textures are encoded. Throws
+/// std::runtime_error where a texture cannot be.
+LiveGeometry make_live_geometry(const Scene& scene, const PatchMesh& mesh, float brightest,
+                                std::span<const EmbeddedFile> shaders);
 
 /// Values of lamps. emission: of the mesh's triangles, cd/m².
 std::vector<std::uint32_t> emission_values(const LiveGeometry& geometry,
