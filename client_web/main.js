@@ -3,6 +3,7 @@
 
 import {RaybundleApp} from './app/app.js';
 import {Collisions} from './camera/collisions.js';
+import {addDrawing} from './drawing/drawing_switch.js';
 import {Compare} from './review/compare.js';
 import {DisplayPanel} from './measure/display_panel.js';
 import {swung} from './scene/doors.js';
@@ -62,6 +63,7 @@ const app = new RaybundleApp({
 const history = new History();
 const marks = new Marks(app);
 const display = new DisplayPanel(app);
+const drawing = addDrawing(app, display, inAddress.get('draw'));
 const collisions = new Collisions(app);
 const walking = new Walking(app, collisions);
 const gizmo = new Gizmo(app);
@@ -362,5 +364,5 @@ restoreShared();
 document.addEventListener('visibilitychange', () => {
     app.client.paused = document.hidden;
 });
-Object.assign(window, {raybundle: app, raybundleParts: {collisions, display, plans, walking, measuring, gridPanel, people, pins, compare, history}});
+Object.assign(window, {raybundle: app, raybundleParts: {collisions, display, drawing, plans, walking, measuring, gridPanel, people, pins, compare, history}});
 app.start();

@@ -41,7 +41,7 @@ const NO_VIEW = {
 /**
  * Events: `anew`, before `welcome`, when the server knows nothing of the changes seen so far (another scene,
  * another start; detail {otherScene}); `welcome` (detail Welcome), `picture` (detail FrameHeader), `solution`, `sceneChanged`,
- * `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
+ * `hidden` (ids of objects that are not shown), `selection`, `moved` (an object's place here), `view` (the camera), `tool`, `message` (every text
  * message of the server), `upload` (somebody has dropped a scene on the page).
  */
 export class RaybundleApp extends EventTarget {

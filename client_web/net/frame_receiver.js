@@ -24,15 +24,13 @@ const MAX_HEADER_BYTES = 65536;
 const MIME_TYPES = {JPEG: 'image/jpeg', PNG: 'image/png'};
 
 /**
- * Takes a binary message apart: u32 little-endian header length, header as JSON, encoded image,
- * and depths if the header says so.
+ * Takes a binary message apart: u32 little-endian header length, header as JSON, and what belongs to it.
  *
  * @param {ArrayBuffer} message
- * @returns {{header: FrameHeader, image: Uint8Array<ArrayBuffer>, depths: Uint8Array<ArrayBuffer>}}
- *     both share the message's memory
- * @throws {Error} if the message is not a frame
+ * @returns {{header: any, body: Uint8Array<ArrayBuffer>}}  body: shares the message's memory
+ * @throws {Error} if it is no such message
  */
-export function parseFrame(message) {
+export function splitMessage(message) {
     if (message.byteLength < 4) {
         throw new Error('frame: shorter than its length field');
     }
@@ -40,21 +38,29 @@ export function parseFrame(message) {
     if (headerBytes > MAX_HEADER_BYTES || 4 + headerBytes > message.byteLength) {
         throw new Error(`frame: header of ${headerBytes} bytes does not fit`);
     }
-    const text = new TextDecoder('utf-8', {fatal: true}).decode(
-        new Uint8Array(message, 4, headerBytes),
-    );
-    /** @type {FrameHeader} */
-    const header = JSON.parse(text);
+    const text = new TextDecoder('utf-8', {fatal: true}).decode(new Uint8Array(message, 4, headerBytes));
+    return {header: JSON.parse(text) ?? {}, body: new Uint8Array(message, 4 + headerBytes)};
+}
+
+/**
+ * Takes a frame apart: encoded image, and depths if the header says so.
+ *
+ * @param {ArrayBuffer} message
+ * @returns {{header: FrameHeader, image: Uint8Array<ArrayBuffer>, depths: Uint8Array<ArrayBuffer>}}
+ *     both share the message's memory
+ * @throws {Error} if the message is not a frame
+ */
+export function parseFrame(message) {
+    const {header, body} = splitMessage(message);
     if (!Number.isInteger(header?.frame) || !(header.codec in MIME_TYPES)) {
         throw new Error('frame: header lacks frame number or a known codec');
     }
     const depthBytes = header.depthBytes ?? 0;
-    const end = message.byteLength - depthBytes;
-    if (!(depthBytes >= 0 && end >= 4 + headerBytes)) {
+    const end = body.length - depthBytes;
+    if (!(depthBytes >= 0 && end >= 0)) {
         throw new Error(`frame: depths of ${depthBytes} bytes do not fit`);
     }
-    const image = new Uint8Array(message, 4 + headerBytes, end - 4 - headerBytes);
-    return {header, image, depths: new Uint8Array(message, end)};
+    return {header, image: body.subarray(0, end), depths: body.subarray(end)};
 }
 
 export class FrameReceiver {

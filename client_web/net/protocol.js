@@ -347,6 +347,28 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {{effects: Effect[]}} [effectCosts]
  * @property {SnapshotReady} [snapshotReady]
  * @property {SnapshotProgress} [snapshotProgress]
+ * @property {LightScene} [lightScene]
+ * @property {LightMaterial} [lightMaterial]
+ * @property {LightSky} [lightSky]
+ */
+
+/** @typedef {{scene: number, url: string, values: number, blockValues: number}} LightScene */
+/**
+ * @typedef {object} LightMaterial  albedo: 4 numbers at each of 32 angles; none: the base colour at every angle
+ * @property {number} material
+ * @property {Vec3} baseColour
+ * @property {number[]} [albedo]
+ * @property {Vec3} transparency
+ * @property {Vec3} transmittance
+ */
+/**
+ * @typedef {object} LightSky  texels RGB9_E5, in units of `unit` cd/m²
+ * @property {Vec3} uniform
+ * @property {string} url  empty: no texels
+ * @property {number} width
+ * @property {number} height
+ * @property {number} unit
+ * @property {{direction: Vec3, cosine: number, radiance: Vec3}} [sun]
  */
 
 /** @typedef {{url: string, relativeError: number, epoch: number, exposure: number}} SnapshotReady */

@@ -2,7 +2,7 @@
 // Connection to a Raybundle server: greeting, requests and their answers, frames, round trips,
 // and reconnecting by itself. Knows nothing of the page around it.
 
-import {FrameReceiver} from './frame_receiver.js';
+import {FrameReceiver, splitMessage} from './frame_receiver.js';
 import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protocol.js';
 
 /**
@@ -15,6 +15,7 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
  *     of which the next one is tried where one is lost
  * @property {string} [name]  shown to other viewers
  * @property {string} [token]
+ * @property {() => boolean} [light]  whether the page draws by itself, too, asked at each connection
  * @property {() => Viewport} viewport  size of the pictures wanted, asked at each connection
  */
 
@@ -54,7 +55,7 @@ export function retryDelay(attempt, random) {
 
 /**
  * Events: `state` (detail {state, reason, code, retryAt}), `welcome`, `frame` (detail {header, image,
- * decodeMs}), `solution`, `sceneChanged`, `roundTrip` (detail milliseconds), `problem` (detail
+ * decodeMs}), `light` (detail {header, body}), `solution`, `sceneChanged`, `roundTrip` (detail milliseconds), `problem` (detail
  * ServerError, of a message that expects no answer), `asked` (a change has been asked for, or answered), `message`
  * (every text message).
  */
@@ -187,6 +188,7 @@ export class RaybundleClient extends EventTarget {
             token: this.settings.token ?? '',
             codecs: ['JPEG', 'PNG'],
             viewport: this.settings.viewport(),
+            ...(this.settings.light?.() && {light: true}),
         };
         try {
             const {welcome} = await this.request({hello}).answer;
@@ -287,11 +289,26 @@ export class RaybundleClient extends EventTarget {
         this.#pinging = false;
     }
 
+    /** @param {ArrayBuffer} data  a frame, or light */
+    #receiveBinary(data) {
+        let message;
+        try {
+            message = splitMessage(data);
+        } catch {
+            // The receiver of frames says what is wrong.
+        }
+        if (message && Number.isInteger(message.header.light)) {
+            this.#emit('light', message);
+        } else {
+            this.#frames.push(data);
+        }
+    }
+
     /** @param {ArrayBuffer | string} data */
     #receive(data) {
         this.#lastHeard = performance.now();
         if (data instanceof ArrayBuffer) {
-            this.#frames.push(data);
+            this.#receiveBinary(data);
             return;
         }
         /** @type {ServerMessage} */

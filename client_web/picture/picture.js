@@ -85,6 +85,8 @@ export class Picture extends EventTarget {
     #redraws = 0;
     /** What a redraw takes, as measured now and then, until it is done. */
     redrawMs = new Samples(REDRAWS_KEPT);
+    /** Something else is drawn over it: it need not follow the camera. */
+    covered = false;
     /** Where redraws take longer, pictures are flat ones: there would be no 60 of them a second, ms. */
     slowestRedrawMs = 12;
 
@@ -199,6 +201,10 @@ export class Picture extends EventTarget {
      * @param {View} view  wanted now
      */
     warp(shown, view) {
+        if (this.covered) {
+            this.#throttle.cancel();
+            return;
+        }
         const deep = this.warping === 'by depth' && !sameView(shown, view);
         this.#wanted = deep ? {shown, view} : null;
         if (deep) {

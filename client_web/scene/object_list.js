@@ -65,6 +65,7 @@ export class ObjectList {
         });
         app.on('anew', () => {
             this.hidden = new Set();
+            app.dispatchEvent(new CustomEvent('hidden', {detail: []}));
         });
         app.on('welcome', () => {
             const known = new Set(app.scene?.objects.map(({id}) => id));
@@ -92,6 +93,7 @@ export class ObjectList {
         const objects = [...new Set(ids)];
         if (await this.app.ask({setHidden: {objects}})) {
             this.hidden = new Set(objects);
+            this.app.dispatchEvent(new CustomEvent('hidden', {detail: objects}));
             this.#show();
         }
     }

@@ -18,11 +18,12 @@ const NEAR = {metres: 0.01, share: 0.002};
  *
  * @param {Vec3} eye
  * @param {Bounds} bounds
+ * @param {number} section  what is nearer is cut away, metres
  */
-export function depthRange(eye, bounds) {
+export function depthRange(eye, bounds, section = 0) {
     const {min, max} = bounds;
     const far = (/** @type {'x' | 'y' | 'z'} */ axis) => Math.max(eye[axis] - min[axis], max[axis] - eye[axis]);
-    const near = Math.min(NEAR.metres, NEAR.share * diagonal(bounds));
+    const near = Math.max(Math.min(NEAR.metres, NEAR.share * diagonal(bounds)), section);
     return {near, far: Math.max(1.01 * length(vec3(far('x'), far('y'), far('z'))), 2 * near)};
 }
 
@@ -37,7 +38,7 @@ export function projectionOf(view, aspect, bounds) {
     const {eye} = view;
     const {right, up, forward} = axes(view);
     const half = Math.tan(view.verticalFov / 2);
-    const {near, far} = depthRange(eye, bounds);
+    const {near, far} = depthRange(eye, bounds, view.near ?? 0);
     const row = (/** @type {Vec3} */ v, /** @type {number} */ more) => [v.x, v.y, v.z, more - dot(v, eye)];
     const depth = (far + near) / (far - near);
     const rows = [

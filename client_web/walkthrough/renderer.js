@@ -3,8 +3,9 @@
 
 import {linkProgram} from './gl_program.js';
 import {projectionOf, vectorOf} from './projection.js';
-import {uploadAlbedos, uploadChunks, uploadSky, uploadTextures} from './scene_buffers.js';
-import {MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFragment} from './shaders.js';
+import {IDENTITY} from '../ui/vector.js';
+import {skyTexture, uploadAlbedos, uploadChunks, uploadSky, uploadTextures} from './scene_buffers.js';
+import {ALBEDO_NODES, MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFragment} from './shaders.js';
 
 /**
  * @typedef {import('../net/protocol.js').View} View
@@ -18,15 +19,38 @@ import {MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFragment} from '.
  * @property {keyof typeof MODES} mode
  * @property {number} exposure  of photographs, EV
  * @property {number} maximum  of false colour, cd/m² or lx
+ * @property {boolean} [linear]  false colour begins at 0
  */
 
 /** Input of the tone curve at an exposure of 0, of 1 cd/m²: mid-grey, as the server has it. */
 const MID_GREY = 0.18;
+/** Decades of a logarithmic scale, as the server has it. */
+const SCALE_BEGIN = 1e-3;
 const NO_SUN = {direction: /** @type {[number, number, number]} */ ([0, 1, 0]), cosine: 2, radiance: [0, 0, 0]};
+
+/**
+ * @param {number} word
+ * @param {number} unit  cd/m²
+ * @returns {[number, number, number]}
+ */
+export function fromRgb9e5(word, unit) {
+    const step = unit * 2 ** ((word >>> 27) - 24);
+    return [step * (word & 511), step * ((word >>> 9) & 511), step * ((word >>> 18) & 511)];
+}
+
+/** Of the part that turns and scales. @param {ArrayLike<number>} m  4x4, column by column */
+const determinant = (m) =>
+    m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
 
 export class Renderer {
     /** @type {Record<'oneSided' | 'twoSided' | 'glass', DrawnChunk[]>} */
     #chunks = {oneSided: [], twoSided: [], glass: []};
+    /** Chunks whose emission comes with the light, by its place there. @type {Map<number, DrawnChunk>} */
+    #lamps = new Map();
+    /** Where objects have gone. @type {{matrix: Float32Array, mirrored: boolean}[]} */
+    #places;
+    /** Objects that are not drawn, by index. @type {Set<number>} */
+    hidden = new Set();
 
     /**
      * @param {WebGL2RenderingContext} gl
@@ -42,12 +66,93 @@ export class Renderer {
         this.textures = uploadTextures(gl, scene);
         this.albedos = uploadAlbedos(gl, scene);
         this.skyTexture = uploadSky(gl, scene);
-        for (const drawn of uploadChunks(gl, scene)) {
+        this.background = scene.manifest.sky;
+        /** Of the sky's texels, cd/m². */
+        this.skyUnit = scene.manifest.light.unit;
+        this.#places = (scene.manifest.objects ?? [{}]).map(() => ({matrix: new Float32Array(IDENTITY), mirrored: false}));
+        const {chunks, light} = uploadChunks(gl, scene);
+        this.light = light;
+        for (const drawn of chunks) {
             const clear = this.manifest.materials[drawn.chunk.material].transparency.some((share) => share > 0);
             this.#chunks[clear ? 'glass' : drawn.chunk.back === null ? 'oneSided' : 'twoSided'].push(drawn);
+            const at = drawn.chunk.emissionAt ?? null;
+            if (at !== null) {
+                this.#lamps.set(at / 4, drawn);
+            }
         }
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.LEQUAL);
+    }
+
+    /**
+     * Takes in light that has come.
+     *
+     * @param {number} first  of the values
+     * @param {Uint32Array} words  RGB9_E5
+     */
+    setLight(first, words) {
+        const {gl} = this;
+        gl.bindVertexArray(null);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.light);
+        gl.bufferSubData(gl.ARRAY_BUFFER, 4 * first, words);
+        for (let i = 0; i < words.length; ++i) {
+            const lamp = this.#lamps.get(first + i);
+            if (lamp) {
+                lamp.chunk.emission = fromRgb9e5(words[i], this.manifest.light.unit);
+            }
+        }
+    }
+
+    /**
+     * Places an object.
+     *
+     * @param {number} object  index
+     * @param {Float32Array} matrix  from where its vertices are to where it is
+     */
+    setPlace(object, matrix) {
+        if (this.#places[object]) {
+            this.#places[object] = {matrix, mirrored: determinant(matrix) < 0};
+        }
+    }
+
+    /**
+     * A material is another one.
+     *
+     * @param {number} index
+     * @param {{baseColour: Vec3, albedo?: number[], transparency: Vec3, transmittance: Vec3}} look
+     */
+    setMaterial(index, {baseColour, albedo, transparency, transmittance}) {
+        const {gl} = this;
+        const material = this.manifest.materials[index];
+        if (!material) {
+            return;
+        }
+        const triple = (/** @type {Vec3} */ {x, y, z}) => /** @type {[number, number, number]} */ ([x, y, z]);
+        Object.assign(material, {
+            baseColour: triple(baseColour),
+            transparency: triple(transparency),
+            transmittance: triple(transmittance),
+        });
+        const follows = albedo?.length === 4 * ALBEDO_NODES;
+        this.albedos.rows[index] = follows ? index : -1;
+        if (follows) {
+            gl.bindTexture(gl.TEXTURE_2D, this.albedos.texture);
+            gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, index, ALBEDO_NODES, 1, gl.RGBA, gl.FLOAT, new Float32Array(albedo));
+        }
+    }
+
+    /**
+     * What is behind all is another one.
+     *
+     * @param {import('./scene_data.js').SkyData} sky
+     * @param {number} unit  of the texels, cd/m²
+     * @param {Uint32Array | null} texels
+     */
+    setSky(sky, unit, texels) {
+        this.gl.deleteTexture(this.skyTexture);
+        this.skyTexture = texels && skyTexture(this.gl, texels, sky.width, sky.height);
+        this.background = sky;
+        this.skyUnit = unit;
     }
 
     /**
@@ -119,12 +224,13 @@ export class Renderer {
      * @param {GlProgram} program
      * @param {Look} look
      */
-    #begin({program, at}, {mode, exposure, maximum}) {
+    #begin({program, at}, {mode, exposure, maximum, linear = false}) {
         const {gl} = this;
         gl.useProgram(program);
         gl.uniform1i(at('mode'), MODES[mode]);
         gl.uniform1f(at('display_factor'), MID_GREY * 2 ** exposure);
         gl.uniform1f(at('scale_maximum'), maximum);
+        gl.uniform1f(at('scale_begin'), linear ? 0 : SCALE_BEGIN * maximum);
         gl.uniform1f(at('light_unit'), this.manifest.light.unit);
     }
 
@@ -154,8 +260,18 @@ export class Renderer {
     /** @param {DrawnChunk[]} chunks */
     #drawChunks(chunks) {
         const {gl} = this;
-        let material = -1;
+        let [material, object] = [-1, -1];
         for (const {chunk, vertexArray} of chunks) {
+            const own = chunk.object ?? 0;
+            if (this.hidden.has(own)) {
+                continue;
+            }
+            if (own !== object) {
+                object = own;
+                const {matrix, mirrored} = this.#places[own];
+                gl.uniformMatrix4fv(this.surface.at('world_from_start'), false, matrix);
+                gl.frontFace(mirrored ? gl.CW : gl.CCW);
+            }
             if (chunk.material !== material) {
                 ({material} = chunk);
                 this.#setMaterial(material);
@@ -166,6 +282,7 @@ export class Renderer {
             gl.drawElements(gl.TRIANGLES, chunk.indexCount, gl.UNSIGNED_SHORT, 0);
         }
         gl.bindVertexArray(null);
+        gl.frontFace(gl.CCW);
     }
 
     /** @param {number} index */
@@ -196,8 +313,9 @@ export class Renderer {
         this.#setVector(at('forward'), forward);
         this.#setVector(at('right'), right);
         this.#setVector(at('up'), up);
-        const sun = this.manifest.sky.sun ?? NO_SUN;
-        gl.uniform3fv(at('uniform_sky'), this.manifest.sky.uniform);
+        const sun = this.background.sun ?? NO_SUN;
+        gl.uniform1f(at('light_unit'), this.skyUnit);
+        gl.uniform3fv(at('uniform_sky'), this.background.uniform);
         gl.uniform3fv(at('sun_direction'), sun.direction);
         gl.uniform3fv(at('sun_radiance'), sun.radiance);
         gl.uniform1f(at('sun_cosine'), sun.cosine);

@@ -27,28 +27,26 @@ function bufferOf(gl, target, file, at, bytes) {
 /**
  * @param {WebGL2RenderingContext} gl
  * @param {SceneData} scene
+ * @param {WebGLBuffer} light  all of it
  * @param {Chunk} chunk
  * @returns {DrawnChunk}
  */
-function upload(gl, {geometry, light}, chunk) {
+function upload(gl, {geometry}, light, chunk) {
     const count = chunk.vertexCount;
     const vertexArray = gl.createVertexArray();
     gl.bindVertexArray(vertexArray);
     bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, geometry, chunk.indices, 2 * chunk.indexCount);
-    const integers = (/** @type {number} */ place, /** @type {ArrayBuffer} */ file, /** @type {number} */ at, /** @type {number} */ words) => {
-        bufferOf(gl, gl.ARRAY_BUFFER, file, at, 4 * words * count);
-        gl.enableVertexAttribArray(place);
-        gl.vertexAttribIPointer(place, words, gl.UNSIGNED_INT, 0, 0);
-    };
-    integers(ATTRIBUTES.vertex, geometry, chunk.vertices, 3);
-    for (const name of /** @type {const} */ (['front', 'back'])) {
-        const at = chunk[name];
+    bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.vertices, 12 * count);
+    gl.enableVertexAttribArray(ATTRIBUTES.vertex);
+    gl.vertexAttribIPointer(ATTRIBUTES.vertex, 3, gl.UNSIGNED_INT, 0, 0);
+    const places = {front: chunk.front, back: chunk.back, emission: chunk.emissions};
+    for (const name of /** @type {const} */ (['front', 'back', 'emission'])) {
+        const at = places[name];
         if (at !== null) {
-            integers(ATTRIBUTES[name], light, at, 1);
+            gl.bindBuffer(gl.ARRAY_BUFFER, light);
+            gl.enableVertexAttribArray(ATTRIBUTES[name]);
+            gl.vertexAttribIPointer(ATTRIBUTES[name], 1, gl.UNSIGNED_INT, 0, at);
         }
-    }
-    if (chunk.emissions !== null) {
-        integers(ATTRIBUTES.emission, light, chunk.emissions, 1);
     }
     if (chunk.uvs !== null) {
         bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.uvs, 8 * count);
@@ -67,7 +65,7 @@ function upload(gl, {geometry, light}, chunk) {
 /**
  * @param {WebGL2RenderingContext} gl
  * @param {SceneData} scene
- * @returns {DrawnChunk[]}
+ * @returns {{chunks: DrawnChunk[], light: WebGLBuffer}}
  */
 export function uploadChunks(gl, scene) {
     // What an array that is absent stands for.
@@ -75,7 +73,10 @@ export function uploadChunks(gl, scene) {
         gl.vertexAttribI4ui(ATTRIBUTES[name], 0, 0, 0, 0);
     }
     gl.vertexAttrib4f(ATTRIBUTES.colour, 1, 1, 1, 1);
-    return scene.manifest.chunks.map((chunk) => upload(gl, scene, chunk));
+    const light = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, light);
+    gl.bufferData(gl.ARRAY_BUFFER, scene.light, gl.DYNAMIC_DRAW);
+    return {chunks: scene.manifest.chunks.map((chunk) => upload(gl, scene, light, chunk)), light};
 }
 
 /**
@@ -105,24 +106,27 @@ export function uploadTextures(gl, {manifest, textures}) {
 }
 
 /**
- * A row of texels for each material whose albedo follows the angle.
+ * A row of texels for each material, whose albedo may follow the angle.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {SceneData} scene
- * @returns {{texture: WebGLTexture, rows: number[]}}  rows: of materials, -1: none
+ * @returns {{texture: WebGLTexture, rows: number[]}}  rows: of materials, -1: it does not
  */
 export function uploadAlbedos(gl, {manifest, geometry}) {
-    const places = manifest.materials.map(({albedo}) => albedo).filter((at) => at !== null);
+    const places = manifest.materials.map(({albedo}) => albedo);
     const texels = new Float32Array(4 * ALBEDO_NODES * Math.max(places.length, 1));
-    places.forEach((at, i) => texels.set(new Float32Array(geometry, at, 4 * ALBEDO_NODES), 4 * ALBEDO_NODES * i));
+    places.forEach((at, i) => {
+        if (at !== null) {
+            texels.set(new Float32Array(geometry, at, 4 * ALBEDO_NODES), 4 * ALBEDO_NODES * i);
+        }
+    });
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     const rows = Math.max(places.length, 1);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, ALBEDO_NODES, rows, 0, gl.RGBA, gl.FLOAT, texels);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    let next = 0;
-    return {texture, rows: manifest.materials.map(({albedo}) => (albedo === null ? -1 : next++))};
+    return {texture, rows: places.map((at, i) => (at === null ? -1 : i))};
 }
 
 /**
@@ -132,12 +136,18 @@ export function uploadAlbedos(gl, {manifest, geometry}) {
  */
 export function uploadSky(gl, {manifest, light}) {
     const {texels, width, height} = manifest.sky;
-    if (texels === null) {
-        return null;
-    }
+    return texels === null ? null : skyTexture(gl, new Uint32Array(light, texels, width * height), width, height);
+}
+
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {Uint32Array} words
+ * @param {number} width
+ * @param {number} height
+ */
+export function skyTexture(gl, words, width, height) {
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
-    const words = new Uint32Array(light, texels, width * height);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB9_E5, width, height, 0, gl.RGB, gl.UNSIGNED_INT_5_9_9_9_REV, words);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of a walkthrough: scene.json, two binary ones, textures. Written by server/walkthrough; what they say is
-// checked before it is used.
+// checked before it is used. Those of a running scene have no light, which comes apart, and objects that can be moved.
 
 /**
  * @typedef {[number, number, number]} Triple
@@ -17,6 +17,8 @@
  * @property {number} front  light, 4 bytes each
  * @property {number | null} back  light, 4 bytes each; null: backs are black
  * @property {number | null} emissions  light, 4 bytes each
+ * @property {number} [object]  index, of a running scene
+ * @property {number | null} [emissionAt]  light, 4 bytes: instead of `emission`
  *
  * @typedef {object} Material
  * @property {string} name
@@ -33,19 +35,22 @@
  * @property {number} cosine
  * @property {Triple} radiance  cd/m²
  *
+ * @typedef {{uniform: Triple, texels: number | null, width: number, height: number, sun: Sun | null}} SkyData
+ *
  * @typedef {object} SceneManifest
  * @property {string} format
  * @property {number} version
  * @property {string} name
  * @property {{file: string, bytes: number}} geometry
- * @property {{file: string, bytes: number, unit: number}} light  unit: cd/m²
+ * @property {{file: string | null, bytes: number, unit: number}} light  unit: cd/m²; file null: it comes apart
  * @property {{origin: Triple, step: Triple}} grid  metres
  * @property {{min: Triple, max: Triple}} bounds
  * @property {{name: string, eye: Triple, target: Triple, up: Triple, verticalFov: number}[]} cameras
- * @property {{uniform: Triple, texels: number | null, width: number, height: number, sun: Sun | null}} sky
+ * @property {SkyData} sky
  * @property {Material[]} materials
  * @property {{file: string, repeatU: boolean, repeatV: boolean}[]} textures
  * @property {Chunk[]} chunks
+ * @property {{worldFromObject: number[]}[]} [objects]  of a running scene, as its vertices have them
  *
  * @typedef {object} SceneData
  * @property {SceneManifest} manifest
@@ -120,14 +125,15 @@ export function problemOf(manifest) {
     if (manifest.version !== VERSION) {
         return `it has version ${manifest.version}, and this page draws version ${VERSION}`;
     }
-    const {geometry, light, materials, textures, chunks, sky} = manifest;
+    const {geometry, light, materials, textures, chunks, sky, objects = [{}]} = manifest;
     const fits = (/** @type {number | null} */ at, /** @type {number} */ size, /** @type {{bytes: number}} */ file) =>
         at === null || (Number.isInteger(at) && at >= 0 && at % 4 === 0 && at + size <= file.bytes);
     const chunkFits = (/** @type {Chunk} */ c) =>
         materials[c.material] !== undefined && c.vertexCount <= 65535 &&
         fits(c.vertices, 12 * c.vertexCount, geometry) && fits(c.indices, 2 * c.indexCount, geometry) &&
         fits(c.uvs, 8 * c.vertexCount, geometry) && fits(c.colours, 4 * c.vertexCount, geometry) &&
-        [c.front, c.back, c.emissions].every((at) => fits(at, 4 * c.vertexCount, light));
+        [c.front, c.back, c.emissions].every((at) => fits(at, 4 * c.vertexCount, light)) &&
+        fits(c.emissionAt ?? null, 4, light) && objects[c.object ?? 0] !== undefined;
     const bad = chunks.findIndex((chunk) => !chunkFits(chunk));
     if (bad >= 0) {
         return `chunks[${bad}] lies outside of its file`;
@@ -152,10 +158,11 @@ async function getTexture(file) {
  * Loads all that is drawn. Throws SceneDataError.
  *
  * @param {(share: number) => void} progress  of the binary files
+ * @param {string} folder  with a slash at its end; empty: beside the page
  * @returns {Promise<SceneData>}
  */
-export async function loadScene(progress) {
-    const response = await get('scene.json');
+export async function loadScene(progress, folder = '') {
+    const response = await get(`${folder}scene.json`);
     /** @type {SceneManifest} */
     const manifest = await response.json().catch(() => null);
     const problem = problemOf(manifest);
@@ -163,13 +170,16 @@ export async function loadScene(progress) {
         throw new SceneDataError(`scene.json cannot be drawn: ${problem}.`);
     }
     let there = 0;
-    const all = manifest.geometry.bytes + manifest.light.bytes;
-    const arrived = (/** @type {number} */ bytes) => progress((there += bytes) / all);
-    const text = async (/** @type {string} */ name) => (await get(`shaders/${name}.glsl`)).text();
+    const {file, bytes} = manifest.light;
+    const all = manifest.geometry.bytes + (file === null ? 0 : bytes);
+    const arrived = (/** @type {number} */ more) => progress((there += more) / all);
+    const text = async (/** @type {string} */ name) => (await get(`${folder}shaders/${name}.glsl`)).text();
+    const binary = (/** @type {{file: string, bytes: number}} */ part) =>
+        getBinary({file: folder + part.file, bytes: part.bytes}, arrived);
     const [geometry, light, textures, toneCurve, falseColour] = await Promise.all([
-        getBinary(manifest.geometry, arrived),
-        getBinary(manifest.light, arrived),
-        Promise.all(manifest.textures.map(({file}) => getTexture(file))),
+        binary(manifest.geometry),
+        file === null ? new ArrayBuffer(bytes) : binary({file, bytes}),
+        Promise.all(manifest.textures.map((texture) => getTexture(folder + texture.file))),
         text('tone_curve'),
         text('false_colour'),
     ]);

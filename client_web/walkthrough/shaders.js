@@ -25,6 +25,7 @@ layout(location = ${ATTRIBUTES.emission}) in uint own_emission;
 layout(location = ${ATTRIBUTES.uv}) in vec2 vertex_uv;
 layout(location = ${ATTRIBUTES.colour}) in vec4 vertex_colour;
 uniform mat4 clip_from_world;
+uniform mat4 world_from_start;  // of the object, which has been moved
 uniform vec3 grid_origin, grid_step, emission;
 uniform float light_unit;
 // At the edge of a triangle the middle of a pixel may lie outside, and what is extrapolated to it has no meaning.
@@ -46,9 +47,10 @@ vec3 from_octahedral(vec2 p) {
 void main() {
     uvec3 v = packed_vertex;
     uvec3 place = uvec3(v.x & 0x1fffffu, v.x >> 21u | (v.y & 0x3ffu) << 11u, v.y >> 10u & 0x1fffffu);
-    position = grid_origin + grid_step * vec3(place);
+    position = (world_from_start * vec4(grid_origin + grid_step * vec3(place), 1.0)).xyz;
     ivec2 bytes = ivec2(int(v.z << 24u) >> 24, int(v.z << 16u) >> 24);
-    normal = from_octahedral(vec2(bytes) / 127.0);
+    mat3 m = mat3(world_from_start);  // normals go by its cofactors
+    normal = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * from_octahedral(vec2(bytes) / 127.0);
     front = from_rgb9e5(front_light);
     back = from_rgb9e5(back_light);
     emitted = emission + from_rgb9e5(own_emission);
@@ -80,6 +82,7 @@ ${falseColour}
 uniform int mode;
 uniform float display_factor;  // of photographs: from cd/m² to the tone curve's input
 uniform float scale_maximum;   // of false colour, cd/m² or lx
+uniform float scale_begin;     // likewise; 0: linear
 out vec4 shown;
 
 /// Logarithm of the luminance in 16 bits, for the exposure; blue: it counts.
@@ -89,8 +92,8 @@ vec4 brightness(vec3 radiance, bool counts) {
 }
 
 vec4 output_of(vec3 radiance, float illuminance, bool counts) {
-    if (mode == ${MODES.luminance}) return vec4(false_colour(luminance(radiance), 1e-3 * scale_maximum, scale_maximum), 1.0);
-    if (mode == ${MODES.illuminance}) return vec4(false_colour(illuminance, 1e-3 * scale_maximum, scale_maximum), 1.0);
+    if (mode == ${MODES.luminance}) return vec4(false_colour(luminance(radiance), scale_begin, scale_maximum), 1.0);
+    if (mode == ${MODES.illuminance}) return vec4(false_colour(illuminance, scale_begin, scale_maximum), 1.0);
     if (mode == ${MODES.brightness}) return brightness(radiance, counts);
     if (mode == ${MODES.linear}) return vec4(radiance, 1.0);
     return vec4(srgb_encoded(shoulder(radiance * display_factor)), 1.0);
