@@ -31,6 +31,11 @@ std::string read_text(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+template <typename T>
+void append(const std::vector<T>& more, std::vector<T>& to) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
 /// The scene as it changes, its solution and the picture.
 class Sequence {
   public:
@@ -46,12 +51,10 @@ class Sequence {
         change_surfaces(before, time);
         std::vector<ObjectMove> moves;
         for (const std::uint32_t object : script_.moving_objects()) {
-            const Transform transform = script_.transform_at(object, time);
-            Object& moved = loaded_.scene.objects[object];
-            if (transform.matrix() != moved.transform.matrix()) {
-                moved.transform = transform;
-                moves.push_back({object, moved.world_from_object()});
-            }
+            move(object, script_.transform_at(object, time), moves);
+        }
+        for (const auto& [object, transform] : script_.playback().objects_at(loaded_.scene, time)) {
+            move(object, transform, moves);
         }
         for (std::size_t first = 0; first < moves.size(); first += MOST_MOVED) {
             const std::size_t count = std::min<std::size_t>(moves.size() - first, MOST_MOVED);
@@ -123,11 +126,21 @@ class Sequence {
         }
     }
 
+    void move(std::uint32_t object, const Transform& transform, std::vector<ObjectMove>& moves) {
+        Object& moved = loaded_.scene.objects[object];
+        if (transform.matrix() != moved.transform.matrix()) {
+            moved.transform = transform;
+            moves.push_back({object, moved.world_from_object()});
+        }
+    }
+
     void change_surfaces(double before, double time) {
         std::vector<std::uint32_t> materials;
         std::vector<std::uint32_t> reflecting;
         bool lights = false;
-        for (const LightEdit& edit : script_.lights_between(before, time)) {
+        std::vector<LightEdit> light_edits = script_.lights_between(before, time);
+        append(script_.playback().lights_between(loaded_.scene, before, time), light_edits);
+        for (const LightEdit& edit : light_edits) {
             lights = true;
             const std::uint32_t material = apply(loaded_.scene, edit);
             if (material != no_material) {
@@ -135,7 +148,9 @@ class Sequence {
             }
         }
         bool covered = true;
-        for (const MaterialEdit& edit : script_.materials_between(before, time)) {
+        std::vector<MaterialEdit> material_edits = script_.materials_between(before, time);
+        append(script_.playback().materials_between(loaded_.scene, before, time), material_edits);
+        for (const MaterialEdit& edit : material_edits) {
             const std::uint32_t material = apply(loaded_.scene, edit);
             materials.push_back(material);
             reflecting.push_back(material);

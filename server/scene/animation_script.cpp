@@ -183,6 +183,12 @@ class ScriptReader {
         for (std::size_t i = 0; i < keys.json.size(); ++i) {
             read_key(keys.at(i));
         }
+        for (const std::uint32_t object : script_.playback_.objects(scene_)) {
+            if (script_.transforms_.contains(object)) {
+                keys.refuse("object '" + scene_.objects[object].name +
+                            "' has keys, and an animation moves it");
+            }
+        }
     }
 
   private:
@@ -193,9 +199,10 @@ class ScriptReader {
         const double time = key.at("time").number(0.0, max_time);
         const int kinds = static_cast<int>(key.has("camera")) +
                           static_cast<int>(key.has("object")) + static_cast<int>(key.has("light")) +
-                          static_cast<int>(key.has("material"));
+                          static_cast<int>(key.has("material")) +
+                          static_cast<int>(key.has("animation"));
         if (kinds != 1) {
-            key.refuse("needs one of camera, object, light, material");
+            key.refuse("needs one of camera, object, light, material, animation");
         }
         if (key.has("camera")) {
             key.require_fields({"time", "camera"});
@@ -204,6 +211,8 @@ class ScriptReader {
             read_object(key, time);
         } else if (key.has("light")) {
             read_light(key, time);
+        } else if (key.has("animation")) {
+            read_animation(key, time);
         } else {
             read_material(key, time);
         }
@@ -294,6 +303,22 @@ class ScriptReader {
         script_.lights_.emplace(time, edit);
     }
 
+    void read_animation(const Node& key, double time) {
+        key.require_fields({"time", "animation", "seconds", "speed", "loop"});
+        static const std::vector<Animation> none;
+        const std::uint32_t animation =
+            find(key.at("animation"), scene_.animations ? scene_.animations->animations : none);
+        ScriptPlayback::Play play = script_.playback_.at(scene_, animation, time);
+        play.speed = key.has("speed") ? key.at("speed").number(-100.0, 100.0) : 1.0;
+        if (key.has("seconds")) {
+            play.seconds = key.at("seconds").number(0.0, max_time);
+        }
+        if (key.has("loop")) {
+            play.loop = key.at("loop").boolean();
+        }
+        script_.playback_.add(animation, time, play);
+    }
+
     void read_material(const Node& key, double time) {
         key.require_fields({"time", "material", "baseColour", "roughness", "metallic"});
         MaterialEdit edit;
@@ -368,25 +393,6 @@ std::vector<LightEdit> AnimationScript::lights_between(double after, double unti
 
 std::vector<MaterialEdit> AnimationScript::materials_between(double after, double until) const {
     return between(materials_, after, until);
-}
-
-std::string numbered_file(const std::string& pattern, unsigned number) {
-    const std::size_t percent = pattern.find('%');
-    std::size_t at = percent == std::string::npos ? percent : percent + 1;
-    unsigned width = 1;
-    if (at != std::string::npos && at + 1 < pattern.size() && pattern[at] == '0' &&
-        pattern[at + 1] >= '1' && pattern[at + 1] <= '9') {
-        width = static_cast<unsigned>(pattern[at + 1] - '0');
-        at += 2;
-    }
-    if (at == std::string::npos || at >= pattern.size() || pattern[at] != 'd' ||
-        pattern.find('%', at) != std::string::npos) {
-        throw ScriptError("'" + pattern +
-                          "' needs one %d for the number of the frame, as in "
-                          "frame_%04d.png");
-    }
-    return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, width,
-                       pattern.substr(at + 1));
 }
 
 }  // namespace raybundle

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/animation/script_playback.h"
 #include "scene/scene.h"
 #include "scene/surface_edit.h"
 
@@ -23,12 +24,15 @@ class ScriptError : public std::runtime_error {
 ///       {"time": 0, "camera": {"eye": [2.7, 2.7, -7.5], "target": [2.7, 2.7, 2.7]}},
 ///       {"time": 2, "object": "short box", "translation": [0.5, 0, 0]},
 ///       {"time": 1, "light": "ceiling", "intensity": 800, "on": true},
-///       {"time": 1, "material": "wall", "baseColour": [0.2, 0.5, 0.2], "roughness": 0.4}]}
+///       {"time": 1, "material": "wall", "baseColour": [0.2, 0.5, 0.2], "roughness": 0.4},
+///       {"time": 0.5, "animation": "door", "seconds": 0, "speed": 2, "loop": false}]}
 ///
 /// Times in seconds. Cameras (also "up", "verticalFov" in radians) and objects ("translation",
 /// "rotation" as x, y, z, w, "scale"; what is absent is as in the key before) move evenly from key
 /// to key, objects from where they are at time 0. Lights ("intensity" in cd/m², "colour", "on") and
-/// materials ("baseColour", "roughness", "metallic") change at their time. Objects, lights and
+/// materials ("baseColour", "roughness", "metallic") change at their time. Animations of the file
+/// play from their time on, from where they are unless "seconds" says where, and stand at a "speed"
+/// of 0. Objects, lights and
 /// materials by name or number (id).
 class AnimationScript {
   public:
@@ -51,6 +55,8 @@ class AnimationScript {
     /// Those with after < time <= until, in order of time.
     [[nodiscard]] std::vector<LightEdit> lights_between(double after, double until) const;
     [[nodiscard]] std::vector<MaterialEdit> materials_between(double after, double until) const;
+    /// What the scene's animations do: apart from all of the above.
+    [[nodiscard]] const ScriptPlayback& playback() const { return playback_; }
 
   private:
     friend class ScriptReader;
@@ -63,6 +69,7 @@ class AnimationScript {
     std::map<std::uint32_t, Keys<Transform>> transforms_;
     Keys<LightEdit> lights_;
     Keys<MaterialEdit> materials_;
+    ScriptPlayback playback_;
 };
 
 /// "frame_%04d.png" with a number in the place of its %d or %0Nd (N one digit). Throws ScriptError

@@ -15,6 +15,7 @@
 namespace raybundle {
 
 class Environment;
+struct SceneAnimations;
 
 /// Axis-aligned box; empty while min > max.
 struct Bounds {
@@ -239,8 +240,9 @@ struct Scene {
     std::optional<SkyLight> sky_light;  ///< none where no sky shines
     DaylightSetting daylight;
     std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
-    Bounds bounds;                          ///< world space
-    glm::dvec3 origin{0.0};                 ///< m, where the file has this scene's zero
+    std::shared_ptr<const SceneAnimations> animations;  ///< none where nothing is animated
+    Bounds bounds;                                      ///< world space
+    glm::dvec3 origin{0.0};                             ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

@@ -6,6 +6,7 @@
 
 #include "scene/scene_report.h"
 
+#include "scene/animation/scene_animations.h"
 #include "scene/light/environment.h"
 #include "scene/light/light_figures.h"
 
@@ -78,6 +79,27 @@ const char* name_of(PunctualKind kind) {
     return "point";
 }
 
+/// "door, handle; 2 lights": the first objects by name.
+std::string moved_by(const Scene& scene, const Animation& animation) {
+    constexpr std::size_t most_named = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(animation.objects.size(), most_named); ++i) {
+        text += (i == 0 ? "" : ", ") + scene.objects[animation.objects[i]].name;
+    }
+    if (animation.objects.size() > most_named) {
+        text += fmt::format(" and {} more", animation.objects.size() - most_named);
+    }
+    const auto add = [&text](std::size_t count, const char* what) {
+        if (count > 0) {
+            text += fmt::format("{}{} {}{}", text.empty() ? "" : "; ", count, what,
+                                count == 1 ? "" : "s");
+        }
+    };
+    add(animation.lights.size(), "light");
+    add(animation.materials.size(), "material");
+    return text;
+}
+
 /// In the units that people know lights by.
 std::string strength_of(const PunctualLight& light) {
     const LightFigures figures = loaded_figures(light);
@@ -124,6 +146,13 @@ void print_lists(std::ostream& out, const Scene& scene) {
         out << fmt::format("       {}  eye {}  target {}  vertical fov {:.4g} degrees\n",
                            camera.name, text_of(camera.eye), text_of(camera.target),
                            glm::degrees(camera.vertical_fov));
+    }
+    if (scene.animations) {
+        out << fmt::format("animations  {}\n", scene.animations->animations.size());
+        for (const Animation& animation : scene.animations->animations) {
+            out << fmt::format("       {}  {:.4g} s  {}\n", animation.name, animation.seconds,
+                               moved_by(scene, animation));
+        }
     }
     out << fmt::format("textures    {}\n", scene.textures.size());
     for (const Texture& texture : scene.textures) {
@@ -209,6 +238,23 @@ Json cameras_json(const Scene& scene) {
     return result;
 }
 
+Json animations_json(const Scene& scene) {
+    Json result = Json::array();
+    for (std::size_t i = 0; scene.animations && i < scene.animations->animations.size(); ++i) {
+        const Animation& animation = scene.animations->animations[i];
+        Json objects = Json::array();
+        for (const std::uint32_t object : animation.objects) {
+            objects.push_back(object + 1);
+        }
+        result.push_back({{"name", animation.name},
+                          {"seconds", animation.seconds},
+                          {"objects", objects},
+                          {"lights", animation.lights},
+                          {"materials", animation.materials}});
+    }
+    return result;
+}
+
 Json textures_json(const Scene& scene) {
     Json result = Json::array();
     for (const Texture& texture : scene.textures) {
@@ -253,6 +299,7 @@ Json scene_report_json(const Scene& scene, const SceneReport& report) {
         {"materials", materials_json(scene)},
         {"lights", lights_json(scene)},
         {"cameras", cameras_json(scene)},
+        {"animations", animations_json(scene)},
         {"textures", textures_json(scene)},
         {"notices", scene.notices}};
     for (const EnclosedLight& lamp : report.enclosed) {

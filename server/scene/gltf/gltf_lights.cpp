@@ -30,9 +30,10 @@ PunctualKind kind_of(const std::string& type) {
 class LightReader {
   public:
     LightReader(GltfDocument& document, const GltfNodeTree& tree,
-                const std::vector<ObjectPlan>& plans, Scene& scene)
+                const std::vector<ObjectPlan>& plans, const std::vector<bool>& moved, Scene& scene)
         : document_(document),
           tree_(tree),
+          moved_(moved),
           scene_(scene),
           object_of_node_(tree.nodes.size(), PunctualLight::no_object) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -47,11 +48,12 @@ class LightReader {
         read_profiles_.resize(profiles_.size());
     }
 
-    void read() {
+    std::vector<LightSource> read() {
         for (const int index : tree_.order) {
             const auto n = static_cast<std::size_t>(index);
             const int parent = tree_.nodes[n].parent;
-            if (object_of_node_[n] == PunctualLight::no_object && parent >= 0) {
+            const bool inherits = parent >= 0 && !moved_[n];
+            if (object_of_node_[n] == PunctualLight::no_object && inherits) {
                 object_of_node_[n] = object_of_node_[static_cast<std::size_t>(parent)];
             }
             if (!tree_.nodes[n].visible) {
@@ -66,6 +68,7 @@ class LightReader {
                 add_profile(n, *use);
             }
         }
+        return std::move(sources_);
     }
 
   private:
@@ -83,6 +86,7 @@ class LightReader {
             }
         }
         set_intensity(value_or(source, "intensity", 1.0F), colour, light);
+        sources_.push_back({node, definition, value_or(source, "intensity", 1.0F), colour});
         if (light.kind == PunctualKind::spot) {
             read_cone(source, definition, light);
         }
@@ -109,6 +113,7 @@ class LightReader {
         set_intensity(number_or(use, "multiplier", 1.0F),
                       glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F), light);
         light.profile = profile(index);
+        sources_.push_back({node, std::nullopt});
         place(node, light);
         scene_.punctual_lights.push_back(std::move(light));
     }
@@ -194,7 +199,9 @@ class LightReader {
 
     GltfDocument& document_;
     const GltfNodeTree& tree_;
+    const std::vector<bool>& moved_;
     Scene& scene_;
+    std::vector<LightSource> sources_;
     std::vector<int> object_of_node_;  // index into Scene::objects
     Json definitions_ = Json::array();
     Json profiles_ = Json::array();
@@ -203,9 +210,10 @@ class LightReader {
 
 }  // namespace
 
-void read_punctual_lights(GltfDocument& document, const GltfNodeTree& tree,
-                          const std::vector<ObjectPlan>& plans, Scene& scene) {
-    LightReader(document, tree, plans, scene).read();
+std::vector<LightSource> read_punctual_lights(GltfDocument& document, const GltfNodeTree& tree,
+                                              const std::vector<ObjectPlan>& plans,
+                                              const std::vector<bool>& moved, Scene& scene) {
+    return LightReader(document, tree, plans, moved, scene).read();
 }
 
 }  // namespace raybundle

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "scene/contact/solid_shells.h"
+#include "scene/gltf/animation/animation_links.h"
 #include "scene/gltf/file/gltf_bake.h"
 #include "scene/gltf/file/gltf_container.h"
 #include "scene/gltf/file/gltf_document.h"
@@ -125,9 +126,11 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
         read_placed_geometry(document, tree, settings.metres_per_unit, scene);
-    const std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries);
+    const FileAnimations animations = read_animations(document, tree);
+    std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries, animations.moved);
     bake_objects(document, tree, geometries, plans, default_material, scene);
-    read_punctual_lights(document, tree, plans, scene);
+    const std::vector<LightSource> light_sources =
+        read_punctual_lights(document, tree, plans, animations.moved, scene);
     for (const std::string& choice : settings.ies) {
         apply_ies(choice, document, scene);
     }
@@ -146,6 +149,8 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);
     measure_lights(scene);
+    link_animations(document, animations,
+                    {tree, settings.metres_per_unit, geometries, plans, light_sources}, scene);
     note_materials(document, scene);
     set_sky(document, settings, scene);
     scene.sky_light = find_sky_light(scene);

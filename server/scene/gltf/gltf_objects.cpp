@@ -67,8 +67,12 @@ bool is_shell(const Bounds& bounds, const Bounds& scene) {
 class Planner {
   public:
     Planner(const GltfDocument& document, const GltfNodeTree& tree,
-            const std::vector<NodeGeometry>& geometries)
-        : document_(document), tree_(tree), geometries_(geometries), info_(tree.nodes.size()) {
+            const std::vector<NodeGeometry>& geometries, const std::vector<bool>& moved)
+        : document_(document),
+          tree_(tree),
+          geometries_(geometries),
+          moved_(moved),
+          info_(tree.nodes.size()) {
         gather();
     }
 
@@ -82,7 +86,12 @@ class Planner {
                 continue;
             }
             if (!is_divided(node)) {
-                add_object(node, subtree_geometries(node));
+                std::vector<int> apart;
+                const std::vector<std::size_t> own = subtree_geometries(node, apart);
+                if (!own.empty()) {
+                    add_object(node, own);
+                }
+                pending.insert(pending.end(), apart.rbegin(), apart.rend());
                 continue;
             }
             if (at(node).geometry) {
@@ -106,6 +115,14 @@ class Planner {
 
     static std::size_t index(int node) { return static_cast<std::size_t>(node); }
     NodeInfo& at(int node) { return info_[index(node)]; }
+
+    /// Whether an animation moves a node or one above it.
+    [[nodiscard]] bool is_carried(int node) const {
+        while (node >= 0 && !moved_[index(node)]) {
+            node = tree_.nodes[index(node)].parent;
+        }
+        return node >= 0;
+    }
 
     void gather() {
         for (std::size_t i = 0; i < geometries_.size(); ++i) {
@@ -140,12 +157,18 @@ class Planner {
         return info.decided_below || axes_spanned(info.bounds, scene_bounds_, group_span) >= 2;
     }
 
-    std::vector<std::size_t> subtree_geometries(int root) {
+    /// apart: gets nodes below that an animation moves, unless the whole is one thing to move.
+    std::vector<std::size_t> subtree_geometries(int root, std::vector<int>& apart) {
+        const bool whole = at(root).movable.value_or(false);
         std::vector<std::size_t> found;
         std::vector<int> pending{root};
         while (!pending.empty()) {
             const int node = pending.back();
             pending.pop_back();
+            if (node != root && moved_[index(node)] && !whole) {
+                apart.push_back(node);
+                continue;
+            }
             if (at(node).geometry) {
                 found.push_back(*at(node).geometry);
             }
@@ -166,7 +189,8 @@ class Planner {
         plan.name = readable_name(name_of(node, geometries.front()),
                                   other_names(node, geometries.front()), plan.path);
         plan.kind = kind_of_names(names_below(node));
-        plan.movable = at(node).movable.value_or(!is_shell(bounds, scene_bounds_));
+        plan.movable =
+            is_carried(node) || at(node).movable.value_or(!is_shell(bounds, scene_bounds_));
         plan.geometries = std::move(geometries);
         plans_.push_back(std::move(plan));
     }
@@ -228,6 +252,7 @@ class Planner {
     const GltfDocument& document_;
     const GltfNodeTree& tree_;
     const std::vector<NodeGeometry>& geometries_;
+    const std::vector<bool>& moved_;
     std::vector<NodeInfo> info_;
     Bounds scene_bounds_;
     std::vector<ObjectPlan> plans_;
@@ -236,8 +261,9 @@ class Planner {
 }  // namespace
 
 std::vector<ObjectPlan> plan_objects(const GltfDocument& document, const GltfNodeTree& tree,
-                                     const std::vector<NodeGeometry>& geometries) {
-    return Planner(document, tree, geometries).plan();
+                                     const std::vector<NodeGeometry>& geometries,
+                                     const std::vector<bool>& moved) {
+    return Planner(document, tree, geometries, moved).plan();
 }
 
 }  // namespace raybundle

@@ -24,7 +24,11 @@ struct ObjectPlan {
 /// most of the scene is one (a table with its legs); groups and rooms that span it are divided
 /// further. Objects are movable unless they belong to the enclosing shell (floor, walls, ceiling,
 /// judged by their size and place) or `extras.movable` is false.
+///
+/// moved: of each node, whether an animation moves it. Such a node is an object of its own and
+/// movable, unless it is part of one that `extras.movable` makes a whole.
 std::vector<ObjectPlan> plan_objects(const GltfDocument& document, const GltfNodeTree& tree,
-                                     const std::vector<NodeGeometry>& geometries);
+                                     const std::vector<NodeGeometry>& geometries,
+                                     const std::vector<bool>& moved);
 
 }  // namespace raybundle

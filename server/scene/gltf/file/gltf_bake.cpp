@@ -41,15 +41,18 @@ class Baker {
         tie_ = coincidence_share * double{glm::length(all.extent())};
     }
 
-    void add_object(const ObjectPlan& plan, const std::vector<NodeGeometry>& geometries) {
+    /// False: it has no triangle with an area.
+    bool add_object(const ObjectPlan& plan, const std::vector<NodeGeometry>& geometries) {
         const std::size_t first_triangle = scene_.triangles.size();
         begin_object(plan);
         for (const std::size_t geometry : plan.geometries) {
             add_geometry(geometries[geometry]);
         }
-        if (scene_.triangles.size() > first_triangle) {
-            finish_object(first_triangle);
+        if (scene_.triangles.size() == first_triangle) {
+            return false;
         }
+        finish_object(first_triangle);
+        return true;
     }
 
     void add_notices() const {
@@ -250,12 +253,12 @@ class Baker {
 }  // namespace
 
 void bake_objects(GltfDocument& document, const GltfNodeTree& tree,
-                  const std::vector<NodeGeometry>& geometries, const std::vector<ObjectPlan>& plans,
+                  const std::vector<NodeGeometry>& geometries, std::vector<ObjectPlan>& plans,
                   std::uint32_t default_material, Scene& scene) {
     Baker baker(document, tree, geometries, default_material, scene);
-    for (const ObjectPlan& plan : plans) {
-        baker.add_object(plan, geometries);
-    }
+    std::erase_if(plans, [&](const ObjectPlan& plan) {
+        return !baker.add_object(plan, geometries);  // each once, in order
+    });
     baker.add_notices();
     if (scene.triangles.empty()) {
         document.fail("", "the scene has no triangles with an area");

@@ -79,6 +79,7 @@ GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
       model_(read_checked_model(path, container.json, daylight_)),
       extensions_(value_or(container.json, "extensions", Json(Json::object()))),
+      animations_(array_or_empty(container.json, "animations")),
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),
                model_.bufferViews) {
     check_accessors(*this);

@@ -34,6 +34,8 @@ class GltfDocument {
     [[nodiscard]] const Json* extension(const char* name) const {
         return find_member(extensions_, name);
     }
+    /// "animations" as the file has it, unchecked.
+    [[nodiscard]] const Json& animations() const { return animations_; }
     [[nodiscard]] std::span<const std::uint8_t> view_bytes(int view) const {
         return buffers_.view(view);
     }
@@ -64,6 +66,7 @@ class GltfDocument {
     Daylight daylight_;
     tinygltf::Model model_;
     Json extensions_;
+    Json animations_;
     GltfBuffers buffers_;
     std::vector<std::string> notices_;
     mutable std::size_t components_ = 0;   ///< read so far

@@ -12,7 +12,7 @@
 namespace raybundle {
 namespace {
 
-constexpr std::array<std::string_view, 17> fully_read = {
+constexpr std::array<std::string_view, 18> fully_read = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_materials_emissive_strength",
@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, 17> fully_read = {
     "KHR_materials_transmission",
     "KHR_materials_volume",
     "KHR_materials_clearcoat",
+    "KHR_animation_pointer",
 };
 
 struct Approximation {
@@ -37,12 +38,11 @@ struct Approximation {
 };
 
 // The geometry of a file that requires one of these is right, only its look is simplified.
-constexpr std::array<Approximation, 5> approximated = {{
+constexpr std::array<Approximation, 4> approximated = {{
     {"KHR_materials_unlit", "unlit materials are shown as they are, and are black to light"},
     {"KHR_materials_variants", "the default material variants are used"},
     {"KHR_materials_pbrSpecularGlossiness",
      "colours and glossiness are used, the specular-glossiness texture is ignored"},
-    {"KHR_animation_pointer", "animations are ignored: the rest pose is used"},
     {"KHR_texture_basisu",
      "KTX2 images cannot be decoded: the fallback images of the textures are used"},
 }};
@@ -86,9 +86,6 @@ void note_ignored_extensions(const Json& json, GltfDocument& document) {
         } else {
             document.note(fmt::format("extension {} is ignored", name));
         }
-    }
-    if (!array_or_empty(json, "animations").empty()) {
-        document.note("animations are ignored: the rest pose is used");
     }
 }
 
