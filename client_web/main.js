@@ -17,6 +17,7 @@ import {ChangeList} from './review/change_list.js';
 import {History, addHistory, subjectOf} from './scene/history.js';
 import {IsolineNumbers} from './measure/isolines.js';
 import {addKeys} from './app/keys.js';
+import {AnimationPanel} from './scene/animation_panel.js';
 import {DaylightPanel} from './scene/daylight_panel.js';
 import {LightGroups} from './scene/light_groups.js';
 import {LightPanel} from './scene/light_panel.js';
@@ -102,6 +103,7 @@ const lightPanel = new LightPanel(app, history, () => {
 });
 new LightGroups(app);
 new DaylightPanel(app, history);
+new AnimationPanel(app, history);
 new TargetPanel(app);
 new Viewpoints(app);
 new FirstHint(app);

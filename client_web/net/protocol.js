@@ -91,6 +91,26 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Effect[]} effects
  * @property {{name: string, byName: string}[]} [lightingScenes]
  * @property {SetDaylight} [daylight]
+ * @property {Animation[]} [animations]
+ */
+
+/**
+ * @typedef {object} PlayAnimation
+ * @property {string} animation
+ * @property {boolean} [playing]
+ * @property {number} [seconds]
+ * @property {number} [speed]
+ * @property {boolean} [loop]
+ */
+
+/**
+ * @typedef {object} Animation
+ * @property {string} name
+ * @property {number} seconds  its length
+ * @property {number[]} objects  that it moves
+ * @property {number[]} lights
+ * @property {number[]} materials
+ * @property {PlayAnimation & {seconds: number}} state
  */
 
 /**
@@ -207,6 +227,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {SetLight} [lightBefore]
  * @property {SetMaterial} [materialBefore]
  * @property {number} [firstEpoch]  of several steps
+ * @property {{animation: string, seconds: number, firstEpoch: number}} [animation]  that makes it
  */
 
 /**

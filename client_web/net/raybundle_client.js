@@ -27,7 +27,7 @@ const PREPARING = 'The server is preparing the scene';
 /** Requests that change what is saved. */
 const CHANGES = [
     'moveObject', 'setLight', 'setMaterial', 'setGroup', 'setDaylight', 'saveLightingScene', 'applyLightingScene',
-    'removeLightingScene', 'undo', 'addPin', 'removePin', 'saveViewpoint', 'removeViewpoint',
+    'removeLightingScene', 'playAnimation', 'undo', 'addPin', 'removePin', 'saveViewpoint', 'removeViewpoint',
 ];
 const PING_INTERVAL_MS = 2000;
 const FIRST_RETRY_MS = 500;

@@ -63,6 +63,8 @@ export class ChangeList extends EventTarget {
         const loaded = this.#loadedTransforms();
         return this.#changes
             .filter(({moveObject}) => moveObject?.final !== false)
+            // Of what an animation has moved one row is enough.
+            .filter((change, at, all) => !all.slice(at + 1).some((later) => sameRun(change, later)))
             .map((change) => ({
                 time: new Date(change.atMs ?? 0),
                 epoch: change.epoch,
@@ -134,7 +136,8 @@ export class ChangeList extends EventTarget {
         const subject = subjectOf(change);
         const last = this.#changes.findLast((other) => subjectOf(other) === subject);
         const inHand = !change.moveObject && last === this.#changes.at(-1) && sinceOf(last, change) < IN_HAND_MS;
-        if (last && last.by === change.by && (last.moveObject?.final === false || inHand)) {
+        const byHand = last?.by === change.by && !last.animation && !change.animation && (last.moveObject?.final === false || inHand);
+        if (last && (byHand || sameRun(last, change))) {
             this.#changes.splice(this.#changes.indexOf(last), 1);
             const {objectBefore, lightBefore, materialBefore, daylightBefore} = last;
             change = {...change, objectBefore, lightBefore, materialBefore, daylightBefore, firstEpoch: last.firstEpoch ?? last.epoch};
@@ -162,6 +165,14 @@ export class ChangeList extends EventTarget {
 }
 
 /**
+ * Whether an animation has made both since it was started or wound.
+ *
+ * @param {SceneChanged} a
+ * @param {SceneChanged} b
+ */
+const sameRun = ({animation: a}, {animation: b}) => a && b && a.animation === b.animation && a.firstEpoch === b.firstEpoch;
+
+/**
  * @param {SceneChanged | undefined} before
  * @param {SceneChanged} now
  */
@@ -183,7 +194,10 @@ export function timeText(time) {
  * @returns {string} e.g. "dimmed LED panel: 100 → 50 %"
  */
 export function describeChange(scene, change, loaded) {
-    const {moveObject, setLight, setMaterial, setDaylight, objectBefore, lightBefore, materialBefore} = change;
+    const {moveObject, setLight, setMaterial, setDaylight, objectBefore, lightBefore, materialBefore, animation} = change;
+    if (animation) {
+        return `played ${animation.animation} to ${animation.seconds.toFixed(2)}\u00a0s`;
+    }
     if (setDaylight) {
         return describeDaylight(setDaylight);
     }

@@ -263,6 +263,7 @@ export class SceneModel {
         this.materials = (scene.materials ?? []).map((material) => ({...material}));
         this.daylight = scene.daylight;
         this.lightingScenes = scene.lightingScenes ?? [];
+        this.animations = (scene.animations ?? []).map((one) => ({...one, state: {...one.state}}));
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
     }
 
@@ -289,6 +290,11 @@ export class SceneModel {
      */
     object(id) {
         return this.objects.find((object) => object.id === id) ?? null;
+    }
+
+    /** @param {string} name */
+    animation(name) {
+        return this.animations.find((animation) => animation.name === name) ?? null;
     }
 
     /**

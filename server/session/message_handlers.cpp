@@ -35,6 +35,7 @@ constexpr MessageHandler handlers[] = {
     {Body::kSetGroup, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kApplyLightingScene, call<&S::changes, &ChangeCoordinator::request>},
     {Body::kSaveLightingScene, call<&S::lighting, &LightingService::save>},
+    {Body::kPlayAnimation, call<&S::animations, &AnimationService::play>},
     {Body::kRemoveLightingScene, call<&S::lighting, &LightingService::remove>},
 
     {Body::kProbe, call<&S::probes, &ProbeService::probe>},

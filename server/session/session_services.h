@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "session/animation/animation_service.h"
 #include "session/changes/change_coordinator.h"
 #include "session/changes/lighting_service.h"
 #include "session/changes/project_follower.h"
@@ -35,6 +36,7 @@ struct SessionServices {
     SnapshotQueue snapshot_queue;
     SnapshotService snapshots;
     LightingService lighting;
+    AnimationService animations;
     ChangeCoordinator changes;
     ErrorService errors;
     SolverDriver solver;

@@ -297,6 +297,15 @@ void check_body(const v1::RemoveLightingScene& scene, MessageChecker& check) {
     check_scene_name(scene.name(), "removeLightingScene.name", check);
 }
 
+void check_body(const v1::PlayAnimation& play, MessageChecker& check) {
+    constexpr float max_speed = 100.0F;
+    check.require(!play.animation().empty(), "playAnimation.animation", "is missing");
+    check.require(play.has_playing() || play.has_seconds() || play.has_speed() || play.has_loop(),
+                  "playAnimation", "changes nothing: needs playing, seconds, speed or loop");
+    check.require(play.seconds() >= 0.0F, "playAnimation.seconds", "must not be negative");
+    check.require(std::abs(play.speed()) <= max_speed, "playAnimation.speed", "must be -100..100");
+}
+
 void check_body(const v1::SetMaterial& material, MessageChecker& check) {
     check.require(material.material() >= 1, "setMaterial.material", "is missing");
     check.require(material.has_base_colour() || material.has_roughness() || material.has_metallic(),
@@ -430,6 +439,7 @@ constexpr MessageRule rules[] = {
      check<&Client::apply_lighting_scene>},
     {Client::kRemoveLightingScene, v1::EDITOR, Waiting::queued,
      check<&Client::remove_lighting_scene>},
+    {Client::kPlayAnimation, v1::EDITOR, Waiting::queued, check<&Client::play_animation>},
     {Client::kUndo, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kListScenes, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kOpenScene, v1::EDITOR, Waiting::queued, check<&Client::open_scene>},

@@ -34,12 +34,11 @@ bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) 
            (pending.size() < MOST_MOVED && std::none_of(pending.begin(), pending.end(), same));
 }
 
-/// A move whose drag goes on.
+/// A move whose drag goes on, or by an animation that plays on.
 bool is_dragged(const PendingChange& pending) {
-    if (pending.requests.empty()) {
-        return false;
-    }
-    const v1::MoveObject& last = pending.requests.back().message.move_object();
+    const v1::MoveObject& last = pending.requests.empty()
+                                     ? pending.change.move_object()
+                                     : pending.requests.back().message.move_object();
     return last.has_final() && !last.final();
 }
 
@@ -66,13 +65,20 @@ HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const Clien
             return HandlerResult::answered;
         }
     }
+    parts_.animations.note_request(event, change);
     queue_.add(event);
     return HandlerResult::answered;
 }
 
 void ChangeCoordinator::start_pending() {
-    if (queue_.empty() || parts_.scene.solver().correcting() ||
+    if (parts_.scene.solver().correcting() ||
         !parts_.policy.may_begin(parts_.demand.nobody_waits())) {
+        return;
+    }
+    if (!queue_.has_steps()) {
+        queue_.add_steps(parts_.animations.step());
+    }
+    if (queue_.empty()) {
         return;
     }
     PendingChange first = queue_.take();
@@ -180,6 +186,9 @@ void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
 /// have been made.
 void ChangeCoordinator::start_several(const PendingChange& pending) {
     if (pending.expanded) {
+        if (pending.requests.front().message.has_undo()) {
+            parts_.animations.note_undo(pending.requests.front().message.undo().epoch());
+        }
         for (const ClientEvent& request : pending.requests) {
             recorder_.some_failed() ? recorder_.refuse_unsaved(request)
                                     : parts_.server.reply_ok(request);

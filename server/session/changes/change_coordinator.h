@@ -7,6 +7,7 @@
 
 #include "net/server.h"
 #include "scheduling/change_policy.h"
+#include "session/animation/animation_service.h"
 #include "session/changes/change_queue.h"
 #include "session/changes/change_recorder.h"
 #include "session/changes/lighting_scenes.h"
@@ -32,13 +33,14 @@ class ChangeCoordinator {
         ReceiverList& receivers;
         SnapshotQueue& snapshots;
         const LightingScenes& lighting;
+        AnimationService& animations;
         const SolverDemand& demand;
         ChangePolicy& policy;
         Server& server;
         LoopMetrics& metrics;
     };
     explicit ChangeCoordinator(const Parts& parts)
-        : parts_(parts), recorder_({parts.scene, parts.viewers, parts.server}) {}
+        : parts_(parts), recorder_({parts.scene, parts.viewers, parts.animations, parts.server}) {}
 
     /// Handles moveObject, setLight, setMaterial, and what stands for several of them (undo,
     /// setGroup, applyLightingScene): each waits for its turn, and is answered when it has been
@@ -48,9 +50,9 @@ class ChangeCoordinator {
     /// A change that another server of the project has made and recorded: its turn is next.
     void follow(LogEntry entry) { queue_.add_recorded(std::move(entry)); }
 
-    /// Makes the change that waits longest, with those right behind it that one special phase can
-    /// work in: lights and materials, or some moved objects. Does nothing while the policy wants
-    /// frames and iterations first.
+    /// Makes the change that waits longest, a step of what plays among them, with those right
+    /// behind it that one special phase can work in: lights and materials, or some moved objects.
+    /// Does nothing while the policy wants frames and iterations first.
     void start_pending();
 
     /// A bundle of a special phase has been transferred and has taken so long.

@@ -19,6 +19,9 @@ v1::SceneChanged signed_state(v1::SceneChanged before, const v1::SceneChanged& c
     before.set_by(change.by());
     before.set_by_name(change.by_name());
     before.set_at_ms(change.at_ms());
+    if (change.has_animation()) {
+        *before.mutable_animation() = change.animation();
+    }
     if (before.has_move_object() && change.move_object().has_final()) {
         before.mutable_move_object()->set_final(change.move_object().final());
     }
@@ -30,6 +33,7 @@ v1::SceneChanged unsigned_state(v1::SceneChanged state) {
     state.clear_by();
     state.clear_by_name();
     state.clear_at_ms();
+    state.clear_animation();
     if (state.has_move_object()) {
         state.mutable_move_object()->clear_final();
     }
@@ -42,6 +46,9 @@ v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChan
     after.set_by(signature.by());
     after.set_by_name(signature.by_name());
     after.set_at_ms(signature.at_ms());
+    if (signature.has_animation()) {
+        *after.mutable_animation() = signature.animation();
+    }
     if (after.has_move_object() && signature.move_object().has_final()) {
         after.mutable_move_object()->set_final(signature.move_object().final());
     }
@@ -127,6 +134,7 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
             continue;
         }
         apply(scene, change);
+        note_animation(change);
         surfaces |= !change.has_move_object();
     }
     if (surfaces) {
@@ -138,6 +146,15 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     }
     if (epoch_ > 0) {
         spdlog::info("the session goes on after change {}", epoch_);
+    }
+}
+
+/// changes come in their order.
+void ChangeLog::note_animation(const v1::SceneChanged& change) {
+    if (change.has_animation()) {
+        const std::string& name = change.animation().animation();
+        std::erase_if(animation_steps_, [&name](const auto& s) { return s.animation() == name; });
+        animation_steps_.push_back(change.animation());
     }
 }
 
@@ -167,7 +184,7 @@ void ChangeLog::restore_history(const Scene& scene) {
     }
     history_ = SceneHistory(past.front().epoch() - 1);
     for (std::size_t i = 0; i < past.size(); ++i) {
-        history_.note(unsigned_state(past[i]), after[i]);
+        history_.note(unsigned_state(past[i]), after[i], past[i].animation().first_epoch());
         records_.add(change_between(past[i], after[i]));
     }
 }

@@ -83,12 +83,19 @@ class ChangeLog {
     /// Bodies of the notes that the journal holds, by number.
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
     /// What the subject of a recorded change was before it and is after it.
-    void note_states(const v1::SceneChanged& before, const v1::SceneChanged& after) {
-        history_.note(before, after);
+    /// run: as for SceneHistory::note().
+    void note_states(const v1::SceneChanged& before, const v1::SceneChanged& after,
+                     std::uint32_t run) {
+        history_.note(before, after, run);
     }
     [[nodiscard]] const SceneHistory& history() const { return history_; }
     /// Who has changed what; before a restart, too, where there is a journal.
     [[nodiscard]] const ChangeRecords& records() const { return records_; }
+
+    /// Of each animation the last change that it has made, in their order, as restored.
+    [[nodiscard]] const std::vector<v1::AnimationStep>& animation_steps() const {
+        return animation_steps_;
+    }
 
     /// As SessionJournal::remember_scene(); a failure is logged.
     void remember_scene(const std::string& started_with, const std::string& shown);
@@ -110,6 +117,7 @@ class ChangeLog {
     void refused(const std::string& what, const std::string& reason);
     void note_keys(const std::vector<std::string>& keys, const v1::SceneChanged& change);
     void restore_history(const Scene& scene);
+    void note_animation(const v1::SceneChanged& change);
 
     std::string place_;
     Opener open_;
@@ -121,6 +129,7 @@ class ChangeLog {
     std::uint32_t epoch_ = 0;
     SceneHistory history_;
     ChangeRecords records_;
+    std::vector<v1::AnimationStep> animation_steps_;
     std::uint64_t failures_ = 0;
     std::map<std::string, v1::SceneChanged> made_;  ///< by request key
     std::deque<std::string> keys_;                  ///< of made_, oldest first

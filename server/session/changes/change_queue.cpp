@@ -59,6 +59,7 @@ void ChangeQueue::add(const ClientEvent& event) {
         return;
     }
     add_change(change, waiting->change);
+    waiting->change.clear_animation();
     waiting->requests.push_back(event);
 }
 
@@ -87,6 +88,17 @@ void ChangeQueue::add_recorded(LogEntry entry) {
 void ChangeQueue::put_back(std::vector<PendingChange> changes) {
     pending_.insert(behind_recorded(), std::make_move_iterator(changes.begin()),
                     std::make_move_iterator(changes.end()));
+}
+
+void ChangeQueue::add_steps(const std::vector<v1::SceneChanged>& changes) {
+    for (const v1::SceneChanged& change : changes) {
+        pending_.push_back({change, {}, false});
+    }
+}
+
+bool ChangeQueue::has_steps() const {
+    return std::any_of(pending_.begin(), pending_.end(),
+                       [](const PendingChange& p) { return p.change.has_animation(); });
 }
 
 PendingChange ChangeQueue::take() {

@@ -43,6 +43,9 @@ class ChangeQueue {
     void add_recorded(LogEntry entry);
     /// Puts changes back whose turn has not come after all, in order, behind recorded ones.
     void put_back(std::vector<PendingChange> changes);
+    /// Changes that an animation makes, behind all others.
+    void add_steps(const std::vector<v1::SceneChanged>& changes);
+    [[nodiscard]] bool has_steps() const;
     [[nodiscard]] bool empty() const { return pending_.empty(); }
     [[nodiscard]] std::size_t size() const { return pending_.size(); }
     [[nodiscard]] const PendingChange& front() const { return pending_.front(); }

@@ -71,7 +71,7 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
     apply(scene, pending.change);
     v1::SceneChanged after = state_of(scene, pending.change);
     after.set_epoch(log.epoch());
-    log.note_states(before, after);
+    log.note_states(before, after, pending.change.animation().first_epoch());
     set_before(before, pending.change);
     log.records().tell_beginning(pending.change);
     if (pending.change.has_set_daylight()) {
@@ -115,9 +115,16 @@ Recorded ChangeRecorder::number(PendingChange& pending, const v1::SceneChanged& 
         return log.accept(pending.change, before, pending.keys) ? Recorded::yes : Recorded::no;
     }
     sign(pending);
+    const bool played = pending.change.has_animation();
+    if (played) {
+        parts_.animations.number(pending.change, log.epoch() + 1);
+    }
     const Recorded recorded = log.record(pending.change, before, keys_of(pending));
     if (recorded == Recorded::no) {
         some_failed_ = true;
+        if (played) {
+            parts_.animations.note_failure();
+        }
         for (const ClientEvent& request : pending.requests) {
             refuse_unsaved(request);
         }
@@ -159,7 +166,9 @@ void ChangeRecorder::sign(PendingChange& pending) const {
         pending.change.set_by(pending.requests.back().viewer);
     }
     const ViewerSession* const viewer = parts_.viewers.find(pending.change.by());
-    pending.change.set_by_name(viewer == nullptr ? "" : viewer->name());
+    if (viewer != nullptr || !pending.change.has_animation()) {  // plays on after who began it
+        pending.change.set_by_name(viewer == nullptr ? "" : viewer->name());
+    }
     pending.change.set_at_ms(unix_ms());
 }
 

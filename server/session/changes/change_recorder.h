@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "net/server.h"
+#include "session/animation/animation_service.h"
 #include "session/changes/change_queue.h"
 #include "session/live_scene.h"
 #include "session/viewers/viewers.h"
@@ -17,6 +18,7 @@ class ChangeRecorder {
     struct Parts {
         LiveScene& scene;
         const Viewers& viewers;
+        AnimationService& animations;
         Server& server;
     };
     explicit ChangeRecorder(const Parts& parts) : parts_(parts) {}

@@ -12,6 +12,13 @@ bool goes_on(const v1::SceneChanged& change) {
     return change.move_object().has_final() && !change.move_object().final();
 }
 
+/// Whether an animation has made both since it was started or wound.
+bool same_run(const v1::SceneChanged& last, const v1::SceneChanged& next) {
+    return last.has_animation() && next.has_animation() &&
+           last.animation().animation() == next.animation().animation() &&
+           last.animation().first_epoch() == next.animation().first_epoch();
+}
+
 /// Whether both are of a slider, or of a colour being picked, that somebody holds.
 bool in_hand(const v1::SceneChanged& last, const v1::SceneChanged& next) {
     constexpr double pause_ms = 2000.0;  // as protocol/raybundle.proto states it
@@ -45,11 +52,16 @@ void ChangeRecords::add(v1::SceneChanged change) {
         return subject_of(record) == subject_of(change);
     };
     const auto last = std::find_if(records_.rbegin(), records_.rend(), same);
-    if (last != records_.rend() && last->by() == change.by() &&
-        (goes_on(*last) || (last == records_.rbegin() && in_hand(*last, change)))) {
+    const bool by_hand = last != records_.rend() && last->by() == change.by() &&
+                         !last->has_animation() && !change.has_animation() &&
+                         (goes_on(*last) || (last == records_.rbegin() && in_hand(*last, change)));
+    if (last != records_.rend() && (same_run(*last, change) || by_hand)) {
         change.set_first_epoch(last->has_first_epoch() ? last->first_epoch() : last->epoch());
         take_before(*last, change);
         records_.erase(std::next(last).base());
+    }
+    if (change.has_animation() && change.animation().first_epoch() < change.epoch()) {
+        change.set_first_epoch(change.animation().first_epoch());
     }
     records_.push_back(std::move(change));
     if (records_.size() > max_records) {
@@ -58,7 +70,8 @@ void ChangeRecords::add(v1::SceneChanged change) {
 }
 
 void ChangeRecords::tell_beginning(v1::SceneChanged& newest) const {
-    if (!newest.has_move_object() || goes_on(newest) || records_.empty()) {
+    if ((!newest.has_move_object() && !newest.has_animation()) || goes_on(newest) ||
+        records_.empty()) {
         return;
     }
     const v1::SceneChanged& record = records_.back();

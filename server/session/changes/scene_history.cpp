@@ -26,14 +26,21 @@ bool same_state(v1::SceneChanged a, v1::SceneChanged b) {
 
 }  // namespace
 
-void SceneHistory::note(const v1::SceneChanged& before, const v1::SceneChanged& after) {
+void SceneHistory::note(const v1::SceneChanged& before, const v1::SceneChanged& after,
+                        std::uint32_t run) {
+    run_since_ = run == run_ ? run_since_ : after.epoch();
+    run_ = run;
     auto& states = states_[subject_of(after)];
     if (states.empty()) {
         states.push_back(before);
         states.back().set_epoch(oldest_);
     }
-    states.push_back(after);
     newest_ = after.epoch();
+    if (run != 0 && states.size() > 1 && states.back().epoch() >= run_since_) {
+        states.back() = after;
+        return;
+    }
+    states.push_back(after);
     if (++changes_ > max_changes) {
         forget_oldest();
     }

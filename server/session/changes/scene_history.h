@@ -20,7 +20,9 @@ class SceneHistory {
     explicit SceneHistory(std::uint32_t first = 0) : oldest_(first), newest_(first) {}
 
     /// A change with its epoch has been made. Both states name everything that the subject has.
-    void note(const v1::SceneChanged& before, const v1::SceneChanged& after);
+    /// run: AnimationStep::first_epoch of what an animation changes, else 0. Of one that plays on
+    /// and on only the last state counts, as far as nobody else has changed anything meanwhile.
+    void note(const v1::SceneChanged& before, const v1::SceneChanged& after, std::uint32_t run = 0);
 
     /// Earliest epoch that can be gone back to.
     [[nodiscard]] std::uint32_t oldest() const { return oldest_; }
@@ -34,6 +36,8 @@ class SceneHistory {
 
     std::uint32_t oldest_, newest_;
     std::size_t changes_ = 0;
+    std::uint32_t run_ = 0;        ///< of the last change
+    std::uint32_t run_since_ = 0;  ///< first of the changes in a row that are of it
     /// Of each subject the states in order of epochs, the first one that before any change.
     std::map<ChangeSubject, std::vector<v1::SceneChanged>> states_;
 };

@@ -43,6 +43,7 @@ void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
     welcome->set_epoch(parts_.scene.epoch());
     describe_scene(parts_.scene.scene(), welcome->mutable_scene());
     parts_.lighting.describe(welcome->mutable_scene());
+    parts_.animations.describe(welcome->mutable_scene());
     ViewerAdmission::fill_limits(welcome->mutable_limits());
     to_message(size, welcome->mutable_viewport());
     welcome->set_renderer(parts_.traits.renderer);

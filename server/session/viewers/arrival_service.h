@@ -5,6 +5,7 @@
 #include <string>
 
 #include "net/server.h"
+#include "session/animation/animation_service.h"
 #include "session/changes/lighting_scenes.h"
 #include "session/light/light_service.h"
 #include "session/live_scene.h"
@@ -34,6 +35,7 @@ class ArrivalService {
         const ViewService& views;
         const ReviewService& review;
         const LightingScenes& lighting;
+        const AnimationService& animations;
         PresenceService& presence;
         LightService& light;
         Server& server;
