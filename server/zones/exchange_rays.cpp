@@ -221,7 +221,8 @@ std::uint32_t ExchangeRays::side_within(std::uint32_t patch, float& share) const
     return chosen;
 }
 
-void ExchangeRays::choose_densities(const PatchMesh& mesh) {
+bool ExchangeRays::choose_densities(const PatchMesh& mesh) {
+    const std::vector<double> before = std::move(shares_);
     const std::size_t patches = areas_.size();
     const std::vector<glm::vec3> radiance = patch_means(mesh, mesh.emission);
     double area = 0.0;
@@ -252,7 +253,7 @@ void ExchangeRays::choose_densities(const PatchMesh& mesh) {
     }
     starts_.clear();
     if (sum <= 0.0) {
-        return;
+        return shares_ != before;
     }
     const std::size_t rays = std::clamp(rays_per_patch * patches, min_rays, max_rays);
     double running = 0.0;
@@ -263,6 +264,13 @@ void ExchangeRays::choose_densities(const PatchMesh& mesh) {
                (static_cast<double>(starts_.size()) + 0.5) / static_cast<double>(rays) < running) {
             starts_.push_back(static_cast<std::uint32_t>(i));
         }
+    }
+    return shares_ != before;
+}
+
+void ExchangeRays::look_up_sky(ExchangeRay& ray) const {
+    if (ray.towards != glm::vec3(0.0F)) {
+        ray.sky = glm::vec3(sky_towards(scene_, glm::dvec3(ray.towards)));
     }
 }
 
@@ -307,7 +315,8 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
         hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(rays_.get(), &context, &hit);
         if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-            result.sky = glm::vec3(sky_towards(scene_, glm::dvec3(direction)));
+            result.towards = direction;
+            look_up_sky(result);
             return result;
         }
         const std::uint32_t triangle = hit.hit.primID;

@@ -29,6 +29,7 @@ struct ExchangeRay {
     float area = 0.0F;        ///< m² that the ray stands for: the sum of area times exitance over
                               ///< all rays is an unbiased estimate of the whole flux
     glm::vec3 sky{0.0F};      ///< cd/m²: radiance of the sky that it meets
+    glm::vec3 towards{0.0F};  ///< where the sky meets it; 0 where it meets none
 };
 
 /// Single rays between patches (Embree) that measure how surfaces exchange light, independently of
@@ -50,7 +51,10 @@ class ExchangeRays {
     /// Moves objects and prepares trace().
     void place(std::span<const glm::mat4> world_from_object, float diameter);
     /// A patch's share of all rays follows its area, its object, its emission and its number.
-    void choose_densities(const PatchMesh& mesh);
+    /// False: they are what they were, and so are all rays but for the sky that they meet.
+    bool choose_densities(const PatchMesh& mesh);
+    /// Gives a ray the radiance of the sky that it meets now.
+    void look_up_sky(ExchangeRay& ray) const;
     /// All rays, in the order of their patches. On all cores; the same bits always.
     [[nodiscard]] std::vector<ExchangeRay> trace() const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -46,8 +47,8 @@ std::vector<glm::mat4> ZoneBalance::present_places() const {
 
 void ZoneBalance::surfaces_changed(const PatchMesh& mesh) {
     base_colour_ = patch_means(mesh, mesh.base_colour);
-    rays_.choose_densities(mesh);
-    stale_ = true;
+    const bool other_rays = rays_.choose_densities(mesh);
+    stale_ = std::max(stale_, other_rays ? Stale::rays : Stale::light);
 }
 
 void ZoneBalance::interrupt() {
@@ -59,13 +60,41 @@ void ZoneBalance::interrupt() {
 
 /// Finds rays and zones of the scene as it is.
 void ZoneBalance::refresh() {
-    if (!stale_) {
+    if (stale_ == Stale::nothing) {
         return;
     }
-    stale_ = false;
-    rays_.place(present_places(), gpu_scene_.diameter());
+    if (stale_ == Stale::places) {
+        rays_.place(present_places(), gpu_scene_.diameter());
+    }
+    if (stale_ >= Stale::rays || !started_) {  // FirstReflection wants them, too
+        find_rays();
+    } else {
+        for (ExchangeRay& ray : lost_) {
+            rays_.look_up_sky(ray);
+        }
+    }
+    stale_ = Stale::nothing;
+    find_light();
+}
+
+void ZoneBalance::find_rays() {
     std::vector<ExchangeRay> traced = rays_.trace();
     partition_ = find_zones(rays_, traced);
+    lost_.clear();
+    std::copy_if(traced.begin(), traced.end(), std::back_inserter(lost_),
+                 [](const ExchangeRay& ray) { return ray.to == ExchangeRay::lost; });
+    reflection_ = started_ ? FirstReflection()  // of a start that is over
+                           : FirstReflection(partition_, traced, base_colour_);
+    sort_patches();
+    sort_rays(std::move(traced));
+    sums_ = Buffer("zone sums",
+                   (2 * max_zones * vectors_per_zone + segments_.size() * vectors_per_segment) *
+                       sizeof(glm::vec4));
+    readback_ = std::make_unique<Readback>("zone sums", sums_.bytes());
+}
+
+/// What the zones reflect, and get of the sky; their levels are not known.
+void ZoneBalance::find_light() {
     levels_ = ZoneLevels(partition_.count);
     older_share_.assign(partition_.count, 1.0);
     younger_.assign(partition_.count, 0.0);
@@ -81,24 +110,14 @@ void ZoneBalance::refresh() {
     for (unsigned zone = 0; zone < partition_.count; ++zone) {
         mean_albedo_[zone] /= area[zone];
     }
-    for (const ExchangeRay& ray : traced) {
-        if (ray.to == ExchangeRay::lost) {
-            const glm::dvec3 flux =
-                glm::pi<double>() * static_cast<double>(ray.area) * glm::dvec3(ray.sky);
-            ZoneSky& sky = sky_[partition_.zone[ray.from]];
-            const auto l = static_cast<double>(luminance(glm::vec3(flux)));
-            sky.flux += flux;
-            sky.squares += l * l;
-        }
+    for (const ExchangeRay& ray : lost_) {
+        const glm::dvec3 flux =
+            glm::pi<double>() * static_cast<double>(ray.area) * glm::dvec3(ray.sky);
+        ZoneSky& sky = sky_[partition_.zone[ray.from]];
+        const auto l = static_cast<double>(luminance(glm::vec3(flux)));
+        sky.flux += flux;
+        sky.squares += l * l;
     }
-    reflection_ = started_ ? FirstReflection()  // of a start that is over
-                           : FirstReflection(partition_, traced, base_colour_);
-    sort_patches();
-    sort_rays(std::move(traced));
-    sums_ = Buffer("zone sums",
-                   (2 * max_zones * vectors_per_zone + segments_.size() * vectors_per_segment) *
-                       sizeof(glm::vec4));
-    readback_ = std::make_unique<Readback>("zone sums", sums_.bytes());
 }
 
 /// Lists the patches of each zone, in blocks of which each is of one zone.

@@ -29,9 +29,10 @@ class ZoneBalance {
     ZoneBalance(const Scene& scene, const PatchMesh& mesh, const GpuScene& gpu_scene,
                 std::uint64_t seed);
 
-    /// Objects are elsewhere, or surfaces have other colours: rays and zones are found anew when
-    /// they are asked for next.
-    void objects_moved() { stale_ = true; }
+    /// Objects are elsewhere: rays and zones are found anew when they are asked for next.
+    void objects_moved() { stale_ = Stale::places; }
+    /// Surfaces have other colours, or there is another sky: the same, where surfaces emit other
+    /// shares of the light; else rays and zones are what they were, and lighting them is cheap.
     void surfaces_changed(const PatchMesh& mesh);
     /// The iterate has been changed by something else than iterations; what bundles have brought so
     /// far was another scene's.
@@ -78,7 +79,13 @@ class ZoneBalance {
         std::uint32_t first = 0, end = 0;
     };
 
+    /// What refresh() has to find anew, each with what is before it: the light of surfaces and of
+    /// the sky that rays meet, the rays, the places of the objects.
+    enum class Stale { nothing, light, rays, places };
+
     void refresh();
+    void find_rays();
+    void find_light();
     void sort_patches();
     void sort_rays(std::vector<ExchangeRay> traced);
     [[nodiscard]] std::vector<glm::mat4> present_places() const;
@@ -98,11 +105,12 @@ class ZoneBalance {
     std::vector<glm::dvec3> mean_albedo_;     // of zones
     std::vector<std::uint32_t> first_block_;  // of zones, and the end of the last
     std::vector<double> older_share_;  // of the zones' iterates: from before the running group
-    std::vector<double> younger_;  // samples that zones' iterates are younger than that of others
-    double group_weight_ = 0.0;    // of the running group's samples in the mean
-    double iterate_age_ = 0.0;     // of those others
-    std::vector<float> shooting_;  // of zones, see shooting_factors()
-    bool stale_ = true;
+    std::vector<double> younger_;    // samples that zones' iterates are younger than that of others
+    double group_weight_ = 0.0;      // of the running group's samples in the mean
+    double iterate_age_ = 0.0;       // of those others
+    std::vector<float> shooting_;    // of zones, see shooting_factors()
+    std::vector<ExchangeRay> lost_;  // rays that meet no surface
+    Stale stale_ = Stale::rays;
     bool started_ = false;               // some bundle has come in
     FirstReflection reflection_;         // until complete_start()
     std::vector<glm::vec4> completion_;  // found by balance() where `completing_`
