@@ -53,6 +53,8 @@ class BundleReceiver {
     virtual void complete_start() {}
     /// Objects will move: what a first shot takes back of what they can reach.
     virtual void begin_moves() {}
+    /// Lights have changed: what a first shot takes back of them as they were.
+    virtual void begin_lights() {}
     /// Objects have moved: `Place::before` and `Place::now` differ from here to end_special().
     virtual void begin_special() = 0;
     /// The next pairs of bundles before and after the move, at most MOST_DIFFERENCES: receivers

@@ -201,6 +201,11 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     store_.remember_first_shot(store_);
     change_store().remember_surfaces(scene_);
     scene_.update_lights(scene);
+    store_.begin_lights();
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_lights();
+    }
+    store_.bind();
     const Emission before{emitted, punctual, sky};
     const Emission after{mesh.emission, scene_.punctual_lights(), scene_.sky()};
     SurfaceChange change;

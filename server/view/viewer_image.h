@@ -147,6 +147,7 @@ class ViewerImage : public BundleReceiver {
     void discard_sample(const Context& context) override;
     void complete_start() override;
     void begin_moves() override;
+    void begin_lights() override;
     void begin_special() override;
     void plan_differences(std::span<const BundleRays> bundles,
                           std::span<const Bounds> boxes) override;
@@ -239,6 +240,7 @@ class ViewerImage : public BundleReceiver {
     void allocate_first_shot();
     void shoot_first(Shows shows);
     void shoot_changes(const FirstShot& first_shot);
+    void take_back_shot(bool stays, FirstShot::Reach reach);
     void shoot(const FirstShot& first_shot, unsigned pass, const PixelRectangle& part) const;
     void look_at_lamps();
     void begin_raster(const PixelRectangle& rectangle) const;

@@ -24,10 +24,10 @@ void ViewerImage::shoot_first(Shows shows) {
     }
     using Reach = FirstShot::Reach;
     const Reach reach = first_shot.reach();
-    const bool known = shows == Shows::moved_objects
-                           ? shot_taken_back_ && reach == Reach::moves
-                           : shows == Shows::same_surfaces && reach == Reach::lamps &&
-                                 shot_version_ + 1 == first_shot.version();
+    const bool known =
+        shows == Shows::moved_objects
+            ? shot_taken_back_ && reach == Reach::moves
+            : shows == Shows::same_surfaces && shot_taken_back_ && reach == Reach::lamps;
     shot_rest_.bind_storage(BINDING_PIXEL_SHOT_REST);
     first_shot.set_uniforms(programs_.first_shot);
     if (known) {
@@ -60,9 +60,6 @@ void ViewerImage::shoot_changes(const FirstShot& first_shot) {
         }
         return;
     }
-    first_shot.bind_lights(first_shot.lights_before());
-    shoot(first_shot, SHOT_TAKE_BACK, whole_picture());
-    first_shot.bind_lights(first_shot.lights());
     shoot(first_shot, SHOT_ADD, whole_picture());
     if (gloss_.bytes() > 0) {
         for (const std::uint32_t material : first_shot.reflecting()) {
@@ -73,10 +70,21 @@ void ViewerImage::shoot_changes(const FirstShot& first_shot) {
 }
 
 void ViewerImage::begin_moves() {
+    take_back_shot(ends_ == nullptr, FirstShot::Reach::moves);
+}
+
+void ViewerImage::begin_lights() {
+    take_back_shot(true, FirstShot::Reach::lamps);
+    if (continued() != nullptr) {
+        continued()->begin_lights();
+    }
+}
+
+/// Light of punctual lights that a change reaches, as it was. stays: what the pixels show does.
+void ViewerImage::take_back_shot(bool stays, FirstShot::Reach reach) {
     const FirstShot* const first_shot = store_.first_shot();
-    shot_taken_back_ = first_shot != nullptr && !lamps_ && ends_ == nullptr && has_picture_ &&
-                       shot_version_ == first_shot->version() &&
-                       first_shot->reach() == FirstShot::Reach::moves;
+    shot_taken_back_ = first_shot != nullptr && !lamps_ && stays && has_picture_ &&
+                       shot_version_ == first_shot->version() && first_shot->reach() == reach;
     if (!shot_taken_back_) {
         return;
     }

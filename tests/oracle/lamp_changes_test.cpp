@@ -10,6 +10,7 @@
 
 #include "../reference/lit_room.h"
 #include "changed_room.h"
+#include "scene/light/light_place.h"
 
 namespace raybundle {
 namespace {
@@ -100,6 +101,13 @@ struct Hall {
         solver.change_surfaces(b.scene, b.mesh, {}, {}, receivers);
     }
 
+    /// A lamp somewhere else, aimed elsewhere.
+    void place(std::size_t lamp, const LightPlace& place) {
+        BundleReceiver* const receivers[] = {&image};
+        set_place(place, b.scene.punctual_lights[lamp]);
+        solver.change_surfaces(b.scene, b.mesh, {}, {}, receivers);
+    }
+
     void paint(std::uint32_t material, const glm::vec3& colour) {
         BundleReceiver* const receivers[] = {&image};
         b.scene.materials[material].base_colour = colour;
@@ -171,6 +179,50 @@ TEST_P(LampChanges, EqualAFreshFirstShot) {
     hall.move(lamp_stand, {-1.0F, 0.2F, 1.2F});
     EXPECT_EQ(hall.reach(), FirstShot::Reach::moves);
     expect_as_fresh(hall, "a lamp carried elsewhere");
+}
+
+/// Light is taken back by the maps of where lamps were, and added by those of where they are: only
+/// these are drawn.
+TEST_P(LampChanges, PlacedLampsAloneAreShotAnew) {
+    Hall hall(lit_hall(GetParam()));
+    const std::vector<double> before = light_of(hall);
+    const auto home_of = [&hall](std::size_t lamp) {
+        return place_of(hall.b.scene.punctual_lights[lamp]);
+    };
+    // A point light, a spot and a luminaire.
+    const LightPlace homes[] = {home_of(0), home_of(1), home_of(2)};
+    for (std::size_t lamp = 0; lamp < 3; ++lamp) {
+        const LightPlace elsewhere{
+            {6.1F, 1.3F, 4.2F}, glm::normalize(glm::vec3(-1, -0.4F, 0.2F)), 30.0F};
+        hall.place(lamp, elsewhere);
+        EXPECT_EQ(hall.reach(), FirstShot::Reach::lamps);
+        expect_as_fresh(hall, "placed elsewhere");
+    }
+    hall.move(box, {1.5F, 0.3F, 0.7F});  // its shadow is found in their new maps
+    EXPECT_EQ(hall.reach(), FirstShot::Reach::moves);
+    expect_as_fresh(hall, "the box moved among them");
+    hall.move(box, glm::vec3(0.0F));
+    for (std::size_t lamp = 0; lamp < 3; ++lamp) {
+        hall.place(lamp, homes[lamp]);
+    }
+    const std::vector<double> after = light_of(hall);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        ASSERT_NEAR(after[i], before[i], 1e-5 * std::abs(before[i]) + 1e-6) << i;
+    }
+}
+
+/// Of more than half of the lights all light is found anew, by new maps of these.
+TEST_P(LampChanges, ManyPlacedAtOnceAreFoundAnew) {
+    Hall hall(lit_hall(GetParam()));
+    for (std::size_t lamp = 1; lamp < lamps; ++lamp) {
+        LightPlace place = place_of(hall.b.scene.punctual_lights[lamp]);
+        place.position.x = 8.0F - place.position.x;
+        place.position.y = 2.0F;
+        set_place(place, hall.b.scene.punctual_lights[lamp]);
+    }
+    hall.dim(0, 1.5F);
+    EXPECT_EQ(hall.reach(), FirstShot::Reach::everything);
+    expect_as_fresh(hall, "all elsewhere");
 }
 
 std::string case_name(const testing::TestParamInfo<Kind>& info) {

@@ -111,15 +111,15 @@ void FirstShot::update(bool radiance_follows, std::span<const std::uint32_t> ref
     shoot_.set("radiance_follows", radiance_follows);
     Lights now = maps_->placed(ies_);
     const float tie = tie_share * scene_.diameter();
-    const bool same = tie == tie_ && unit_ == scene_.radiance_unit() && !scene_.openings_changed();
-    if (!same || known_.empty()) {
-        reach_ = Reach::everything;
-    } else if (!begun_) {
-        choose_lamps(now);
-    } else if (reach_ == Reach::moves && !others_stay(now)) {
+    const bool first = tie != tie_ || known_.empty();
+    const bool same = !first && unit_ == scene_.radiance_unit() && !scene_.openings_changed();
+    const bool moves = reach_ == Reach::moves;
+    if (!same || !begun_ || (moves && !others_stay(now))) {
         reach_ = Reach::everything;
     }
-    begun_ = false;
+    const bool all_maps = first || scene_.openings_changed() || !begun_lights_ ||
+                          (moves && reach_ == Reach::everything);
+    begun_ = begun_lights_ = false;
     tie_ = tie;
     unit_ = scene_.radiance_unit();
     ++version_;
@@ -131,35 +131,44 @@ void FirstShot::update(bool radiance_follows, std::span<const std::uint32_t> ref
             now[k].touched_cone = known_[k].touched_cone;
         }
     }
-    known_ = std::move(now);
-    if (reach_ != Reach::lamps) {
-        maps_->draw(known_);
-        bind();
-    }
+    known_.swap(now);
+    draw_maps(reach_ == Reach::moves || all_maps, now);
     lights_.write<layout::PunctualData>(known_, 0);
     end_change(radiance_follows);
 }
 
-/// Lamps that differ are touched, and their light is taken back; everything, where one of them is
-/// elsewhere or where that is less work. Maps stay.
-void FirstShot::choose_lamps(const Lights& now) {
-    reach_ = Reach::lamps;
+/// What is touched of all maps, or else of those of lights that have another place.
+void FirstShot::draw_maps(bool all, const Lights& before) {
+    if (all) {
+        maps_->draw(known_);
+    } else {
+        Lights elsewhere = known_;
+        for (std::size_t k = 0; k < known_.size(); ++k) {
+            if (same_place(before[k], known_[k])) {
+                touch_nothing(elsewhere[k]);
+            }
+        }
+        maps_->draw(elsewhere);
+    }
+    bind();
+}
+
+/// Lamps that differ are touched, and their light is taken back, by the maps of where they were;
+/// everything, where that is less work.
+void FirstShot::begin_lights() {
+    if (many_ || known_.empty()) {
+        return;
+    }
+    begun_ = begun_lights_ = true;
+    bind();
+    const Lights now = maps_->placed(ies_);
     for (std::size_t k = 0; k < known_.size(); ++k) {
-        if (same_place(known_[k], now[k])) {
-            known_[k].intensity == now[k].intensity ? touch_nothing(known_[k])
-                                                    : touch_all(known_[k]);
-        } else {
-            reach_ = Reach::everything;
-        }
+        const bool same = same_place(known_[k], now[k]) && known_[k].intensity == now[k].intensity;
+        same ? touch_nothing(known_[k]) : touch_all(known_[k]);
     }
-    if (touched_share(known_) > most_touched) {
-        reach_ = Reach::everything;
-    }
+    reach_ = touched_share(known_) > most_touched ? Reach::everything : Reach::lamps;
     if (reach_ == Reach::lamps) {
-        if (lights_before_.bytes() == 0) {
-            lights_before_ = Buffer("punctual lights before", lights_.bytes());
-        }
-        lights_before_.write<layout::PunctualData>(known_, 0);
+        shoot_.set("radiance_follows", false);
         lights_.write<layout::PunctualData>(known_, 0);
         shoot_patches(SHOT_TAKE_BACK, false);
     }
@@ -346,8 +355,7 @@ std::vector<glm::vec4> FirstShot::read_reflected() const {
 
 std::size_t FirstShot::bytes() const {
     return (maps_ ? maps_->bytes() : many_->bytes()) + lights_.bytes() + patches_.bytes() +
-           profiles_.bytes() + remembered_.bytes() + rest_.bytes() + masks_.bytes() +
-           lights_before_.bytes();
+           profiles_.bytes() + remembered_.bytes() + rest_.bytes() + masks_.bytes();
 }
 
 }  // namespace raybundle

@@ -35,6 +35,9 @@ class FirstShot {
     /// takes on the change, unless ChangeStore::set_source() shall do that (`radiance_follows`).
     /// The solution's buffers are bound. reflecting: materials whose reflection is another.
     void update(bool radiance_follows = true, std::span<const std::uint32_t> reflecting = {});
+    /// The scene's lights are others by now, and update() comes next: takes back what was there of
+    /// those that differ, if that is less work. The solution's buffers are bound.
+    void begin_lights();
     /// Objects will be moved thus, and update() comes next: takes back what that reaches. The
     /// solution's buffers are bound.
     void begin_moves(std::span<const ObjectMove> moves);
@@ -42,8 +45,6 @@ class FirstShot {
     [[nodiscard]] std::span<const std::uint32_t> reflecting() const { return reflecting_; }
     /// Grows with every update().
     [[nodiscard]] std::uint64_t version() const { return version_; }
-    /// Of Reach::lamps: the lights as they were.
-    [[nodiscard]] const Buffer& lights_before() const { return lights_before_; }
     /// Keeps what `other`, of the same patches, has found, as what was before a change.
     void remember(const FirstShot& other);
     /// The same where there were no such lights.
@@ -74,7 +75,7 @@ class FirstShot {
     void shoot(const ShaderProgram& program, unsigned pass, std::size_t threads,
                unsigned most_lights, bool ends) const;
     void shoot_patches(unsigned pass, bool ends);
-    void choose_lamps(const Lights& now);
+    void draw_maps(bool all, const Lights& before);
     void touch_moves(std::span<const ObjectMove> moves);
     [[nodiscard]] bool others_stay(const Lights& now) const;
     void end_change(bool radiance_follows);
@@ -85,16 +86,17 @@ class FirstShot {
     float tie_ = 0.0F;   // m: see shadow_tie
     float unit_ = 0.0F;  // of radiance, at the last update()
     Reach reach_ = Reach::everything;
-    bool begun_ = false;  // begin_moves() has come
+    bool begun_ = false;         // begin_moves() or begin_lights() has come
+    bool begun_lights_ = false;  // the latter
     std::vector<std::uint32_t> reflecting_;
     std::uint64_t version_ = 0;
     std::optional<ShadowMaps> maps_;   // of few lights
     std::unique_ptr<ManyLamps> many_;  // else
     Buffer lights_, patches_;
-    Buffer rest_, masks_, lights_before_;  // where there are maps
-    Buffer profiles_;                      // only where some light has one
-    Buffer remembered_;                    // once the scene has changed
-    ShaderProgram shoot_;                  // by maps
+    Buffer rest_, masks_;  // where there are maps
+    Buffer profiles_;      // only where some light has one
+    Buffer remembered_;    // once the scene has changed
+    ShaderProgram shoot_;  // by maps
 };
 
 }  // namespace raybundle

@@ -105,6 +105,13 @@ void RadianceStore::take_lamps(std::uint32_t group) {
     }
 }
 
+void RadianceStore::begin_lights() {
+    if (first_shot_) {
+        bind();
+        first_shot_->begin_lights();
+    }
+}
+
 void RadianceStore::begin_moves(std::span<const ObjectMove> moves) {
     if (first_shot_) {
         reflected_before_ = first_shot_->read_reflected();

@@ -62,6 +62,8 @@ class RadianceStore {
     void follow_sizes() { sent_.follow_sizes(scene_); }
     /// Objects will be moved thus, and reshoot() comes afterwards.
     void begin_moves(std::span<const ObjectMove> moves);
+    /// Lights have changed, and renew_first_shot() comes next.
+    void begin_lights();
     /// Objects, maybe with lights, are elsewhere: the light of punctual lights is found anew, and
     /// the means lose weight by how much of all light that is. phase_weight: as for correct().
     void reshoot(float phase_weight);
