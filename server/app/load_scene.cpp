@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/load_scene.h"
 #include "journal/session_journal.h"
 #include "scene/gltf/file/gltf_container.h"
 #include "scene/gltf/gltf_loader.h"
+#include "scene/material/specular_surface.h"
 #include "scene/scene_report.h"
 
 namespace raybundle {
@@ -39,6 +41,42 @@ Daylight daylight_of(const Options& options) {
     return daylight;
 }
 
+/// Says what pictures lack of the air.
+void note_air(Scene& scene) {
+    const bool deflects =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return specular_kind(m) != SpecularKind::none; });
+    if (deflects) {
+        scene.notices.emplace_back(
+            "the air dims what is seen in mirrors, coats and through glass, but what the air "
+            "behind them scatters towards the eye is missing; --method path shows it");
+    }
+}
+
+/// What the options say of the air, over what the file says.
+void set_air(Scene& scene, const AirOptions& air) {
+    if (air.fog && *air.fog == 0.0F) {
+        scene.medium.reset();
+        return;
+    }
+    if (!scene.medium && !air.fog) {
+        if (air.fog_albedo || air.fog_anisotropy) {
+            throw UsageError("--fog-albedo, --fog-anisotropy: need --fog, or a scene with air");
+        }
+        return;
+    }
+    Medium medium = scene.medium.value_or(Medium{});
+    if (air.fog) {
+        medium.extinction = Medium::extinction_of(*air.fog);
+    }
+    medium.albedo = air.fog_albedo ? glm::vec3(*air.fog_albedo) : medium.albedo;
+    medium.anisotropy = air.fog_anisotropy.value_or(static_cast<float>(medium.anisotropy));
+    if (const std::string problem = problem_of(medium); !problem.empty()) {
+        throw UsageError("--fog: " + problem);
+    }
+    scene.medium = medium;
+}
+
 }  // namespace
 
 LoadedScene load_scene(const Options& options) {
@@ -55,6 +93,10 @@ LoadedScene load_scene(const Options& options, const std::function<void()>& acce
     settings.ies = options.scene.ies;
     LoadedScene loaded;
     loaded.scene = load_gltf(options.scene.file, settings);
+    set_air(loaded.scene, options.air);
+    if (loaded.scene.medium) {
+        note_air(loaded.scene);
+    }
     loaded.digest = file_digest(options.scene.file).value_or("");
     accepted();
     TessellationSettings tessellation;

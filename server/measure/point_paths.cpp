@@ -50,6 +50,15 @@ MeasuredScene::MeasuredScene(const Scene& scene, const PatchMesh& mesh)
     }
 }
 
+/// Share of light that the air leaves between two points.
+double PointPaths::left_between(const glm::dvec3& a, const glm::dvec3& b) const {
+    return scene_.paths.air() ? scene_.paths.air()->transmittance_between(a, b) : 1.0;
+}
+
+double PointPaths::left_from_sky(const glm::dvec3& at, const glm::dvec3& direction) const {
+    return scene_.paths.air() ? scene_.paths.air()->transmittance_to_sky(at, direction) : 1.0;
+}
+
 double PointPaths::fixed(const glm::dvec3& position, const Receiver& receiver) const {
     double sum = 0.0;
     for (const PlacedLight& light : scene_.punctual) {
@@ -58,7 +67,7 @@ double PointPaths::fixed(const glm::dvec3& position, const Receiver& receiver) c
         }
         if (light.kind == PunctualKind::directional) {
             const glm::dvec3 direction = -light.direction();
-            const double weight = receiver.weight(direction);
+            const double weight = receiver.weight(direction) * left_from_sky(position, direction);
             sum +=
                 weight > 0.0
                     ? weight * luminance_of(light.intensity * share_through_panes_from_sky(
@@ -73,7 +82,8 @@ double PointPaths::fixed(const glm::dvec3& position, const Receiver& receiver) c
             continue;
         }
         const glm::dvec3 direction = offset / std::sqrt(square);
-        const double brought = receiver.weight(direction) / (square * scene_.rays.square_metres());
+        const double brought = receiver.weight(direction) * left_between(position, there) /
+                               (square * scene_.rays.square_metres());
         const glm::dvec3 intensity = light.towards(-direction);
         if (brought > 0.0 && intensity != glm::dvec3(0.0)) {
             sum += brought *
@@ -102,7 +112,7 @@ double PointPaths::discs(const glm::dvec3& position, const Receiver& receiver,
         }
         const glm::dvec3 direction =
             in_disc(-light.direction(), light.angular_radius, sampler.next_pair());
-        const double weight = receiver.weight(direction);
+        const double weight = receiver.weight(direction) * left_from_sky(position, direction);
         if (weight > 0.0) {
             sum += weight * luminance_of(light.intensity * share_through_panes_from_sky(
                                                                scene_.rays, position, direction));
@@ -127,7 +137,8 @@ double PointPaths::emitters(const SurfacePoint& at, const Receiver& receiver,
             continue;
         }
         const double all = emitter_samples * light->density;
-        sum += weight * luminance_of(light->radiance) * power_heuristic(all, weight / pi) / all;
+        sum += weight * luminance_of(light->radiance) * power_heuristic(all, weight / pi) / all *
+               left_between(at.position, light->emitter->position);
     }
     return sum;
 }
@@ -143,10 +154,14 @@ ArrivedLight PointPaths::along_path(const SurfacePoint& at, const Receiver& rece
     if (emission != glm::dvec3(0.0)) {
         const double other =
             met.hit && !met.passed ? scene_.lights.emitter_density(at, direction, *met.hit) : 0.0;
-        light.direct = pi * luminance_of(met.weight * emission) *
+        const double left = met.hit ? left_between(at.position, met.hit->position)
+                                    : left_from_sky(at.position, met.direction);
+        light.direct = left * pi * luminance_of(met.weight * emission) *
                        power_heuristic(receiver.weight(direction) / pi, emitter_samples * other);
     }
-    if (reflected) {
+    if (reflected && scene_.paths.air()) {
+        light.reflected = pi * luminance_of(scene_.paths.indirect(at.position, direction, sampler));
+    } else if (reflected) {
         if (const auto end = scene_.paths.end_of(met, sampler)) {
             light.reflected = pi * luminance_of(scene_.paths.reflected(*end, sampler));
         }

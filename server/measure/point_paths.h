@@ -46,6 +46,8 @@ class PointPaths {
                                       bool reflected, Sampler& sampler) const;
 
   private:
+    [[nodiscard]] double left_between(const glm::dvec3& a, const glm::dvec3& b) const;
+    [[nodiscard]] double left_from_sky(const glm::dvec3& at, const glm::dvec3& direction) const;
     [[nodiscard]] double discs(const glm::dvec3& position, const Receiver& receiver,
                                Sampler& sampler) const;
     [[nodiscard]] double emitters(const SurfacePoint& at, const Receiver& receiver,

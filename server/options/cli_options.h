@@ -71,6 +71,13 @@ struct DaylightOptions {
     std::optional<float> environment_rotation, environment_scale;
 };
 
+/// Air between the surfaces; nothing: as the file says.
+struct AirOptions {
+    std::optional<float> fog;             ///< visibility, m; 0: clear
+    std::optional<float> fog_albedo;      ///< 0..1
+    std::optional<float> fog_anisotropy;  ///< g of Henyey and Greenstein
+};
+
 struct LogOptions {
     std::string level = "info";
     std::string format = "text";
@@ -205,6 +212,7 @@ struct Options {
     DeviceOptions device;
     SceneOptions scene;
     DaylightOptions daylight;
+    AirOptions air;
     LogOptions log;
 
     // serve

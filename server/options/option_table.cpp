@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "scene/light/cie_sky.h"
+#include "scene/medium.h"
 
 namespace raybundle {
 namespace {
@@ -183,6 +184,14 @@ constexpr std::array serve_table{
     OptionRow{"environmentScale", "cd/m² of one unit of the image (default: 1)",
               field<&Options::daylight, &DaylightOptions::environment_scale>(), 0, 1e9, nullptr,
               true},
+    OptionRow{"fog", "Air that scatters light: visibility, m (0: clear; default: as the file says)",
+              field<&Options::air, &AirOptions::fog>(), 0, Medium::most_visibility, nullptr, true},
+    OptionRow{"fogAlbedo", "Share of what it takes out of light that it scatters (default: 1)",
+              field<&Options::air, &AirOptions::fog_albedo>(), 0, 1, nullptr, true},
+    OptionRow{"fogAnisotropy",
+              "Mean cosine of the deflection, Henyey and Greenstein's g (default: 0, evenly)",
+              field<&Options::air, &AirOptions::fog_anisotropy>(), -Medium::most_anisotropy,
+              Medium::most_anisotropy, nullptr, true},
     OptionRow{"ies", "LIGHT=FILE: photometry of a light, by its name, from an IES or EULUMDAT file",
               field<&Options::scene, &SceneOptions::ies>(), 0, 0, ies_problem, true},
     OptionRow{"logLevel", "trace, debug, info, warn, error, off",

@@ -47,6 +47,12 @@ void PathReuse::add_pass(ImageEstimate& image, const CameraRays& camera) const {
 
 void PathReuse::radiance(const glm::dvec3& origin, std::span<PixelRay> rays,
                          std::span<glm::dvec3> radiance) const {
+    if (tracer_.air()) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            radiance[i] = tracer_.radiance(origin, rays[i].direction, rays[i].sampler);
+        }
+        return;
+    }
     std::vector<View> views;
     std::vector<Offer> offers;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -17,7 +17,7 @@ namespace raybundle {
 /// that share paths are not independent of each other.
 ///
 /// Second surfaces that reflect differently to different points, transmit light or are reached by
-/// way of mirrors or glass serve their own pixel alone.
+/// way of mirrors or glass serve their own pixel alone. In air that scatters nothing is shared.
 class PathReuse {
   public:
     /// Scene and lights must outlive it.

@@ -13,6 +13,9 @@ PathTracer::PathTracer(const RayScene& scene, const LightSampling& lights,
     if (settings.survival == Survival::albedo) {
         tables_.emplace(scene.scene());
     }
+    if (scene.scene().medium) {
+        air_.emplace(scene, lights, settings.panes);
+    }
 }
 
 /// Chance with which a path survives the reflection that its throughput includes already.
@@ -31,8 +34,24 @@ double PathTracer::survival_chance(const PathEnd& end) const {
 
 glm::dvec3 PathTracer::radiance(const glm::dvec3& origin, const glm::dvec3& direction,
                                 Sampler& sampler) const {
+    if (air_) {
+        return fly(from_eye(origin, direction), sampler);
+    }
     const Seen seen = see(origin, direction, sampler);
     return seen.end ? seen.emitted + reflected(*seen.end, sampler) : seen.emitted;
+}
+
+glm::dvec3 PathTracer::indirect(const glm::dvec3& origin, const glm::dvec3& direction,
+                                Sampler& sampler) const {
+    if (air_) {
+        Flight flight = from_eye(origin, direction);
+        flight.sends = false;
+        return fly(flight, sampler);
+    }
+    const SpecularWalk walk = walk_specular(scene_, scene_.trace(origin, direction), direction,
+                                            Carried::radiance, sampler);
+    const std::optional<PathEnd> end = end_of(walk, sampler);
+    return end ? reflected(*end, sampler) : glm::dvec3(0.0);
 }
 
 Seen PathTracer::see(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -90,6 +109,12 @@ glm::dvec3 PathTracer::emitted(const std::optional<SurfacePoint>& hit,
 
 glm::dvec3 PathTracer::reflected(PathEnd end, Sampler& sampler) const {
     glm::dvec3 sum(0.0);
+    if (air_) {
+        Flight flight;
+        flight.throughput = end.throughput;
+        flight.bounces = end.bounces;
+        return leave(flight, end, sum, sampler) ? sum + fly(flight, sampler) : sum;
+    }
     while (end.bounces < settings_.max_bounces && advance(end, sum, sampler)) {
     }
     return sum;

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "reference/air_ways.h"
 #include "reference/albedo_tables.h"
 #include "reference/ray_scene.h"
 #include "reference/sampling/light_sampling.h"
@@ -45,6 +46,10 @@ struct Seen {
 /// comes through glass or from ideal mirrors is met by the paths themselves, that of punctual
 /// lights behind glass not at all, unless the settings let it through thin panes. Light that a path
 /// meets by itself and light that is sampled are weighted by the power heuristic.
+///
+/// Where the scene has a medium, paths collide with the air (distance sampling) and are scattered
+/// by its phase function. Lamps with extent are sampled at every collision, punctual lights once
+/// along every ray, the sky is met by chance. Inside of glass bodies there is no air.
 class PathTracer {
   public:
     PathTracer(const RayScene& scene, const LightSampling& lights,
@@ -61,7 +66,13 @@ class PathTracer {
     /// where it does not.
     [[nodiscard]] std::optional<PathEnd> end_of(const SpecularWalk& walk, Sampler& sampler) const;
 
-    // The steps that radiance() is made of.
+    /// radiance() without what the first surface, or the sky, sends straight to there of its own.
+    [[nodiscard]] glm::dvec3 indirect(const glm::dvec3& origin, const glm::dvec3& direction,
+                                      Sampler& sampler) const;
+    /// The scene's air; nothing where it is clear.
+    [[nodiscard]] const std::optional<AirWays>& air() const { return air_; }
+
+    // The steps that radiance() is made of, in clear air.
 
     /// Follows a ray from the eye to the first surface that is neither mirror nor glass.
     [[nodiscard]] Seen see(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -85,9 +96,35 @@ class PathTracer {
     [[nodiscard]] glm::dvec3 emitted(const std::optional<SurfacePoint>& hit,
                                      const glm::dvec3& direction) const;
 
+    /// A ray of a path through air, from a surface, a collision, or the eye.
+    struct Flight {
+        glm::dvec3 origin{0.0};
+        glm::dvec3 direction{0.0};            ///< unit
+        std::optional<SurfacePoint> surface;  ///< where it leaves one
+        std::optional<Scattering> reflected;  ///< by which it was sampled
+        std::optional<AirVertex> vertex;      ///< likewise in the air
+        glm::dvec3 throughput{1.0};
+        double density = 0.0;  ///< of the direction; 0: the eye's
+        int light_samples = 0;
+        int bounces = 0;
+        bool passed = false;  ///< a mirror or glass since
+        bool sends = true;    ///< what it meets first may send light of its own
+    };
+    static Flight from_eye(const glm::dvec3& origin, const glm::dvec3& direction);
+    [[nodiscard]] glm::dvec3 fly(Flight flight, Sampler& sampler) const;
+    bool collide(Flight& flight, double distance, glm::dvec3& sum, Sampler& sampler) const;
+    bool arrive(Flight& flight, const SurfacePoint& hit, glm::dvec3& sum, Sampler& sampler) const;
+    bool leave(Flight& flight, PathEnd& end, glm::dvec3& sum, Sampler& sampler) const;
+    [[nodiscard]] glm::dvec3 sampled_light(const PathEnd& end, double lobe_samples,
+                                           Sampler& sampler) const;
+    [[nodiscard]] double weight_of_met(const Flight& flight,
+                                       const std::optional<SurfacePoint>& hit) const;
+    static bool survives(Flight& flight, double chance, Sampler& sampler);
+
     const RayScene& scene_;
     const LightSampling& lights_;
     PathSettings settings_;
+    std::optional<AirWays> air_;
     std::optional<AlbedoTables> tables_;  // where Survival::albedo asks for them
 };
 

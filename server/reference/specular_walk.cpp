@@ -155,6 +155,11 @@ std::optional<Deflection> deflect(const RayScene& scene, const SurfacePoint& poi
     return deflect_at(scene, specular_at(scene, point), point, direction, carried, sampler);
 }
 
+bool ends_inside_glass(const RayScene& scene, const SurfacePoint& to) {
+    const Material& material = scene.material(to);
+    return to.patch != to.triangle && specular_kind(material) == SpecularKind::glass;
+}
+
 glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const SurfacePoint& to) {
     const Material& material = scene.material(to);
     if (!is_glass(material) || to.patch == to.triangle) {

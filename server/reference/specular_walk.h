@@ -40,6 +40,9 @@ bool is_deflecting(const RayScene& scene, const SurfacePoint& point);
 /// that ends at the back of a surface of glass was inside of it.
 glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const SurfacePoint& to);
 
+/// Whether a ray that ends at a point was inside of a body of glass.
+bool ends_inside_glass(const RayScene& scene, const SurfacePoint& to);
+
 /// What a ray meets behind all the mirrors and glass on its way.
 struct SpecularWalk {
     std::optional<SurfacePoint> hit;  ///< neither of them; nothing: the sky

@@ -197,6 +197,10 @@ std::string reason_against(ReferenceKind kind, const RayScene& scene) {
     if (kind == ReferenceKind::path || kind == ReferenceKind::path_reuse) {
         return {};
     }
+    if (scene.scene().medium) {
+        return "the air of the scene scatters light, which of the methods on the CPU only path "
+               "and path-reuse follow";
+    }
     if (kind == ReferenceKind::single_ray && has_glass(scene.scene())) {
         return "single rays keep light on patches and show what is on them, not what is behind "
                "glass, which " +

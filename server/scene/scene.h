@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/light/punctual_light.h"
+#include "scene/medium.h"
 
 namespace raybundle {
 
@@ -238,6 +239,7 @@ struct Scene {
     /// What such lines see besides: a standard sky, or an image. Its suns are punctual lights.
     std::shared_ptr<const Environment> environment;
     std::optional<SkyLight> sky_light;  ///< none where no sky shines
+    std::optional<Medium> medium;       ///< none: the air is clear
     DaylightSetting daylight;
     std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
     std::shared_ptr<const SceneAnimations> animations;  ///< none where nothing is animated

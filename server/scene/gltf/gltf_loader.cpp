@@ -83,6 +83,7 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
 }
 
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
+    scene.medium = document.air();
     const Daylight daylight = overlaid(document.daylight(), settings.daylight);
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);

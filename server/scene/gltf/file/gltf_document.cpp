@@ -12,6 +12,7 @@
 #include "scene/gltf/file/gltf_image.h"
 #include "scene/gltf/file/gltf_schema.h"
 #include "scene/gltf/file/gltf_uri.h"
+#include "scene/gltf/gltf_air.h"
 #include "scene/gltf/gltf_daylight.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/gltf/gltf_max_phong.h"
@@ -60,10 +61,12 @@ void check_item_count(const std::string& path, const Json& json) {
 }
 
 /// Moves what the model is made from out of the JSON.
-tinygltf::Model read_checked_model(const std::string& path, Json& json, Daylight& daylight) {
+tinygltf::Model read_checked_model(const std::string& path, Json& json, Daylight& daylight,
+                                   std::optional<Medium>& air) {
     check_item_count(path, json);
     check_schema(path, json);
     daylight = read_daylight(path, json);
+    air = read_air(path, json);
     check_max_phong(path, json);
     // Before any buffer is read: an unreadable extension is the better message than its symptoms.
     check_required_extensions(path, json);
@@ -77,7 +80,7 @@ GltfDocument::GltfDocument(const std::string& path)
 
 GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
-      model_(read_checked_model(path, container.json, daylight_)),
+      model_(read_checked_model(path, container.json, daylight_, air_)),
       extensions_(value_or(container.json, "extensions", Json(Json::object()))),
       animations_(array_or_empty(container.json, "animations")),
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "scene/gltf/file/gltf_buffers.h"
 #include "scene/gltf/file/gltf_model.h"
 #include "scene/light/daylight.h"
+#include "scene/medium.h"
 
 namespace raybundle {
 
@@ -42,6 +44,7 @@ class GltfDocument {
 
     /// Daylight as the file asks for it.
     [[nodiscard]] const Daylight& daylight() const { return daylight_; }
+    [[nodiscard]] const std::optional<Medium>& air() const { return air_; }
 
     /// Adds a notice for the user, once.
     void note(const std::string& text);
@@ -64,6 +67,7 @@ class GltfDocument {
 
     std::string path_;
     Daylight daylight_;
+    std::optional<Medium> air_;
     tinygltf::Model model_;
     Json extensions_;
     Json animations_;
