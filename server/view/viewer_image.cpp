@@ -238,6 +238,7 @@ void ViewerImage::refresh_geometry(float kept_weight, Shows shows) {
     if (continued_) {
         continued_->refresh(parameters_, camera_, kept_weight);
     }
+    look_into_air();
     upload_view();
     if (ends_ == nullptr) {
         see_pixels(whole_picture());
@@ -265,6 +266,25 @@ void ViewerImage::refresh_geometry(float kept_weight, Shows shows) {
     look_into_lobes();
     crowded_->begin();
     has_picture_ = true;
+}
+
+/// The air before the pixels of another view.
+void ViewerImage::look_into_air() {
+    if (store_.air() == nullptr || ends_ != nullptr) {
+        return;
+    }
+    if (!air_) {
+        air_.emplace();
+    }
+    air_->begin(parameters_, glm::max(size_ / grid_, glm::uvec2(1)), grid_);
+    see_air();
+}
+
+/// What shows a picture finds some air in it.
+void ViewerImage::see_air() {
+    if (air_ && air_->empty(*store_.air())) {
+        air_->refine(*store_.air(), scene_.radiance_unit());
+    }
 }
 
 void ViewerImage::bind_old_picture() const {
@@ -330,6 +350,9 @@ void ViewerImage::bind_pixels() const {
     if (first_shot_.bytes() > 0) {
         first_shot_.bind_storage(BINDING_PIXEL_FIRST_SHOT);
         glBindTextureUnit(UNIT_PIXEL_FIRST_SHOT, first_shot_texture_.get());
+    }
+    if (air_) {
+        air_->bind();
     }
     if (gloss_.bytes() > 0) {
         gloss_.bind_storage(BINDING_PIXEL_GLOSS);

@@ -16,6 +16,7 @@
 #include "gpu/shader_program.h"
 #include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
+#include "view/air_view.h"
 #include "view/camera_matrices.h"
 #include "view/depth_grid.h"
 #include "view/error/confidence.h"
@@ -243,6 +244,8 @@ class ViewerImage : public BundleReceiver {
     void take_back_shot(bool stays, FirstShot::Reach reach);
     void shoot(const FirstShot& first_shot, unsigned pass, const PixelRectangle& part) const;
     void look_at_lamps();
+    void look_into_air();
+    void see_air();
     void begin_raster(const PixelRectangle& rectangle) const;
     static void end_raster();
     void raster_shifted(const ShaderProgram& program, const glm::vec2& place,
@@ -337,6 +340,8 @@ class ViewerImage : public BundleReceiver {
     Texture2D first_shot_texture_;
     std::optional<GlossRays> gloss_rays_;  // only where lobes are narrow
     std::optional<PixelLamps> lamps_;      // only where these are many
+    std::optional<AirView> air_;           // only where it scatters, and not behind mirrors
+    unsigned air_samples_ = 0;             // of the running group of iterations
     Texture2D gloss_texture_, old_gloss_texture_;
     std::optional<TracedPicture> traced_;  // only where rays find what pixels see
     Texture2D surface_ids_, depths_;

@@ -20,6 +20,7 @@ void ViewerImage::interpolate_vertices() {
     if (continued_) {
         continued_->shade();
     }
+    see_air();
     store_.bind();
     bind_pixels();
     if (programs_.light == PixelLight::patches) {

@@ -87,10 +87,11 @@ std::vector<glm::vec4> ViewerImage::read_irradiance() const {
 }
 
 std::size_t ViewerImage::bytes() const {
-    std::size_t sum =
-        pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() + confidence_->bytes() +
-        crowded_->bytes() + (continued_ ? continued_->bytes() : 0) +
-        (depth_grid_ ? depth_grid_->bytes() : 0) + (gloss_rays_ ? gloss_rays_->bytes() : 0);
+    std::size_t sum = pixel_count(full_size_) * 8 + edges_->bytes() + affected_->bytes() +
+                      confidence_->bytes() + crowded_->bytes() +
+                      (continued_ ? continued_->bytes() : 0) +
+                      (depth_grid_ ? depth_grid_->bytes() : 0) + (air_ ? air_->bytes() : 0) +
+                      (gloss_rays_ ? gloss_rays_->bytes() : 0);
     for (const Buffer* buffer : {&pixels_, &old_pixels_, &irradiance_, &old_irradiance_, &delta_,
                                  &kept_, &scatter_, &vertex_irradiance_, &frame_, &gloss_,
                                  &old_gloss_, &gloss_delta_, &first_shot_, &shot_rest_}) {

@@ -61,6 +61,9 @@ void ViewerImage::begin_sample() {
         continued()->begin_sample();
     }
     look_at_lamps();
+    if (air_ && air_samples_++ % GROUP_SIZE == 0) {
+        air_->refine(*store_.air(), scene_.radiance_unit());
+    }
     if (!confidence_->due(scatter_samples_)) {
         return;
     }

@@ -270,7 +270,7 @@ bool ExchangeRays::choose_densities(const PatchMesh& mesh) {
 
 void ExchangeRays::look_up_sky(ExchangeRay& ray) const {
     if (ray.towards != glm::vec3(0.0F)) {
-        ray.sky = glm::vec3(sky_towards(scene_, glm::dvec3(ray.towards)));
+        ray.sky = ray.left_by_air * glm::vec3(sky_towards(scene_, glm::dvec3(ray.towards)));
     }
 }
 
@@ -316,6 +316,7 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
         rtcIntersect1(rays_.get(), &context, &hit);
         if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             result.towards = direction;
+            result.left_by_air = static_cast<float>(left_by_air(hit, false));
             look_up_sky(result);
             return result;
         }
@@ -335,6 +336,10 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
             }
             passes = true;
         }
+        if (!passes && scene_.medium &&
+            static_cast<double>(random_number(~number)) >= left_by_air(hit, true)) {
+            return result;
+        }
         if (!passes && received == PatchMesh::no_patch) {
             result.to = front_beside(hit);
             return result;
@@ -346,6 +351,20 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
         hit.ray.tnear = hit.ray.tfar + lift_;
     }
     return result;
+}
+
+/// Share of a ray's light that is left where it has met something, or beyond the scene.
+double ExchangeRays::left_by_air(const RTCRayHit& hit, bool met) const {
+    if (!scene_.medium) {
+        return 1.0;
+    }
+    const glm::dvec3 centre(scene_.bounds.centre());
+    const WayInBox way =
+        way_in_box(glm::dvec3(scene_.bounds.min) - centre, glm::dvec3(scene_.bounds.max) - centre,
+                   {hit.ray.org_x, hit.ray.org_y, hit.ray.org_z},
+                   {hit.ray.dir_x, hit.ray.dir_y, hit.ray.dir_z},
+                   met ? static_cast<double>(hit.ray.tfar) : INFINITY);
+    return scene_.medium->left_after(way.length());
 }
 
 /// Among coinciding surfaces the one that faces the ray wins, as in bundles. Returns its patch

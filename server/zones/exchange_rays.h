@@ -30,13 +30,14 @@ struct ExchangeRay {
                               ///< all rays is an unbiased estimate of the whole flux
     glm::vec3 sky{0.0F};      ///< cd/m²: radiance of the sky that it meets
     glm::vec3 towards{0.0F};  ///< where the sky meets it; 0 where it meets none
+    float left_by_air = 1.0F;  ///< share of the sky's light that the air lets through
 };
 
 /// Single rays between patches (Embree) that measure how surfaces exchange light, independently of
 /// the bundles. They are a few ten thousand, always the same ones, so that a difference between two
 /// traces is due to the scene and not to chance. The rules of bundles hold: light passes cut-outs
 /// (alpha MASK) and glass, less its absorption; backs without a patch absorb. All surfaces are
-/// Lambertian.
+/// Lambertian. What the air takes out of light is lost.
 class ExchangeRays {
   public:
     /// world_from_object: of all objects, in the space that rays live in; sky directions are the
@@ -82,6 +83,7 @@ class ExchangeRays {
     [[nodiscard]] std::uint32_t side_within(std::uint32_t patch, float& share) const;
     [[nodiscard]] ExchangeRay follow(std::uint32_t patch, std::uint64_t number) const;
     [[nodiscard]] std::uint32_t front_beside(const RTCRayHit& back) const;
+    [[nodiscard]] double left_by_air(const RTCRayHit& hit, bool met) const;
     static void reject_backs(const RTCFilterFunctionNArguments* arguments);
     void build();
 

@@ -80,6 +80,8 @@ bool remove_effect(std::string_view name, Scene& scene, PatchMesh& mesh) {
     } else if (name == "sun") {
         std::erase_if(scene.punctual_lights,
                       [](const PunctualLight& light) { return light.of_sky; });
+    } else if (name == "medium") {
+        scene.medium.reset();
     } else if (name == "sky" || name == "environment") {
         scene.sky_radiance = glm::vec3(0.0F);
         scene.environment.reset();

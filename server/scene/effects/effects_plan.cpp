@@ -186,7 +186,7 @@ class Planner {
                   : "no material in use has a normal map",
             "L(D|G)+E", bumpy ? 1.0 : 0.0, 0);
         plan_lights();
-        absent("medium", "no participating medium can be given", "L(M|D|G)+E");
+        plan_air();
         return std::move(effects_);
     }
 
@@ -275,6 +275,7 @@ class Planner {
                 count_of(surfaces, "mirror or glass", "mirrors and kinds of glass") +
                 " throw it, with what bundles make of it taken away";
         }
+        caustics_planned_ = active;
         add("caustics", active, std::move(reason), caustic_paths, bound, caustic_bytes);
     }
 
@@ -290,6 +291,20 @@ class Planner {
                 : "no light has an IES profile",
             "L(D|G)+E", survey_.share(survey_.punctual_flux), 0);
         plan_sky();
+    }
+
+    void plan_air() {
+        if (!scene_.medium) {
+            absent("medium", "the air is clear", "L(M|D|G)+E");
+            return;
+        }
+        const Medium& air = *scene_.medium;
+        const auto diagonal = static_cast<double>(glm::length(scene_.bounds.extent()));
+        add("medium", true,
+            fmt::format("visibility of {:.4g} m in the scene's box: bundles and view rays are "
+                        "dimmed, single paths bring what is scattered",
+                        air.visibility()),
+            "L(M|D|G)+E", 1.0 - air.left_after(diagonal), caustics_planned_ ? 0 : caustic_bytes);
     }
 
     void plan_sky() {
@@ -318,6 +333,7 @@ class Planner {
 
     const Scene& scene_;
     double accuracy_;  // relative error that is asked for; 0: none
+    bool caustics_planned_ = false;
     Survey survey_;
     std::vector<Effect> effects_;
 };

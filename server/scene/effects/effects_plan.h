@@ -19,7 +19,8 @@ struct Effect {
     std::string reason;      ///< why, or why not
     std::string path_class;  ///< light paths in Heckbert's notation, G: glossy
     /// Upper bound of the share that such paths can have: of the light that a surface reflects, for
-    /// a kind of reflection; of the flux that all lights send, for a kind of light, and for
+    /// a kind of reflection; of the light that crosses the scene, for air; of the flux that all
+    /// lights send, for a kind of light, and for
     /// caustics, to whose bound of the light of lamps and skies reflected light adds what it would
     /// be if it were the same everywhere. 0..1, 0 where the scene has no such paths.
     double share_bound = 0.0;

@@ -2,6 +2,9 @@
 // The balance heuristic adapted to iteration (ch. 6.2, 6.3): whichever strategy found the pair (x, y),
 // its contribution is divided by the one density d.
 
+#ifdef MEDIUM
+#include "air.glsl"
+#endif
 layout(std140, binding = BINDING_BUNDLE) uniform BundleBlock { BundleParameters bundle; };
 
 /// cos_y / d(omega) at x, in sr: times L(y -> x) and the measure cos_x domega it gives irradiance.

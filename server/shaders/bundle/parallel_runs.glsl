@@ -171,9 +171,17 @@ Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3
         e.dark += met && r <= bundle.sky.w ? crease_factor(behind, point) * crease_factor(ahead, point) : 0.0;
 #endif
         w = r > bundle.sky.w ? w : vec2(0.0);
+#ifdef MEDIUM
+        w = r > bundle.sky.w ? w * left_by_air(r) : w;
+#endif
 #ifdef SKY
         w.x = ahead.surface == NO_HIT ? sky_weight(behind.depth, true) : w.x;
         w.y = behind.surface == NO_HIT ? sky_weight(ahead.depth, false) : w.y;
+#ifdef MEDIUM
+        vec3 axis = bundle.axis_z.xyz;
+        w.x *= ahead.surface == NO_HIT ? left_by_air_from_sky(point + behind.depth * axis, axis) : 1.0;
+        w.y *= behind.surface == NO_HIT ? left_by_air_from_sky(point + ahead.depth * axis, -axis) : 1.0;
+#endif
 #endif
         e.weights += w * (crease_factor(behind, point) * crease_factor(ahead, point));
         ++texel.x;

@@ -164,6 +164,7 @@
 #define UNIT_SIDES 26               // rg32ui: patch and triangle of each side, in scenes with PATCH_SETS
 #define UNIT_MEMBERS 31             // rg32ui: see patch_members.glsl
 #define UNIT_CONFIDENCE 32          // rg32f: see view_confidence.glsl
+#define UNIT_PIXEL_AIR 33           // rgba32f: see view_air.glsl
 #define UNIT_MATERIAL_DETAILS 27   // rgba32f: MaterialDetails, MATERIAL_DETAILS_TEXELS each
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f

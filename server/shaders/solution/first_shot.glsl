@@ -4,6 +4,9 @@
 // decided by its own triangle, so that the edges of shadows are as sharp as the geometry and not the map's. SHADOW_RAYS:
 // where the map marks that a surface begins or ends nearby, which it may have missed, a ray decides.
 #include "facets.glsl"
+#ifdef MEDIUM
+#include "air.glsl"
+#endif
 layout(std430, binding = BINDING_PUNCTUAL) readonly buffer PunctualBuffer { PunctualData punctual[]; };
 layout(binding = UNIT_SHADOW_MAPS) uniform usampler2DArray shadow_maps;
 #ifdef SHADOW_RAYS
@@ -141,9 +144,16 @@ float profile_candela(PunctualData light, vec3 direction) {
 /// is_lit(), from the point.
 vec3 facing_illuminance(PunctualData light, vec3 position, out vec3 to_light) {
     to_light = light.axis_z.xyz;
+#ifdef MEDIUM
+    if (light.map.z == PUNCTUAL_DIRECTIONAL) {
+        return light.intensity.rgb * left_by_air_from_sky(position, to_light);
+    }
+    light.intensity.rgb *= left_by_air_between(position, light.position.xyz);
+#else
     if (light.map.z == PUNCTUAL_DIRECTIONAL) {
         return light.intensity.rgb;
     }
+#endif
     to_light = light.position.xyz - position;
     float square = max(dot(to_light, to_light), 1e-20);
     float share = 1.0;

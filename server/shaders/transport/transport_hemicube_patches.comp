@@ -181,6 +181,9 @@ void main() {
             float r = min(1.0 / (max(run.reciprocal, 1e-20) * inverse_length), farthest);
             float form_factor = r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
                                 cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
+#ifdef MEDIUM
+            form_factor *= left_by_air(r);
+#endif
 #ifdef SHOOTER_GLOSSY
             vec3 sent = main_part + difference_radiance(shooter, normal, above(d * inverse_length, normal));
             missed += cosine * luminance(sent) * inverse_luminance;

@@ -68,6 +68,9 @@ vec3 gather(Receiver x, out vec3 w_in) {
             found_density = cosine_over_density(r, d.z / r, bundle.densities.w);
             float irradiance = weight * cos_x * found_density;
             value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
+#ifdef MEDIUM
+            value *= left_by_air(r);
+#endif
         }
     }
     w_in = -offset / r;

@@ -99,6 +99,9 @@ vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
     vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
     found_density = cosine_over_density(ahead, cos_y, l.w);
+#ifdef MEDIUM
+    l.rgb *= left_by_air(ahead);
+#endif
     return (l.rgb - bundle.constant.rgb) * found_density;
 }
 
@@ -164,6 +167,9 @@ vec3 gather(Receiver x, out vec3 w_in) {
             float density = sky_density(d.z, far);
             found_density = density > 0.0 ? 1.0 / density : 0.0;
             value = density > 0.0 ? sky_radiance(far) * (cos_x / density) : vec3(0.0);
+#ifdef MEDIUM
+            value *= left_by_air_from_sky(x.position, w_in);
+#endif
         } else {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));
             float depth = plane_depth(facet.plane, line);

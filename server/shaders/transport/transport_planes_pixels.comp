@@ -48,6 +48,9 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     if (surface == NO_HIT) {
         float density = sky_density(line.depth, line.far);
         found_density = density > 0.0 ? 1.0 / density : 0.0;
+#ifdef MEDIUM
+        density /= left_by_air_from_sky(x.position, line.far ? bundle.axis_z.xyz : -bundle.axis_z.xyz);
+#endif
         return density > 0.0 ? sky_radiance(line.far) / density : vec3(0.0);
     }
     float ahead = distance_ahead(line, surface);
@@ -61,6 +64,9 @@ vec3 incoming(Receiver x, Line line, uint surface) {
     uint y = patch_of_surface(2u * triangle + side_of_surface(surface, !line.far));
     vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     found_density = cosine_over_density(ahead, abs(dot(facet.plane.xyz, bundle.axis_z.xyz)), l.w);
+#ifdef MEDIUM
+    l.rgb *= left_by_air(ahead);
+#endif
     return (l.rgb - bundle.constant.rgb) * found_density;
 }
 

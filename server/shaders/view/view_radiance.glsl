@@ -11,6 +11,10 @@
 #include "zone_level.glsl"
 layout(std140, binding = BINDING_VIEW) uniform ViewBlock { ViewParameters view; };
 #include "view_place.glsl"
+#if defined(MEDIUM) && !defined(CONTINUED)
+#define AIR_BEFORE  // the ends of view rays know of all air on their way
+#include "view_air.glsl"
+#endif
 layout(binding = UNIT_PIXELS) uniform usamplerBuffer pixel_texels;
 layout(binding = UNIT_PIXEL_IRRADIANCE) uniform samplerBuffer pixel_irradiance_texels;
 layout(binding = UNIT_PIXEL_KEPT) uniform samplerBuffer pixel_kept_texels;
@@ -222,7 +226,19 @@ vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 
 vec3 pixel_radiance(uint index, PixelSurface p) {
 #if defined(MIRRORS) && !defined(CONTINUED)
     if ((p.facet & PIXEL_CONTINUED) != 0u) {
+#ifdef AIR_BEFORE
+        return radiance_of_ends(index) + sent_by_air(index, left_before(p.position));
+#endif
         return radiance_of_ends(index);
+    }
+#endif
+#ifdef AIR_BEFORE
+    if (p.side == NO_PATCH && (p.facet & PIXEL_SKY) != 0u) {
+        float left = left_before_sky(index);
+        return left * background(index) + sent_by_air(index, left);
+    }
+    if (p.side == NO_PATCH) {
+        return sent_by_air_before_black(index);
     }
 #endif
     if (p.side == NO_PATCH) {
@@ -251,6 +267,11 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #endif
         reflected = max(reflected + gloss, 0.0);
     }
+#endif
+#ifdef AIR_BEFORE
+    float left = left_before(p.position);
+    emitted *= left;
+    reflected = left * reflected + sent_by_air(index, left);
 #endif
 #if defined(COATS) && !defined(CONTINUED)
     reflected += radiance_of_ends(index);  // by a smooth coat, or by a polished surface

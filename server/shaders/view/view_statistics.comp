@@ -119,6 +119,9 @@ vec4 probe_statistics(uint probe) {
 #endif
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
+#ifdef AIR_BEFORE
+    share *= left_before(p.position);
+#endif
     float reflectance = share * luminance(pixel_albedo(p)) * inverse_pi;
     uint patch_id = patch_of_side(p.side);
     float through = share * ahead_behind(patch_id);
@@ -143,6 +146,10 @@ vec4 probe_statistics(uint probe) {
         variance = shown_variance(index, p, independent, own.w) * reflectance * reflectance;
     }
     variance += through * through * variance_of_patches;
+#ifdef AIR_BEFORE
+    float of_air = luminance(sent_by_air(index, left_before(p.position)));
+    variance += of_air * of_air * relative_variance_of_air();
+#endif
 #ifdef MANY_LAMPS
     variance += texelFetch(pixel_first_shot_texels, int(index)).w * reflectance * reflectance;
 #endif

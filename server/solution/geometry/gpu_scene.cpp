@@ -68,6 +68,8 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       object_count_(static_cast<std::uint32_t>(scene.objects.size())),
       origin_(scene.bounds.centre()),
       radiance_unit_(unit_for(largest_emission(scene, mesh))),
+      medium_(scene.medium),
+      air_box_{scene.bounds.min - origin_, scene.bounds.max - origin_},
       trace_caustics_(caustics),
       constant_radiance_(constant_radiance),
       has_sky_(raybundle::has_sky(scene)),
@@ -203,7 +205,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
               "IES");
     define_if(sky_.environment != nullptr, "ENVIRONMENT");
     thin_walls_ = has_thin_walls(scene, mesh);
-    constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy();
+    constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy() && !medium_;
     define_if(constant_radiance_, "CONSTANT_RADIANCE");
     // A line that meets nothing lacks the constant.
     define_if(has_sky_ || constant_radiance_, "SKY");
@@ -221,10 +223,12 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(absorbing_glass_, "GLASS_ABSORBS");
     const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
     mirror_or_glass_ = has_mirror_or_glass(scene);
-    caustics_ = trace_caustics_ && mirror_or_glass_ &&
-                (has_sky_ || !scene.punctual_lights.empty() ||
-                 !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
+    mirrors_shine_ = trace_caustics_ && mirror_or_glass_ &&
+                     (has_sky_ || !scene.punctual_lights.empty() ||
+                      !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
+    caustics_ = mirrors_shine_ || medium_.has_value();
     define_if(caustics_, "CAUSTICS");
+    define_air();
     const std::vector<std::string>& lobes = reflectance_.defines();
     defines_.insert(defines_.end(), lobes.begin(), lobes.end());
 }

@@ -96,7 +96,8 @@ class GpuScene {
     /// (some with profiles), TRANSMISSION (some patches send light that arrives on their other
     /// side), ENVIRONMENT (a sky that varies over direction), CONSTANT_RADIANCE, MIRRORS (view rays
     /// go on from some surfaces), GLASS (bundles pass some), CAUSTICS (light may shine on such
-    /// surfaces). What is absent is not even compiled.
+    /// surfaces, or air scatters it), MEDIUM (see shaders/scene/air.glsl). What is absent is not
+    /// even compiled.
     [[nodiscard]] const std::vector<std::string>& defines() const { return defines_; }
     /// PATCH_SETS, where some patches are several triangles, for what needs no other macro.
     [[nodiscard]] const std::vector<std::string>& set_defines() const { return members_.defines(); }
@@ -148,8 +149,14 @@ class GpuScene {
     [[nodiscard]] const ReflectanceTables& reflectance() const { return reflectance_; }
     /// What deflects view rays, at the present places; null where nothing does.
     [[nodiscard]] const SpecularRays* specular_rays() const { return specular_rays_.get(); }
-    /// Whether any light may shine on mirrors or glass, so that there are caustics.
+    /// Whether patches have light that single rays bring: any may shine on mirrors or glass, so
+    /// that there are caustics, or the air scatters.
     [[nodiscard]] bool caustics() const { return caustics_; }
+    /// Whether any light may shine on mirrors or glass.
+    [[nodiscard]] bool mirrors_shine() const { return mirrors_shine_; }
+    /// Air between the surfaces, none where it is clear, and the box that holds it, shifted world.
+    [[nodiscard]] const std::optional<Medium>& medium() const { return medium_; }
+    [[nodiscard]] const Bounds& air_box() const { return air_box_; }
     /// Whether a material as it is in the scene now needs no macro that is not among defines().
     [[nodiscard]] bool covers(const Scene& scene, std::size_t material) const;
     /// Of an object, shifted world, at a place.
@@ -181,6 +188,7 @@ class GpuScene {
     void upload_environment();
     void upload_reflectors(const PatchMesh& mesh);
     void choose_defines(const Scene& scene, const PatchMesh& mesh);
+    void define_air();
     void upload_matrices();
     void make_tracer(const Scene& scene, const PatchMesh& mesh);
     void settle_tracer();
@@ -202,6 +210,9 @@ class GpuScene {
     bool rescaled_ = false;
     bool thin_walls_ = false;  // fronts and backs may coincide
     bool caustics_ = false;
+    bool mirrors_shine_ = false;
+    std::optional<Medium> medium_;
+    Bounds air_box_;
     bool glass_ = false;            // some surfaces let bundles pass
     bool absorbing_glass_ = false;  // and absorb some of their light
     bool mirror_or_glass_ = false;  // some are more than a smooth coat

@@ -72,7 +72,7 @@ bool GpuScene::covers(const Scene& scene, std::size_t material) const {
         kind == SpecularKind::none || (kind == SpecularKind::coat ? coats_ : mirror_or_glass_);
     const bool passed = (glass_ || !is_glass(scene.materials[material])) &&
                         (absorbing_glass_ || !has_absorbing_glass(scene));
-    const bool lit = caustics_ || !trace_caustics_ || !mirror_or_glass_ ||
+    const bool lit = mirrors_shine_ || !trace_caustics_ || !mirror_or_glass_ ||
                      scene.materials[material].emission == glm::vec3(0.0F);
     return followed && passed && lit && reflectance_.covers(scene, material);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -71,6 +72,20 @@ void GpuScene::upload_environment() {
     glTextureParameteri(environment_texture_.get(), GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTextureParameteri(environment_texture_.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     environment_bytes_ = texels.size() * sizeof(glm::vec4);
+}
+
+/// Air and its box as constants of shaders/scene/air.glsl.
+void GpuScene::define_air() {
+    if (!medium_) {
+        return;
+    }
+    const auto corner = [](const glm::vec3& p) {
+        return fmt::format("vec3({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z);
+    };
+    defines_.emplace_back("MEDIUM 1");
+    defines_.push_back(fmt::format("AIR_EXTINCTION float({:.9g})", medium_->extinction));
+    defines_.push_back("AIR_LOW " + corner(air_box_.min));
+    defines_.push_back("AIR_HIGH " + corner(air_box_.max));
 }
 
 }  // namespace raybundle

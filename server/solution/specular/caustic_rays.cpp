@@ -211,6 +211,7 @@ void CausticRays::follow_as_bundles(LightRay ray, Random& random,
         if (!hit || rays_.absorbs(hit->facet, hit->front)) {
             return;
         }
+        ray.flux *= rays_.left_by_air(from, ray.direction, static_cast<double>(hit->distance));
         const SpecularKind kind = rays_.surface(*hit).kind;
         if (kind == SpecularKind::none || kind == SpecularKind::coat) {
             const std::uint32_t patch = patch_at(hit->facet, hit->front, hit->position);

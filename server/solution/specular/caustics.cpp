@@ -34,7 +34,6 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
                    std::uint64_t seed)
     : scene_(gpu_scene),
       mesh_(without_colours(mesh)),
-      caustic_rays_(scene, mesh, *gpu_scene.specular_rays()),
       cells_(mesh),
       sums_(mesh.patch_count(), glm::dvec3(0.0)),
       surface_sums_(sums_),
@@ -54,22 +53,47 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
     irradiance_.clear();
     radiance_.clear();
     vertices_.clear();
+    if (gpu_scene.mirrors_shine()) {
+        caustic_rays_.emplace(scene, mesh, *gpu_scene.specular_rays());
+    }
+    if (gpu_scene.medium()) {
+        air_.emplace(scene, mesh, gpu_scene, cells_, seed);
+    }
 }
 
 void Caustics::refine(const Buffer& sent) {
     if (lights_ && !lights_->empty()) {
         trace(batch_rays);
     }
-    if (batches_++ % surface_interval == 0) {
+    const bool surfaces = batches_++ % surface_interval == 0 && caustic_rays_;
+    if (surfaces || air_) {
         if (!readback_.pending()) {
             request(sent);
         }
-        trace_surfaces();
+        const std::span<const glm::vec4> radiance = readback_.take_as<glm::vec4>();
+        if (surfaces) {
+            trace_surfaces(radiance);
+        }
+        if (air_) {
+            scatter(radiance);
+        }
+        upload_surfaces();
     }
     reflect();
-    if (batches_ % surface_interval == 0) {
+    if (batches_ % surface_interval == 0 || air_) {
         request(sent);  // for the next time
     }
+}
+
+/// What the air scatters, of the patches' radiance as it is.
+void Caustics::scatter(std::span<const glm::vec4> radiance) {
+    std::vector<glm::vec3> sent;
+    sent.reserve(radiance.size());
+    for (const glm::vec4& r : radiance) {
+        sent.push_back(glm::vec3(r) * scene_.radiance_unit());
+    }
+    air_->set_radiance(sent, patch_means(mesh_, mesh_.emission));
+    air_->refine();
 }
 
 void Caustics::scale(const glm::vec3& factor) {
@@ -77,8 +101,14 @@ void Caustics::scale(const glm::vec3& factor) {
 }
 
 void Caustics::restart() {
-    lights_.emplace(scene_, mesh_, mesh_.emission, CausticLights::Kind::lamps,
-                    scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
+    if (caustic_rays_) {
+        lights_.emplace(scene_, mesh_, mesh_.emission, CausticLights::Kind::lamps,
+                        scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
+    }
+    if (air_) {
+        air_->scale(scale_);
+        air_->restart(mesh_.emission);
+    }
     sums_.assign(sums_.size(), glm::dvec3(0.0));
     surface_sums_.assign(sums_.size(), glm::dvec3(0.0));
     surface_counts_.assign(sums_.size(), 0);
@@ -92,7 +122,7 @@ void Caustics::restart() {
     upload_surfaces();
     rays_ = 0;
     ++changes_;
-    if (!lights_->empty()) {
+    if (lights_ && !lights_->empty()) {
         trace(first_rays);
     }
     reflect();
@@ -101,7 +131,12 @@ void Caustics::restart() {
 void Caustics::update(const Scene& scene, std::span<const std::uint32_t> materials,
                       std::span<const glm::vec3> emission) {
     for (const std::uint32_t material : materials) {
-        caustic_rays_.update(scene, material);
+        if (caustic_rays_) {
+            caustic_rays_->update(scene, material);
+        }
+        if (air_) {
+            air_->update(scene, material);
+        }
     }
     mesh_.emission.assign(emission.begin(), emission.end());
 }
@@ -110,7 +145,7 @@ void Caustics::update(const Scene& scene, std::span<const std::uint32_t> materia
 void Caustics::trace(std::uint32_t rays) {
     met_.clear();
     for (const CausticDeposit& deposit :
-         caustic_rays_.trace(*lights_, seed_ + changes_, rays_, rays)) {
+         caustic_rays_->trace(*lights_, seed_ + changes_, rays_, rays)) {
         sums_[deposit.patch] += glm::dvec3(deposit.flux);
         met_.push_back(deposit.patch);
     }
@@ -133,8 +168,7 @@ void Caustics::trace(std::uint32_t rays) {
 
 /// What sides reflect, cd/m²: all that their patches send but their emission. Mirrors and glass do
 /// not count, whose light is on its way.
-std::vector<glm::vec3> Caustics::reflected() {
-    const std::span<const glm::vec4> radiance = readback_.take_as<glm::vec4>();
+std::vector<glm::vec3> Caustics::reflected(std::span<const glm::vec4> radiance) const {
     const std::vector<glm::vec3> emission = patch_means(mesh_, mesh_.emission);
     std::vector<glm::vec3> result(mesh_.side_count(), glm::vec3(0.0F));
     for (std::uint32_t i = 0; i < result.size(); ++i) {
@@ -153,16 +187,15 @@ void Caustics::request(const Buffer& sent) {
     readback_.request(sent, sums_.size() * sizeof(glm::vec4));
 }
 
-void Caustics::trace_surfaces() {
-    const CausticLights surfaces(scene_, mesh_, reflected(), CausticLights::Kind::others,
+void Caustics::trace_surfaces(std::span<const glm::vec4> radiance) {
+    const CausticLights surfaces(scene_, mesh_, reflected(radiance), CausticLights::Kind::others,
                                  scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     if (surfaces.empty()) {
         surface_flux_.assign(surface_flux_.size(), glm::vec4(0.0F));
-        upload_surfaces();
         return;
     }
     const auto weight = static_cast<double>(surface_batches_ + 1);
-    for (const CausticDeposit& deposit : caustic_rays_.trace(
+    for (const CausticDeposit& deposit : caustic_rays_->trace(
              surfaces, ~(seed_ + changes_), surface_batches_ * surface_rays, surface_rays)) {
         surface_sums_[deposit.patch] += weight * glm::dvec3(deposit.flux);
         ++surface_counts_[deposit.patch];
@@ -179,11 +212,17 @@ void Caustics::trace_surfaces() {
     for (const glm::vec3& flux : spread) {
         surface_flux_.emplace_back(share * flux, 0.0F);
     }
-    upload_surfaces();
 }
 
 void Caustics::upload_surfaces() {
-    if (!surface_flux_.empty()) {
+    if (air_) {
+        std::vector<glm::vec4> flux = surface_flux_;
+        flux.resize(sums_.size(), glm::vec4(0.0F));
+        for (std::size_t i = 0; i < flux.size(); ++i) {
+            flux[i] += glm::vec4(air_->flux()[i] / scene_.radiance_unit(), 0.0F);
+        }
+        flux_.write<glm::vec4>(flux, deposit_buffer_.bytes());
+    } else if (!surface_flux_.empty()) {
         flux_.write<glm::vec4>(surface_flux_, deposit_buffer_.bytes());
     }
 }
@@ -225,7 +264,8 @@ void Caustics::bind() const {
 }
 
 std::size_t Caustics::bytes() const {
-    return flux_.bytes() + 3 * deposit_buffer_.bytes() + vertices_.bytes();
+    return flux_.bytes() + 3 * deposit_buffer_.bytes() + vertices_.bytes() +
+           (air_ ? air_->bytes() : 0);
 }
 
 }  // namespace raybundle

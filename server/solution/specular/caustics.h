@@ -10,6 +10,7 @@
 #include "gpu/gl_objects.h"
 #include "gpu/readback.h"
 #include "gpu/shader_program.h"
+#include "solution/air/scattered_light.h"
 #include "solution/geometry/gpu_scene.h"
 #include "solution/geometry/patch_cells.h"
 #include "solution/specular/caustic_rays.h"
@@ -55,20 +56,24 @@ class Caustics {
     [[nodiscard]] std::vector<glm::vec4> read_irradiance() const;
     [[nodiscard]] glm::vec3 read_irradiance(std::uint32_t patch) const;
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
+    /// Null where the air is clear.
+    [[nodiscard]] const ScatteredLight* air() const { return air_ ? &*air_ : nullptr; }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     void trace(std::uint32_t rays);
     void request(const Buffer& sent);
-    void trace_surfaces();
-    [[nodiscard]] std::vector<glm::vec3> reflected();
+    void trace_surfaces(std::span<const glm::vec4> radiance);
+    void scatter(std::span<const glm::vec4> radiance);
+    [[nodiscard]] std::vector<glm::vec3> reflected(std::span<const glm::vec4> radiance) const;
     void upload_surfaces();
     void reflect();
 
     const GpuScene& scene_;
-    PatchMesh mesh_;  // without what tells colours
-    CausticRays caustic_rays_;
+    PatchMesh mesh_;                           // without what tells colours
+    std::optional<CausticRays> caustic_rays_;  // only where there are mirrors or glass
     PatchCells cells_;
+    std::optional<ScatteredLight> air_;          // only where it scatters
     std::optional<CausticLights> lights_;        // of the present places
     std::vector<glm::dvec3> sums_;               // flux per patch, lm, of all rays of lamps
     std::vector<std::uint32_t> met_;             // patches, by the last batch

@@ -90,6 +90,15 @@ class SpecularRays {
     [[nodiscard]] const SpecularSurface& surface_of(std::size_t material) const {
         return surfaces_[material];
     }
+    /// Share of a ray's light that the air leaves over a distance, m; to the sky without limit.
+    [[nodiscard]] float left_by_air(const glm::vec3& origin, const glm::vec3& direction,
+                                    double distance) const {
+        return medium_ ? static_cast<float>(
+                             medium_->left_after(way_in_box(air_low_, air_high_, glm::dvec3(origin),
+                                                            glm::dvec3(direction), distance)
+                                                     .length()))
+                       : 1.0F;
+    }
     /// Whether that side of a facet takes light and sends none.
     [[nodiscard]] bool absorbs(std::uint32_t facet, bool front) const {
         return !front && !two_sided_[materials_[facet]];
@@ -125,6 +134,8 @@ class SpecularRays {
     std::vector<SpecularSurface> surfaces_;  // of the materials
     std::vector<bool> two_sided_;            // glass is
     float offset_ = 0.0F;                    // m: so far in front of a surface rays start
+    std::optional<Medium> medium_;
+    glm::dvec3 air_low_{0.0}, air_high_{0.0};  // its box, shifted world
     std::size_t bytes_ = 0;
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
     std::vector<Object> objects_;

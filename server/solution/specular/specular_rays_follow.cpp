@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/mix_bits.h"
 #include "solution/specular/specular_rays.h"
@@ -20,10 +21,11 @@ class SpecularRays::Walk {
             return 0;
         }
         added_ = rays_.surface(*first).kind == SpecularKind::coat;
-        deflect({origin, direction, glm::vec3(1.0F), 0}, *first);
+        deflect(dimmed({origin, direction, glm::vec3(1.0F), 0}, first), *first);
         while (open_count_ > 0) {
-            const Branch branch = open_[--open_count_];
-            const std::optional<Hit> hit = rays_.meet(branch.origin, branch.direction);
+            const Branch open = open_[--open_count_];
+            const std::optional<Hit> hit = rays_.meet(open.origin, open.direction);
+            const Branch branch = dimmed(open, hit);
             if (!hit || !is_specular(*hit)) {
                 end(branch, hit);
             } else if (!rays_.absorbs(hit->facet, hit->front)) {
@@ -47,6 +49,17 @@ class SpecularRays::Walk {
         glm::vec3 origin, direction, throughput;
         int surfaces = 0;
     };
+
+    /// By the air on its way, of which there is none inside of glass.
+    [[nodiscard]] Branch dimmed(Branch branch, const std::optional<Hit>& hit) const {
+        if (!hit || hit->front || rays_.surface(*hit).kind != SpecularKind::glass) {
+            constexpr double endless = std::numeric_limits<double>::infinity();
+            branch.throughput *=
+                rays_.left_by_air(branch.origin, branch.direction,
+                                  hit ? static_cast<double>(hit->distance) : endless);
+        }
+        return branch;
+    }
 
     [[nodiscard]] bool is_specular(const Hit& hit) const {
         const SpecularKind kind = rays_.surface(hit).kind;

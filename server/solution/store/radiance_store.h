@@ -45,6 +45,10 @@ class RadianceStore {
     void bind() const;
     /// After that, for one pass: the patches' light by caustics, which otherwise is at vertices.
     void bind_caustics_of_patches() const;
+    /// Null where the air is clear.
+    [[nodiscard]] const ScatteredLight* air() const {
+        return caustics_ != nullptr ? caustics_->air() : nullptr;
+    }
     /// Takes the running bundle's sums into the mean and into the iterate. The bundle's parameters
     /// are bound.
     void update(const BundleUpdate& bundle) const;

@@ -109,6 +109,9 @@ vec3 arriving(GlossRay ray, Start x, out float inverse_density) {
     if (ray.surface == NO_HIT) {
         densities += bundle.densities.y * max(0.5 * slab.w + dot(slab.xyz - x.position, ray.direction), 0.0);
         inverse_density = 1.0 / max(densities, 1e-30);
+#ifdef MEDIUM
+        return ray.origin * left_by_air_from_sky(x.position, ray.direction);
+#endif
         return ray.origin;
     }
     inverse_density = 0.0;
@@ -128,6 +131,9 @@ vec3 arriving(GlossRay ray, Start x, out float inverse_density) {
         vec3 middle = centroid_of(triangle_of_patch(y), 0u);
         l.rgb += difference_radiance(sending_gloss(y, normal, middle, point), normal, above(-ray.direction, normal));
     }
+#ifdef MEDIUM
+    l.rgb *= left_by_air(r);
+#endif
     return l.rgb;
 }
 
