@@ -21,6 +21,7 @@ import {AnimationPanel} from './scene/animation_panel.js';
 import {DaylightPanel} from './scene/daylight_panel.js';
 import {LightGroups} from './scene/light_groups.js';
 import {LightPanel} from './scene/light_panel.js';
+import {Luminaires} from './scene/luminaires.js';
 import {Lost} from './camera/lost.js';
 import {Marks} from './picture/marks.js';
 import {Measuring} from './measure/measure.js';
@@ -36,6 +37,7 @@ import {SceneFiles} from './scene/scene_files.js';
 import {ScenePanel} from './scene/scene_panel.js';
 import {fromHash, toHash} from './review/share.js';
 import {SnapshotPanel} from './review/snapshot_panel.js';
+import {Things} from './scene/things.js';
 import {addTabs} from './app/tabs.js';
 import {addTheme} from './app/theme.js';
 import {TargetPanel} from './measure/target_panel.js';
@@ -97,7 +99,9 @@ const plans = new Plans(app, collisions);
 const saving = new SavingState(app);
 new SceneFiles(app, () => ({changes: changes.entries.length || (app.scene?.epoch ?? 0), pins: pins.pins.size, forgets: saving.forgets}));
 new SnapshotPanel(app);
-const lightPanel = new LightPanel(app, history, () => {
+const things = new Things(app, history);
+const luminaires = new Luminaires(app, things);
+const lightPanel = new LightPanel(app, history, {things, luminaires}, () => {
     setPanel(true);
     showTab('tab-light');
 });
@@ -352,6 +356,7 @@ addKeys({
     grabbing,
     display,
     history,
+    things,
     setTool,
     removeLastPoint: () => measuring.removeLast(),
     clickMiddle: () => {

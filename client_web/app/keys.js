@@ -14,6 +14,7 @@ import {byId} from '../ui/elements.js';
  * @property {import('../scene/grabbing.js').Grabbing} grabbing
  * @property {import('../measure/display_panel.js').DisplayPanel} display
  * @property {import('../scene/history.js').History} history
+ * @property {import('../scene/things.js').Things} things
  * @property {(tool: string) => void} setTool
  * @property {() => boolean} removeLastPoint  the newest measured one; whether there was one
  * @property {() => void} clickMiddle  as a click on the middle of the picture
@@ -118,42 +119,31 @@ function press(targets, event) {
 }
 
 /**
- * Takes a measured point away. Objects stay, and who wants one gone is told so.
+ * Takes a measured point away, or else the selected object.
  *
  * @param {KeyTargets} targets
  */
-function remove({app, removeLastPoint}) {
+function remove({app, things, removeLastPoint}) {
     if (app.tool === 'measure' && removeLastPoint()) {
         return;
     }
-    const {selected} = app;
-    app.status.notify(
-        selected
-            ? `${selected.name} stays: objects cannot be deleted here. Move it out of the way, or delete it in the file.`
-            : 'Nothing to delete: Del takes away the newest point while Measure is on.',
-    );
-}
-
-/** @param {RaybundleApp} app */
-function duplicate(app) {
-    const {selected} = app;
-    app.status.notify(
-        selected
-            ? `${selected.name} stays alone: objects cannot be copied here. Copy it in the file.`
-            : 'Nothing is selected.',
-    );
+    if (app.selected) {
+        things.removeSelected();
+    } else {
+        app.status.notify('Nothing to delete: Del takes away the selected object, or the newest point while Measure is on.');
+    }
 }
 
 /**
- * Undo and redo; and why there are no copies.
+ * Undo, redo and copies.
  *
  * @param {KeyTargets} targets
  * @param {KeyboardEvent} event
  * @returns {boolean}
  */
-function pressModified({app, history}, event) {
+function pressModified({things, history}, event) {
     if (event.code === 'KeyD' && !event.shiftKey) {
-        duplicate(app);
+        things.duplicateSelected();
         return true;
     }
     if (event.code === 'KeyZ' && !event.shiftKey) {

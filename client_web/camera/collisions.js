@@ -58,7 +58,8 @@ export class Collisions {
         });
         app.on('picture', () => this.#ask());
         app.on('sceneChanged', (change) => {
-            if (change.moveObject && change.moveObject.final !== false) {
+            const comesOrGoes = change.addObject ?? change.removeObject;
+            if (comesOrGoes || (change.moveObject && change.moveObject.final !== false)) {
                 this.#stale = true;
                 this.#ask();
             }

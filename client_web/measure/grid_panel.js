@@ -9,7 +9,7 @@ import {
     typicalError, uniformityText,
 } from './grid.js';
 import {SETTLED} from '../scene/light_state.js';
-import {Anchor} from '../scene/scene_model.js';
+import {Anchor} from '../scene/anchor.js';
 import {NOT_YET, UNCERTAIN, estimated, inUnit, plusMinus} from '../ui/units.js';
 import {corners, length, sub} from '../ui/vector.js';
 

@@ -3,7 +3,7 @@
 
 import {announce, byId, fileName, saveFile, smallButton, whileAsked} from '../ui/elements.js';
 import {csvCell} from './grid.js';
-import {Anchor} from '../scene/scene_model.js';
+import {Anchor} from '../scene/anchor.js';
 import {estimated, inUnit, measured, noteOf, plusMinus, plusMinusCell} from '../ui/units.js';
 import {length, sub} from '../ui/vector.js';
 import {remember, remembered} from '../camera/walking.js';

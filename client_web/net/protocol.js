@@ -31,6 +31,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {'THING' | 'STRUCTURE' | 'DOOR'} [kind]  as names tell
  * @property {string[]} [path]  names of the nodes above it, the outermost first
  * @property {string} [storey]  empty: none
+ * @property {boolean} [added]  not of the scene file
  */
 
 /**
@@ -68,6 +69,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [innerCone]  half of its angle, degrees
  * @property {number} [outerCone]
  * @property {number} [carrier]  object that carries it
+ * @property {string} [photometry]  file that it shines by; empty: none, or not known
+ * @property {boolean} [added]  not of the scene file
  */
 
 /**
@@ -194,7 +197,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  *
  * @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3, group?: string, dim?: number,
  *     maintenanceFactor?: number, position?: Vec3, aim?: Vec3, rotation?: number, innerCone?: number,
- *     outerCone?: number}} SetLight
+ *     outerCone?: number, photometry?: string, sameType?: boolean}} SetLight
  */
 
 /**
@@ -221,6 +224,13 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {SetDaylight} [setDaylight]
  * @property {SetDaylight} [daylightBefore]
  * @property {SetMaterial} [setMaterial]
+ * @property {{object: number, name?: string}} [addObject]
+ * @property {{object: number}} [removeObject]
+ * @property {{light: number, name?: string}} [addLuminaire]
+ * @property {{light: number}} [removeLight]
+ * @property {SceneObject[]} [objects]  that have been added, or are there again
+ * @property {Light[]} [lights]  likewise, and those that shine by another file
+ * @property {Material[]} [materials]  that came with an object
  * @property {string} [byName]
  * @property {number} [atMs]  Unix time
  * @property {MoveObject} [objectBefore]  what it was like before

@@ -27,6 +27,7 @@ const PREPARING = 'The server is preparing the scene';
 /** Requests that change what is saved. */
 const CHANGES = [
     'moveObject', 'setLight', 'setMaterial', 'setGroup', 'setDaylight', 'saveLightingScene', 'applyLightingScene',
+    'addObject', 'removeObject', 'addLuminaire', 'removeLight',
     'removeLightingScene', 'playAnimation', 'undo', 'addPin', 'removePin', 'saveViewpoint', 'removeViewpoint',
 ];
 const PING_INTERVAL_MS = 2000;

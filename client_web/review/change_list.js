@@ -204,11 +204,35 @@ export function describeChange(scene, change, loaded) {
     if (moveObject) {
         return describeMove(scene?.object(moveObject.object) ?? null, moveObject, objectBefore, loaded);
     }
+    const presence = describePresence(scene, change);
+    if (presence) {
+        return presence;
+    }
     if (setLight) {
         return describeLight(scene?.lights.find(({id}) => id === setLight.light), setLight, lightBefore);
     }
     const material = scene?.materials.find(({id}) => id === setMaterial?.material);
     return describeMaterial(material?.name || 'a material', setMaterial, materialBefore);
+}
+
+/**
+ * What has come or gone; empty: nothing.
+ *
+ * @param {SceneModel | null} scene
+ * @param {SceneChanged} change
+ */
+function describePresence(scene, {addObject, removeObject, addLuminaire, removeLight}) {
+    if (addObject) {
+        return `added ${addObject.name || scene?.object(addObject.object)?.name || 'an object'}`;
+    }
+    if (addLuminaire) {
+        const light = scene?.lights.find(({id}) => id === addLuminaire.light);
+        return `added ${addLuminaire.name || light?.name || 'a light'}`;
+    }
+    if (removeObject) {
+        return `removed ${scene?.goneNames.get(`object ${removeObject.object}`) || 'an object'}`;
+    }
+    return removeLight ? `removed ${scene?.goneNames.get(`light ${removeLight.light}`) || 'a light'}` : '';
 }
 
 /**

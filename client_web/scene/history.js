@@ -17,7 +17,8 @@ import {deedOf} from './placement.js';
 
 const MAX_STEPS = 200;
 /** @typedef {{moveObject?: {object: number}, setLight?: {light: number}, setMaterial?: {material: number},
- *     setDaylight?: object}} Subject */
+ *     setDaylight?: object, addObject?: {object?: number}, removeObject?: {object: number},
+ *     addLuminaire?: {light?: number}, removeLight?: {light: number}}} Subject */
 
 /**
  * What a change is of.
@@ -25,9 +26,15 @@ const MAX_STEPS = 200;
  * @param {Subject} change
  * @returns {string} e.g. "object 2"
  */
-export function subjectOf({moveObject, setLight, setMaterial, setDaylight}) {
+export function subjectOf({moveObject, setLight, setMaterial, setDaylight, addObject, removeObject, addLuminaire, removeLight}) {
     if (setDaylight) {
         return 'daylight';
+    }
+    if (addObject || removeObject) {
+        return `presence of object ${(addObject ?? removeObject)?.object}`;
+    }
+    if (addLuminaire || removeLight) {
+        return `presence of light ${(addLuminaire ?? removeLight)?.light}`;
     }
     return moveObject
         ? `object ${moveObject.object}`

@@ -54,9 +54,9 @@ export class LightCard {
      * @param {LoadedLight} loaded
      * @param {SurfaceChange} change
      * @param {() => boolean} mayEdit
-     * @param {() => void} aimByClick  the next click in the picture says where it is aimed at
+     * @param {import('./light_details.js').Deeds} deeds
      */
-    constructor(light, loaded, change, mayEdit, aimByClick) {
+    constructor(light, loaded, change, mayEdit, deeds) {
         this.light = light;
         this.loaded = loaded;
         this.change = change;
@@ -82,7 +82,7 @@ export class LightCard {
         this.reset.textContent = 'Reset';
         const {dimmer, value, kelvin} = this;
         this.fields = {dimmer: new LiveField(dimmer), value: new LiveField(value), kelvin: new LiveField(kelvin)};
-        this.details = hasDetails(light) ? new LightDetails(light, name, change, aimByClick) : null;
+        this.details = hasDetails(light) ? new LightDetails(light, name, change, deeds) : null;
         this.#listen();
         this.element = this.#layOut(name);
     }

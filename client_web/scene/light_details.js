@@ -9,6 +9,10 @@ import {aimOf, anglesOf} from './light_place.js';
  * @typedef {import('../net/protocol.js').SetLight} SetLight
  * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
  * @typedef {Omit<SetLight, 'light'>} Values
+ * @typedef {object} Deeds
+ * @property {() => void} aim  the next click in the picture says where it is aimed at
+ * @property {() => void} remove
+ * @property {string[]} files  photometric ones of the server
  */
 
 /** What a number field of a light is about: what it shows, and what a number typed there sets. Degrees and metres. */
@@ -68,6 +72,13 @@ const NUMBERS = [
  */
 export const hasDetails = (light) => light.group !== undefined || NUMBERS.some(({has}) => has(light));
 
+/**
+ * Whether it can be taken away: lamps that are no surfaces, and have a place.
+ *
+ * @param {Light} light
+ */
+export const isLuminaire = ({kind}) => kind === 'POINT' || kind === 'SPOT';
+
 /** The part of a light's card that unfolds. `show()` brings it up to date. */
 export class LightDetails {
     /** @type {(() => void)[]} */
@@ -77,9 +88,9 @@ export class LightDetails {
      * @param {Light} light  changes as the server says
      * @param {string} name
      * @param {SurfaceChange} change
-     * @param {() => void} aimByClick  the next click in the picture says where to
+     * @param {Deeds} deeds
      */
-    constructor(light, name, change, aimByClick) {
+    constructor(light, name, change, deeds) {
         this.light = light;
         this.name = name;
         this.change = change;
@@ -88,7 +99,7 @@ export class LightDetails {
         this.note.setAttribute('role', 'status');
         this.note.hidden = true;
         const title = document.createElement('summary');
-        title.textContent = light.aim || light.position ? 'Place, aim, group' : 'Group';
+        title.textContent = light.aim || light.position ? 'Place, aim, group, file' : 'Group';
         this.element = document.createElement('details');
         this.element.className = 'light-details';
         this.element.append(title);
@@ -98,9 +109,15 @@ export class LightDetails {
         for (const number of NUMBERS.filter(({has}) => has(light))) {
             this.element.append(this.#numberField(number));
         }
+        if (light.photometry !== undefined && light.unit !== 'LX' && deeds.files.length > 0) {
+            this.element.append(this.#fileField(deeds.files), this.#sameType());
+        }
         this.element.append(this.note);
         if (light.aim && light.position) {
-            this.element.append(this.#aimButton(aimByClick));
+            this.element.append(this.#button('Aim at a point in the picture', deeds.aim));
+        }
+        if (isLuminaire(light)) {
+            this.element.append(this.#button(`Remove ${name}`, deeds.remove));
         }
         if (light.carrier !== undefined) {
             const carried = document.createElement('p');
@@ -110,13 +127,55 @@ export class LightDetails {
         }
     }
 
-    /** @param {() => void} aimByClick */
-    #aimButton(aimByClick) {
+    /**
+     * @param {string} text
+     * @param {() => void} action
+     */
+    #button(text, action) {
         const button = document.createElement('button');
         button.type = 'button';
-        button.textContent = 'Aim at a point in the picture';
-        button.addEventListener('click', aimByClick);
+        button.textContent = text;
+        button.addEventListener('click', action);
         return button;
+    }
+
+    /**
+     * What file it shines by.
+     *
+     * @param {string[]} files  of the server
+     */
+    #fileField(files) {
+        const select = document.createElement('select');
+        select.setAttribute('aria-label', `${this.name}, photometric file`);
+        const own = this.light.photometry || '';
+        const names = files.includes(own) ? files : [own, ...files];
+        for (const name of names) {
+            const option = document.createElement('option');
+            option.value = name;
+            option.textContent = name || 'as in the scene';
+            select.append(option);
+        }
+        this.#refresh.push(() => {
+            select.value = this.light.photometry || '';
+        });
+        select.addEventListener('change', () => {
+            const all = this.allOfType?.checked ? {sameType: true} : {};
+            const refused = (/** @type {string} */ why) => {
+                this.show();
+                fieldNote(this.note, why);
+            };
+            this.change.done({photometry: select.value, ...all}, refused);
+        });
+        return field('File', select);
+    }
+
+    /** Whether a file is chosen for all luminaires that shine by this one's. */
+    #sameType() {
+        const label = document.createElement('label');
+        label.className = 'check';
+        this.allOfType = input('checkbox', {'aria-label': `${this.name}, all of its type`});
+        label.append(this.allOfType, ' for all of this type');
+        return label;
     }
 
     #groupField() {

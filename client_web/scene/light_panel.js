@@ -28,11 +28,14 @@ export class LightPanel {
     /**
      * @param {RaybundleApp} app
      * @param {History} history
+     * @param {{things: import('./things.js').Things, luminaires: import('./luminaires.js').Luminaires}} presence
      * @param {() => void} open  shows this panel
      */
-    constructor(app, history, open) {
+    constructor(app, history, presence, open) {
         this.app = app;
         this.history = history;
+        this.presence = presence;
+        presence.luminaires.addEventListener('files', () => this.#showScene());
         this.aiming = new LightAiming(app);
         byId('picked-material', HTMLButtonElement).addEventListener('click', () => {
             open();
@@ -45,8 +48,8 @@ export class LightPanel {
         // Of what has been clicked; not of what is chosen from a list.
         app.on('selection', () => this.pick(null));
         app.on('welcome', () => this.#showScene());
-        app.on('sceneChanged', ({setDaylight}) => {
-            if (setDaylight) {
+        app.on('sceneChanged', ({setDaylight, addObject, addLuminaire, removeLight}) => {
+            if (setDaylight || addObject || addLuminaire || removeLight) {
                 this.#showScene();  // with other lights
             } else {
                 this.#refresh.forEach((show) => show());
@@ -88,18 +91,24 @@ export class LightPanel {
      * @param {boolean} allowed
      */
     #allow(within, allowed) {
-        for (const control of within.querySelectorAll('.cards input, .light-details button')) {
-            /** @type {HTMLInputElement | HTMLButtonElement} */ (control).disabled = !allowed;
+        for (const control of within.querySelectorAll('.cards input, .cards select, .light-details button')) {
+            /** @type {HTMLInputElement | HTMLButtonElement | HTMLSelectElement} */ (control).disabled = !allowed;
         }
     }
 
     /** @param {Light} light */
     #lightCard(light) {
         const change = this.#change('setLight', [{light: light.id}], lightName(light), () => {
-            return {...light};
+            return {...light, sameType: true};
         });
         const loaded = this.#loaded.get(light.id) ?? loadedLight(light);
-        const card = new LightCard(light, loaded, change, () => this.app.mayEdit, () => this.aiming.begin(light, change));
+        const {things, luminaires} = this.presence;
+        const details = {
+            aim: () => this.aiming.begin(light, change),
+            remove: () => things.removeLight(light),
+            files: luminaires.files.filter(({flux}) => flux).map(({name}) => name),
+        };
+        const card = new LightCard(light, loaded, change, () => this.app.mayEdit, details);
         this.#refresh.push(() => card.show());
         return card.element;
     }

@@ -75,6 +75,11 @@ export class ObjectList {
             }
             this.#show();
         });
+        app.on('sceneChanged', ({addObject, removeObject}) => {
+            if (addObject || removeObject) {
+                this.#show();
+            }
+        });
         app.on('selection', () => this.#markSelected());
     }
 

@@ -225,26 +225,6 @@ export class PlacedObject {
     }
 }
 
-/** Holds what has been laid on an object, which carries it along. */
-export class Anchor {
-    /** @param {PlacedObject | null | undefined} object  null: what stays where it is */
-    constructor(object) {
-        this.object = object?.id ?? 0;
-        this.since = object?.transform ?? null;
-    }
-
-    /**
-     * How points that were laid then have moved.
-     *
-     * @param {SceneModel | null} scene  now
-     * @returns {(point: Vec3) => Vec3}
-     */
-    carry(scene) {
-        const object = scene?.object(this.object);
-        return object && this.since ? object.carriedSince(this.since) : (point) => point;
-    }
-}
-
 /** The scene of one connection. */
 export class SceneModel {
     /**
@@ -265,6 +245,8 @@ export class SceneModel {
         this.lightingScenes = scene.lightingScenes ?? [];
         this.animations = (scene.animations ?? []).map((one) => ({...one, state: {...one.state}}));
         this.objects = (scene.objects ?? []).map((object) => new PlacedObject(object));
+        /** What is gone is spoken of, too. @type {Map<string, string>} */
+        this.goneNames = new Map();
     }
 
     /**
@@ -349,6 +331,7 @@ export class SceneModel {
         this.#applyLight(change.setLight);
         this.#applyDaylight(change.setDaylight);
         this.#applyMaterial(change.setMaterial);
+        this.#applyAdded(change);
         const move = change.moveObject;
         const object = move ? this.object(move.object) : null;
         if (!move || !object) {
@@ -366,6 +349,36 @@ export class SceneModel {
         if (light && change) {
             const {light: _, ...told} = change;
             Object.assign(light, Object.fromEntries(Object.entries(told).filter(([, value]) => value !== undefined)));
+        }
+    }
+
+    /**
+     * What is there now, or is not any more.
+     *
+     * @param {SceneChanged} change
+     */
+    #applyAdded({objects = [], lights = [], materials = [], removeObject, removeLight}) {
+        const known = new Set(this.materials.map(({id}) => id));
+        this.materials.push(...materials.filter(({id}) => !known.has(id)).map((one) => ({...one})));
+        for (const object of objects) {
+            this.objects = [...this.objects.filter(({id}) => id !== object.id), new PlacedObject(object)];
+        }
+        for (const light of lights) {
+            const old = this.lights.find(({id}) => id === light.id);
+            if (old) {
+                Object.assign(old, light);
+            } else {
+                this.lights.push({...light});
+            }
+        }
+        if (removeObject) {
+            this.goneNames.set(`object ${removeObject.object}`, this.object(removeObject.object)?.name ?? '');
+            this.objects = this.objects.filter(({id}) => id !== removeObject.object);
+        }
+        if (removeLight) {
+            const light = this.lights.find(({id}) => id === removeLight.light);
+            this.goneNames.set(`light ${removeLight.light}`, light?.name ?? '');
+            this.lights = this.lights.filter(({id}) => id !== removeLight.light);
         }
     }
 

@@ -126,17 +126,20 @@ std::optional<std::string> SceneLibrary::find(const std::string& name) const {
                : std::nullopt;
 }
 
-std::unique_ptr<NewSceneFile> SceneLibrary::create() const {
-    std::string path = folder_ / (std::string(upload_prefix) + "XXXXXX");
-    path += upload_suffix;
-    const int descriptor =
-        mkostemps(path.data(), static_cast<int>(upload_suffix.size()), O_CLOEXEC);
+std::unique_ptr<NewSceneFile> new_file(const fs::path& folder, std::string_view suffix) {
+    std::string path = folder / (std::string(upload_prefix) + "XXXXXX");
+    path += suffix;
+    const int descriptor = mkostemps(path.data(), static_cast<int>(suffix.size()), O_CLOEXEC);
     if (descriptor < 0) {
-        spdlog::error("an upload cannot be stored in {}: {}", folder_.string(),
+        spdlog::error("an upload cannot be stored in {}: {}", folder.string(),
                       std::generic_category().message(errno));
         return nullptr;
     }
     return std::make_unique<NewSceneFile>(path, descriptor);
+}
+
+std::unique_ptr<NewSceneFile> SceneLibrary::create() const {
+    return new_file(folder_, upload_suffix);
 }
 
 std::string SceneLibrary::without_paths(std::string text) const {

@@ -33,6 +33,10 @@ class NewSceneFile {
     int descriptor_ = -1;
 };
 
+/// A new, empty file of a folder, hidden until it is kept; null where the folder cannot be written.
+std::unique_ptr<NewSceneFile> new_file(const std::filesystem::path& folder,
+                                       std::string_view suffix);
+
 /// The folder of --scenes: its .gltf and .glb files, by plain names. Nothing outside of it is ever
 /// opened: names have no folders, and symbolic links do not count as files.
 class SceneLibrary {

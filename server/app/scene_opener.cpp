@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/photometry_files.h"
 #include "scene/gltf/file/gltf_confinement.h"
 #include "scene/gltf/gltf_loader.h"
 
@@ -55,9 +56,14 @@ SceneOpener::SceneOpener(const Options& options, Server& server, const OpeningTi
       server_(server),
       times_(times),
       library_(options.serve.scenes),
+      folder_(std::make_shared<const SceneFolder>(options.serve.scenes)),
       opened_(std::move(opened)),
       shown_(options.scene.file) {
+    server_.set_photometry_source([folder = folder_] { return photometry_json(*folder); });
     server_.set_upload_factory([this](const std::string& name) -> std::unique_ptr<Upload> {
+        if (is_photometry_name(name)) {
+            return photometry_upload(folder_, name, [this](Job job) { return submit(job); });
+        }
         std::unique_ptr<NewSceneFile> file = library_.create();
         return file ? std::make_unique<SceneUpload>(*this, name, std::move(file)) : nullptr;
     });
@@ -66,6 +72,7 @@ SceneOpener::SceneOpener(const Options& options, Server& server, const OpeningTi
 
 SceneOpener::~SceneOpener() {
     server_.set_upload_factory({});
+    server_.set_photometry_source({});
 }
 
 bool SceneOpener::submit(Job job) {

@@ -15,6 +15,7 @@
 #include "app/opening_times.h"
 #include "app/scene_library.h"
 #include "net/server.h"
+#include "scene/scene_folder.h"
 
 namespace raybundle {
 
@@ -56,6 +57,8 @@ class SceneOpener {
     void set_shown(const std::string& file);
 
     [[nodiscard]] const SceneLibrary& library() const { return library_; }
+    /// What scenes that are served can be given from the folder.
+    [[nodiscard]] const std::shared_ptr<const SceneFolder>& folder() const { return folder_; }
 
   private:
     class SceneUpload;
@@ -72,6 +75,7 @@ class SceneOpener {
     Server& server_;
     const OpeningTimes& times_;
     const SceneLibrary library_;
+    const std::shared_ptr<const SceneFolder> folder_;
     std::function<void()> opened_;
     std::mutex mutex_;
     std::condition_variable_any changed_;

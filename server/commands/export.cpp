@@ -16,7 +16,7 @@ namespace {
 
 /// Of the picture whose error is estimated, and whose brightness scene.glb is exposed for: small,
 /// since what is written are patches.
-constexpr glm::uvec2 picture_size(160, 120);
+constexpr glm::uvec2 first_picture_size(160, 120);
 
 struct Solved {
     double seconds = 0.0;
@@ -26,9 +26,9 @@ struct Solved {
 Solved with_picture(Solver& solver, const LoadedScene& loaded, const Options& options) {
     const Camera camera = choose_camera(loaded.scene, options);
     const ViewPrograms programs(solver.scene());
-    FinalPicture picture(solver.scene(), solver.store(), programs, camera, picture_size);
+    FinalPicture picture(solver.scene(), solver.store(), programs, camera, first_picture_size);
     picture.check_by(
-        spot_check(loaded.scene, loaded.mesh, camera, picture_size, options.scene.seed));
+        spot_check(loaded.scene, loaded.mesh, camera, first_picture_size, options.scene.seed));
     const SolveOutcome outcome = solve_picture(solver, picture, options);
     Solved solved{.seconds = outcome.seconds};
     if (outcome.statistics.known) {
@@ -40,7 +40,7 @@ Solved with_picture(Solver& solver, const LoadedScene& loaded, const Options& op
 /// Factor from cd/m² to display white by which a picture from the camera is exposed.
 float display_factor(const Solver& solver, const Camera& camera) {
     const ViewPrograms programs(solver.scene(), PixelLight::patches);
-    ViewerImage image(solver.scene(), solver.store(), programs, picture_size);
+    ViewerImage image(solver.scene(), solver.store(), programs, first_picture_size);
     image.set_camera(camera);
     image.request_statistics();
     image.finish_statistics();

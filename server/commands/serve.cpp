@@ -96,9 +96,11 @@ class NetworkEnd {
 /// A scene that is being served.
 struct ServedScene {
     ServedScene(const JournalChoice& journals, LoadedScene loaded,
+                const std::shared_ptr<const SceneFolder>& folder,
                 const RenderLoopSettings& settings, Server& server)
         : log(open_change_log(journals, loaded)),
-          loop((log.restore(loaded.scene, loaded.mesh), std::move(loaded.scene)),
+          loop((loaded.scene.folder = folder, log.restore(loaded.scene, loaded.mesh),
+                std::move(loaded.scene)),
                std::move(loaded.mesh), settings, server, log),
           metrics(server, loop, log) {}
 
@@ -164,7 +166,7 @@ class SceneServer {
         std::fflush(stdout);
         control_.preparation.reach(v1::SceneOpening::COMPILING);
         compile_for_ever();
-        served_ = std::make_unique<ServedScene>(journals_, std::move(loaded), settings_, server_);
+        served_ = serve_scene(std::move(loaded));
         fmt::print("{}\n", where_saved(served_->log));
         std::fflush(stdout);
         watch(file);
@@ -233,6 +235,12 @@ class SceneServer {
             }
         }
         return {options_.scene.file, load(options_)};
+    }
+
+    std::unique_ptr<ServedScene> serve_scene(LoadedScene loaded) {
+        auto folder = control_.opener ? control_.opener->folder() : nullptr;
+        return std::make_unique<ServedScene>(journals_, std::move(loaded), folder, settings_,
+                                             server_);
     }
 
     /// Viewers that wait hear of it.
@@ -311,7 +319,7 @@ class SceneServer {
         options.scene.file = shown_file_;
         LoadedScene loaded = load(options);
         control_.preparation.reach(v1::SceneOpening::COMPILING);
-        served_ = std::make_unique<ServedScene>(journals_, std::move(loaded), settings_, server_);
+        served_ = serve_scene(std::move(loaded));
     }
 
     /// Builds the next scene beside the present one, which stays where that fails. The reason in
@@ -323,7 +331,7 @@ class SceneServer {
         control_.preparation.reach(v1::SceneOpening::COMPILING);
         std::unique_ptr<ServedScene> fresh;
         try {
-            fresh = std::make_unique<ServedScene>(journals_, std::move(next), settings_, server_);
+            fresh = serve_scene(std::move(next));
         } catch (const std::exception& error) {
             spdlog::error("the scene stays as it was: {}", error.what());
             served_->log.resume();

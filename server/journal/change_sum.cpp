@@ -14,6 +14,14 @@ ChangeSubject subject_of(const v1::SceneChanged& change) {
             return {kind, change.set_material().material()};
         case v1::SceneChanged::kSetDaylight:
             return {kind, 0};
+        case v1::SceneChanged::kAddObject:
+            return {kind, change.add_object().object()};
+        case v1::SceneChanged::kRemoveObject:
+            return {v1::SceneChanged::kAddObject, change.remove_object().object()};
+        case v1::SceneChanged::kAddLuminaire:
+            return {kind, change.add_luminaire().light()};
+        case v1::SceneChanged::kRemoveLight:
+            return {v1::SceneChanged::kAddLuminaire, change.remove_light().light()};
         case v1::SceneChanged::CHANGE_NOT_SET:
             break;
     }
@@ -32,6 +40,10 @@ void clear_replaced(const v1::SetLight& newer, v1::SetLight* sum) {
     if (newer.has_colour() || newer.has_colour_temperature()) {
         sum->clear_colour();
         sum->clear_colour_temperature();
+    }
+    if (newer.has_photometry()) {  // comes with its own flux
+        sum->clear_intensity();
+        sum->clear_flux();
     }
     if (newer.has_position()) {
         sum->clear_position();
@@ -60,7 +72,7 @@ void clear_replaced(const v1::SetDaylight& newer, v1::SetDaylight* sum) {
 }  // namespace
 
 void add_change(const v1::SceneChanged& change, v1::SceneChanged& sum) {
-    if (change.has_move_object()) {
+    if (change.has_move_object() || change.has_add_object() || change.has_add_luminaire()) {
         sum = change;
         return;
     }

@@ -48,6 +48,16 @@ bool NetworkState::editable() const {
     return !editable_source_ || editable_source_();
 }
 
+void NetworkState::set_photometry_source(std::function<std::string()> source) {
+    const std::lock_guard lock(upload_mutex_);
+    photometry_source_ = std::move(source);
+}
+
+std::optional<std::string> NetworkState::photometry() const {
+    const std::lock_guard lock(upload_mutex_);
+    return photometry_source_ ? std::optional(photometry_source_()) : std::nullopt;
+}
+
 void NetworkState::set_upload_factory(UploadFactory factory) {
     const std::lock_guard lock(upload_mutex_);
     upload_factory_ = std::move(factory);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "net/access/gate.h"
@@ -46,6 +47,9 @@ struct NetworkState {
     void set_editable_source(std::function<bool()> source);
     /// Whether changes can be saved; true where nobody says.
     [[nodiscard]] bool editable() const;
+    void set_photometry_source(std::function<std::string()> source);
+    /// JSON of the photometric files; nothing where there are none.
+    [[nodiscard]] std::optional<std::string> photometry() const;
     void set_upload_factory(UploadFactory factory);
     /// Null where there is no factory or it cannot begin.
     [[nodiscard]] std::unique_ptr<Upload> begin_upload(const std::string& name) const;
@@ -58,6 +62,7 @@ struct NetworkState {
     std::function<std::string()> metrics_source_;
     std::function<bool()> editable_source_;
     mutable std::mutex upload_mutex_;
+    std::function<std::string()> photometry_source_;
     UploadFactory upload_factory_;
 };
 

@@ -109,6 +109,9 @@ class Server {
     /// with max_upload_bytes 0, there are no uploads.
     void set_upload_factory(UploadFactory factory);
 
+    /// Called on the network thread for each GET /photometry; returns its JSON.
+    void set_photometry_source(std::function<std::string()> source);
+
     /// Keeps a file for a quarter of an hour; the path under which the server has it, which nobody
     /// can guess. Nothing where it is larger than all that may be kept.
     std::optional<std::string> keep_snapshot(std::string bytes, std::string_view extension);

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <numeric>
 
 #include "scene/light/environment.h"
 #include "scene/light/light_place.h"
+#include "scene/luminaire_edit.h"
 #include "scene/object_limits.h"
 
 namespace raybundle {
@@ -76,6 +78,9 @@ std::string place_problem(const LightEdit& edit, const std::string& subject) {
     if (edit.position || edit.aim || edit.rotation) {
         return subject + " has the place, which cannot be changed here";
     }
+    if (edit.photometry) {
+        return subject + " shines by no photometric file";
+    }
     return edit.inner_cone || edit.outer_cone ? "only spots have cones" : "";
 }
 
@@ -83,6 +88,12 @@ std::string problem_of(const Scene& scene, const PunctualLight& light, const Lig
     if ((edit.inner_cone || edit.outer_cone) &&
         (light.kind != PunctualKind::spot || light.profile)) {
         return "only spots have cones";
+    }
+    if (edit.photometry) {
+        if (const std::string problem = exchange_problem(scene, light, *edit.photometry);
+            !problem.empty()) {
+            return problem;
+        }
     }
     if (!edit.position && !edit.aim && !edit.rotation) {
         return "";
@@ -105,7 +116,10 @@ std::string problem_of(const Scene& scene, const PunctualLight& light, const Lig
                : fmt::format("its position may be {:.0f} m away from zero at most", limit);
 }
 
-void apply(PunctualLight& light, const LightEdit& edit) {
+void apply(const Scene& scene, PunctualLight& light, const LightEdit& edit) {
+    if (edit.photometry) {
+        exchange_photometry(scene, light, *edit.photometry);
+    }
     apply_place(light, edit);
     apply_cones(light, edit);
     apply_control(light.control, edit);
@@ -119,8 +133,8 @@ void apply(PunctualLight& light, const LightEdit& edit) {
         setting.intensity = intensity * setting.colour;
     }
     setting.on = edit.on.value_or(setting.on);
-    light.intensity = setting.on ? light.control.dim * setting.intensity : glm::vec3(0.0F);
     light.setting = setting;
+    refresh_intensity(light);
 }
 
 void apply(SkyLight& light, const LightEdit& edit) {
@@ -135,18 +149,60 @@ void apply(SkyLight& light, const LightEdit& edit) {
 
 }  // namespace
 
-std::size_t light_count(const Scene& scene) {
-    return scene.lights.size() + scene.punctual_lights.size() + (scene.sky_light ? 1 : 0);
+void refresh_intensity(PunctualLight& light) {
+    const PunctualSetting setting = setting_of(light);
+    light.setting = setting;
+    light.intensity =
+        setting.on && !light.removed ? light.control.dim * setting.intensity : glm::vec3(0.0F);
+}
+
+namespace {
+
+/// How many lights have numbers from 1 on: all but those that have been added.
+std::size_t numbered_lights(const Scene& scene) {
+    const auto of_file = std::count_if(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                                       [](const PunctualLight& light) { return !light.added; });
+    return scene.lights.size() + static_cast<std::size_t>(of_file) + (scene.sky_light ? 1 : 0);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> light_numbers(const Scene& scene) {
+    std::vector<std::uint32_t> numbers(scene.lights.size());
+    std::iota(numbers.begin(), numbers.end(), 1U);
+    std::vector<std::uint32_t> added;
+    auto next = static_cast<std::uint32_t>(numbers.size()) + 1;
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const std::uint32_t number = light.added ? light.added->number : next++;
+        if (!light.removed) {
+            (light.added ? added : numbers).push_back(number);
+        }
+    }
+    if (scene.sky_light) {
+        numbers.push_back(next);
+    }
+    numbers.insert(numbers.end(), added.begin(), added.end());
+    return numbers;
+}
+
+bool has_light(const Scene& scene, std::uint32_t light) {
+    return light >= 1 && (light <= numbered_lights(scene) || punctual_index(scene, light));
 }
 
 bool is_sky_light(const Scene& scene, std::uint32_t light) {
-    return scene.sky_light && light == light_count(scene);
+    return scene.sky_light && light == numbered_lights(scene);
 }
 
 std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light) {
-    const std::size_t first = scene.lights.size() + 1;
-    const bool known = light >= first && light - first < scene.punctual_lights.size();
-    return known ? std::optional(light - first) : std::nullopt;
+    std::size_t number = scene.lights.size();
+    for (std::size_t i = 0; i < scene.punctual_lights.size(); ++i) {
+        const PunctualLight& punctual = scene.punctual_lights[i];
+        number += punctual.added ? 0 : 1;
+        if (light == (punctual.added ? punctual.added->number : number)) {
+            return i;
+        }
+    }
+    return std::nullopt;
 }
 
 std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
@@ -157,7 +213,7 @@ std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
 
 std::string problem_of(const Scene& scene, const LightEdit& edit) {
     const std::string number = std::to_string(edit.light);
-    if (edit.light < 1 || edit.light > light_count(scene)) {
+    if (!has_light(scene, edit.light)) {
         return "no light " + number;
     }
     if (is_sky_light(scene, edit.light)) {
@@ -194,7 +250,7 @@ double flux_per_intensity(const Scene& scene, std::uint32_t light) {
 
 std::uint32_t apply(Scene& scene, const LightEdit& edit) {
     if (const auto punctual = punctual_index(scene, edit.light)) {
-        apply(scene.punctual_lights[*punctual], edit);
+        apply(scene, scene.punctual_lights[*punctual], edit);
         if (scene.punctual_lights[*punctual].of_sky) {
             refresh_sky(scene);
         }

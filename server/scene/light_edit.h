@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -29,6 +30,8 @@ struct LightEdit {
     std::optional<float> rotation;  ///< about the aim, as in LightPlace, degrees
     /// Of spots: half of the angles of the cones, degrees; the inner one is no wider.
     std::optional<float> inner_cone, outer_cone;
+    /// Of points and spots: a file of Scene::folder, with the flux that it has; empty: as loaded.
+    std::optional<std::string> photometry;
 };
 
 /// Why an edit cannot be made, e.g. "no light 7"; empty where it can. Numbers are taken to be in
@@ -38,8 +41,12 @@ std::string problem_of(const Scene& scene, const LightEdit& edit);
 /// Index of a punctual light by its number; nothing for other numbers.
 std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light);
 
-/// How many lights have numbers, from 1 on.
-std::size_t light_count(const Scene& scene);
+/// Numbers of all lights that have not been removed. Those of the scene's file and its sky have
+/// numbers from 1 on, others from first_added_light on.
+std::vector<std::uint32_t> light_numbers(const Scene& scene);
+constexpr std::uint32_t first_added_light = 1'000'001;
+/// Whether some light has this number, or had it before it was removed.
+bool has_light(const Scene& scene, std::uint32_t light);
 /// Whether a number is the sky's.
 bool is_sky_light(const Scene& scene, std::uint32_t light);
 
@@ -60,5 +67,8 @@ double flux_per_intensity(const Scene& scene, std::uint32_t light);
 /// Makes an edit without problem. Returns the index of the material that has changed, or
 /// no_material.
 std::uint32_t apply(Scene& scene, const LightEdit& edit);
+
+/// A light's intensity as it shines, from how it is set, dimmed, switched and whether it is there.
+void refresh_intensity(PunctualLight& light);
 
 }  // namespace raybundle

@@ -28,6 +28,25 @@ glm::mat4 Transform::matrix() const {
     return glm::scale(moved * glm::mat4_cast(rotation), scale);
 }
 
+glm::mat4 Object::world_from_object() const {
+    if (!removed) {
+        return placement();
+    }
+    glm::mat4 point(0.0F);
+    point[3] = placement() * glm::vec4(bounds.empty() ? glm::vec3(0.0F) : bounds.centre(), 1.0F);
+    return point;
+}
+
+PlacedLight place_light(const Scene& scene, const PunctualLight& light) {
+    if (light.object == PunctualLight::no_object) {
+        return place_light(light, glm::mat4(1.0F));
+    }
+    const Object& carrier = scene.objects[static_cast<std::size_t>(light.object)];
+    PlacedLight placed = place_light(light, carrier.placement());
+    placed.intensity *= carrier.removed ? 0.0 : 1.0;
+    return placed;
+}
+
 bool has_emitter(const Scene& scene) {
     const auto emits = [](const Light& light) { return light.radiance != glm::vec3(0.0F); };
     const auto shines = [](const PunctualLight& light) {

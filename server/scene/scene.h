@@ -16,6 +16,8 @@
 namespace raybundle {
 
 class Environment;
+class SceneFolder;
+struct AddedObject;
 struct SceneAnimations;
 
 /// Axis-aligned box; empty while min > max.
@@ -129,14 +131,17 @@ struct Object {
     std::string name;
     bool movable = false;
     ObjectKind kind = ObjectKind::thing;
-    std::vector<std::string> path;      ///< names of the nodes above, the outermost first
-    Transform transform;                ///< local, relative to world_from_parent
-    glm::mat4 world_from_parent{1.0F};  ///< fixed: product of the ancestors' matrices
-    Bounds bounds;                      ///< object space, of its triangles
+    std::vector<std::string> path;             ///< names of the nodes above, the outermost first
+    Transform transform;                       ///< local, relative to world_from_parent
+    glm::mat4 world_from_parent{1.0F};         ///< fixed: product of the ancestors' matrices
+    Bounds bounds;                             ///< object space, of its triangles
+    std::shared_ptr<const AddedObject> added;  ///< null: it is of the scene's file
+    bool removed = false;                      ///< it has its number, but takes part in nothing
 
-    [[nodiscard]] glm::mat4 world_from_object() const {
-        return world_from_parent * transform.matrix();
-    }
+    /// Where it is, or would be if it had not been removed.
+    [[nodiscard]] glm::mat4 placement() const { return world_from_parent * transform.matrix(); }
+    /// Of what has been removed all is in one point.
+    [[nodiscard]] glm::mat4 world_from_object() const;
 };
 
 /// Perspective camera. Lengths in metres, world space.
@@ -243,8 +248,9 @@ struct Scene {
     DaylightSetting daylight;
     std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
     std::shared_ptr<const SceneAnimations> animations;  ///< none where nothing is animated
-    Bounds bounds;                                      ///< world space
-    glm::dvec3 origin{0.0};                             ///< m, where the file has this scene's zero
+    std::shared_ptr<const SceneFolder> folder;  ///< what can be added to it; null: nothing
+    Bounds bounds;                              ///< world space
+    glm::dvec3 origin{0.0};                     ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };
@@ -257,13 +263,8 @@ inline bool two_sided(const Scene& scene, const Triangle& triangle) {
 /// Whether anything but a sky emits light.
 bool has_emitter(const Scene& scene);
 
-/// The light in the world, its object at its initial place.
-inline PlacedLight place_light(const Scene& scene, const PunctualLight& light) {
-    return place_light(
-        light, light.object == PunctualLight::no_object
-                   ? glm::mat4(1.0F)
-                   : scene.objects[static_cast<std::size_t>(light.object)].world_from_object());
-}
+/// The light in the world, its object where it is. What a removed object carries is dark.
+PlacedLight place_light(const Scene& scene, const PunctualLight& light);
 
 /// Rec. 709 luminance of a linear RGB colour.
 inline float luminance(const glm::vec3& rgb) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <mutex>
 
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
@@ -41,6 +42,9 @@ class LiveScene {
         return solver_->iterations() - iterations_at_change_;
     }
 
+    /// Held by threads that read the scene's triangles, and while objects are added to it.
+    [[nodiscard]] std::mutex& geometry_mutex() { return geometry_mutex_; }
+
     // For those who write it.
     [[nodiscard]] Scene& scene() { return scene_; }
     [[nodiscard]] PatchMesh& mesh() { return mesh_; }
@@ -51,6 +55,7 @@ class LiveScene {
     void replace(std::unique_ptr<Solver> solver, std::unique_ptr<ViewPrograms> programs);
 
   private:
+    std::mutex geometry_mutex_;
     Scene scene_;
     PatchMesh mesh_;
     SolverSettings settings_;

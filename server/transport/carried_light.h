@@ -21,12 +21,13 @@ class CarriedLight {
     /// that goes along, times how far it goes in quarters of the scene's diameter. 0 where a sky or
     /// punctual lights, whose share is not known here, light the scene too.
     /// moved_bounds: two of every moved object, at its two places, m; diameter: of the scene, m.
+    /// What is removed or comes back goes as far as it can.
     [[nodiscard]] float moved_share(std::span<const ObjectMove> moves,
-                                    std::span<const Bounds> moved_bounds, float diameter) const;
+                                    std::span<const Bounds> moved_bounds, float diameter);
 
   private:
-    std::vector<double> flux_;  // by object, in one unknown unit
-    double total_ = 0.0;
+    std::vector<double> flux_;  // by object, in one unknown unit; of removed ones, too
+    std::vector<bool> there_;   // by object: it is not removed
     bool other_light_ = false;
 };
 

@@ -11,6 +11,8 @@ namespace raybundle {
 
 /// Area of a side where its object stands in the scene, m².
 double world_area(const Scene& scene, const PatchMesh& mesh, std::size_t side);
+/// The same where a matrix would place its object.
+double area_at(const glm::mat4& world_from_object, const PatchMesh& mesh, std::size_t side);
 /// Area of all sides of a patch there, m².
 double patch_area(const Scene& scene, const PatchMesh& mesh, std::uint32_t patch);
 

@@ -34,7 +34,8 @@ double flux_over_pi(const PunctualLight& light, int channel, const Bounds& bound
 /// Whether a light has been placed or turned otherwise, or shapes its beam otherwise.
 bool shines_elsewhere(const PunctualLight& before, const PunctualLight& after) {
     return before.position != after.position || before.axes != after.axes ||
-           before.inner_cosine != after.inner_cosine || before.outer_cosine != after.outer_cosine;
+           before.inner_cosine != after.inner_cosine || before.outer_cosine != after.outer_cosine ||
+           before.profile != after.profile;
 }
 
 /// Of what sum flux |ratio - g| is least at; 1 where that is as good.

@@ -98,6 +98,10 @@ class Solver {
     /// phase for what these reflect otherwise. Requires !other.correcting().
     void take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
                    std::span<BundleReceiver* const> receivers);
+    /// Goes on where another solver is whose scene has had objects added since, all of them removed
+    /// still, and mesh the same patches besides: light is as it was. scene, mesh: that this solver
+    /// was made of. Requires !other.correcting().
+    void continue_from(const Solver& other, const Scene& scene, const PatchMesh& mesh);
     [[nodiscard]] bool correcting() const { return phase_.has_value(); }
     /// How further changes are worked in.
     void set_special(const SpecialSettings& special) { settings_.special = special; }

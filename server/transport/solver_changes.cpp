@@ -229,6 +229,26 @@ void Solver::change_surfaces(const Scene& scene, PatchMesh& mesh,
     work_in(change, receivers);
 }
 
+void Solver::continue_from(const Solver& other, const Scene& scene, const PatchMesh& mesh) {
+    iterations_ = other.iterations_;
+    iterate_age_ = other.iterate_age_;
+    changes_ = std::max<std::uint64_t>(other.changes_, 1);
+    statistics_ = other.statistics_;
+    other.store_.bind();
+    other.store_.serve();
+    if (const float unit = other.scene_.radiance_unit(); unit != scene_.radiance_unit()) {
+        scene_.set_radiance_unit(unit, scene, mesh);
+        store_.renew_first_shot({});
+        restart_caustics();
+    }
+    store_.bind();
+    store_.adopt(other.store_);
+    zones_.set_iterate_age(iterate_age());
+    store_.refresh_power();
+    group_.clear();
+    group_next_ = 0;
+}
+
 void Solver::take_over(const Solver& other, std::span<const std::uint32_t> reflecting,
                        std::span<BundleReceiver* const> receivers) {
     iterations_ = other.iterations_;

@@ -70,18 +70,17 @@ describe('a note', () => {
     });
 });
 
-describe('keys that cannot do what they do elsewhere', () => {
-    it('say so', async () => {
-        const {page} = await openPage();
+describe('keys that remove and duplicate', () => {
+    it('say why where they cannot', async () => {
+        const {page} = await openPage({extra: {role: 'VIEWER'}});
         await page.focus('#picture');
         await page.keyboard.press('Control+KeyD');
         await noticed(page, 'Nothing is selected.');
         await page.click('#objects li:first-child button');
         await page.focus('#picture');
         await page.keyboard.press('Delete');
-        await noticed(page, 'table stays: objects cannot be deleted here.');
-        await page.keyboard.press('Control+KeyD');
-        await noticed(page, 'objects cannot be copied here.');
+        await noticed(page, 'View only. Ask for editor access to change the scene.');
+        assert.ok(await page.isHidden('#remove-object'));
     });
 });
 

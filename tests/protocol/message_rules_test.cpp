@@ -116,6 +116,40 @@ TEST(MessageValidation, SceneChanges) {
     }
 }
 
+TEST(MessageValidation, Additions) {
+    const auto luminaire = [](const std::string& rest) {
+        return R"({"addLuminaire":{"photometry":"panel.ldt","position":{"y":2.7})" + rest + "}}";
+    };
+    expect_case(luminaire(""), nullptr);
+    expect_case(luminaire(R"(,"aim":{"y":-1},"rotation":90,"group":"desks","name":"a")"), nullptr);
+    expect_case(luminaire(R"(,"columns":4,"columnStep":{"x":2})"), nullptr);
+    expect_case(luminaire(R"(,"columns":4)"), "addLuminaire.columnStep");
+    expect_case(luminaire(R"(,"rows":2)"), "addLuminaire.rowStep");
+    expect_case(luminaire(R"(,"columns":100,"rows":100)"), "addLuminaire.columns");
+    expect_case(luminaire(R"(,"aim":{})"), "addLuminaire.aim");
+    expect_case(luminaire(R"(,"light":7)"), "addLuminaire.light");
+    expect_case(R"({"addLuminaire":{"light":7}})", nullptr);
+    expect_case(R"({"addLuminaire":{"photometry":"a.ies"}})", "addLuminaire.position");
+    expect_case(R"({"addLuminaire":{"photometry":"a.txt","position":{}}})",
+                "addLuminaire.photometry");
+    expect_case(R"({"addLuminaire":{"photometry":"../a.ies","position":{}}})",
+                "addLuminaire.photometry");
+    expect_case(R"({"setLight":{"light":1,"photometry":"a.ies"}})", nullptr);
+    expect_case(R"({"setLight":{"light":1,"photometry":""}})", nullptr);
+    expect_case(R"({"setLight":{"light":1,"photometry":"a/b.ies"}})", "setLight.photometry");
+    expect_case(R"({"removeLight":{}})", "removeLight.light");
+    expect_case(R"({"removeObject":{}})", "removeObject.object");
+    expect_case(R"({"addObject":{"copyOf":2}})", nullptr);
+    expect_case(R"({"addObject":{"object":2}})", nullptr);
+    expect_case(R"({"addObject":{"library":"chair.glb"}})", nullptr);
+    expect_case(R"({"addObject":{}})", "addObject");
+    expect_case(R"({"addObject":{"copyOf":2,"library":"chair.glb"}})", "addObject");
+    expect_case(R"({"addObject":{"library":"../chair.glb"}})", "addObject.library");
+    expect_case(R"({"addObject":{"copyOf":2,"transform":{"scale":{}}}})",
+                "addObject.transform.scale");
+    expect_case(R"({"addObject":{"copyOf":2,"removed":true}})", "addObject.removed");
+}
+
 TEST(MessageValidation, ChangesOfNothingAreRefused) {
     expect_case(R"({"setLight":{"light":1}})", "setLight");
     expect_case(R"({"setMaterial":{"material":1}})", "setMaterial");

@@ -149,6 +149,14 @@ HttpResponse get(std::string_view path, const HttpContent& content) {
         response.content_type = "text/plain; version=0.0.4; charset=utf-8";
         return response;
     }
+    if (path == "/photometry" && !content.known_caller) {
+        return plain(401, "Needs the header Authorization: Bearer TOKEN\n");
+    }
+    if (path == "/photometry" && content.photometry) {
+        HttpResponse response = plain(200, *content.photometry);
+        response.content_type = content_type(".json");
+        return response;
+    }
     if (path.starts_with(SnapshotStore::kFolder) && content.snapshots != nullptr) {
         return snapshot_response(path, *content.snapshots);
     }

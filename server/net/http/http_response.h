@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +44,8 @@ struct HttpContent {
     std::string if_none_match{};               ///< header of the request
     bool editable = true;                      ///< of /healthz/editable
     const ContentStore* contents = nullptr;    ///< of /light/...; null: there are none
+    bool known_caller = true;  ///< of /photometry: the request has shown a token, or needs none
+    std::optional<std::string> photometry{};  ///< of /photometry; none: there are no such files
 };
 
 /// Decides about a request. `path` is the decoded path without query. Only names in the table are

@@ -116,6 +116,11 @@ int HttpService::on_request(lws* connection) {
     if (path == "/metrics" && content.metrics_allowed) {
         content.metrics = state_.metrics();
     }
+    if (path == "/photometry") {
+        client = caller(connection, path);
+        content.known_caller = client.role.has_value();
+        content.photometry = content.known_caller ? state_.photometry() : std::nullopt;
+    }
     return answer_in(client.delay_ms, connection, http_response(method, path, content));
 }
 

@@ -6,8 +6,6 @@
 
 #include <string>
 
-#include "net/http/scene_name.h"
-
 namespace raybundle {
 
 std::optional<HttpResponse> HttpUploads::begin(lws* connection, const UploadRequest& request) {
@@ -16,7 +14,7 @@ std::optional<HttpResponse> HttpUploads::begin(lws* connection, const UploadRequ
     if (refusal) {
         return refusal;
     }
-    auto upload = state_.begin_upload(std::string(scene_of_path(request.path)));
+    auto upload = state_.begin_upload(std::string(uploaded_name(request.path)));
     if (!upload) {
         return text_response({507, "The server cannot store it"});
     }

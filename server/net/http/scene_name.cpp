@@ -2,12 +2,14 @@
 #include "net/http/scene_name.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace raybundle {
 namespace {
 
 constexpr std::size_t kMaxBytes = 128;
 constexpr std::string_view kFolder = "/scenes/";
+constexpr std::string_view kPhotometryFolder = "/photometry/";
 
 bool forbidden(char character) {
     constexpr std::string_view kForbidden = "/\\\"<>|:*?%\x7f";
@@ -50,16 +52,38 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
-}  // namespace
-
-std::string scene_name_problem(std::string_view name) {
+std::string file_name_problem(std::string_view name) {
     if (name.empty() || name.size() > kMaxBytes) {
         return "must be 1..128 bytes";
     }
     if (name.front() == '.' || std::any_of(name.begin(), name.end(), forbidden) || !is_utf8(name)) {
         return "must be a plain file name, without folders";
     }
+    return "";
+}
+
+}  // namespace
+
+std::string scene_name_problem(std::string_view name) {
+    if (const std::string problem = file_name_problem(name); !problem.empty()) {
+        return problem;
+    }
     return name.ends_with(".glb") || name.ends_with(".gltf") ? "" : "must end with .glb or .gltf";
+}
+
+std::string photometry_name_problem(std::string_view name) {
+    if (const std::string problem = file_name_problem(name); !problem.empty()) {
+        return problem;
+    }
+    std::string ending(name.substr(name.size() - std::min<std::size_t>(name.size(), 4)));
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".ies" || ending == ".ldt" ? "" : "must end with .ies or .ldt";
+}
+
+std::string_view photometry_of_path(std::string_view path) {
+    return path.starts_with(kPhotometryFolder) ? path.substr(kPhotometryFolder.size())
+                                               : std::string_view();
 }
 
 std::string_view scene_of_path(std::string_view path) {

@@ -14,7 +14,8 @@ struct UploadResult {
     std::string text;
 };
 
-/// A scene file on its way in. Nothing of it stays where it is dropped before it is finished.
+/// A scene or photometric file on its way in. Nothing of it stays where it is dropped before it is
+/// finished.
 class Upload {
   public:
     virtual ~Upload() = default;
@@ -27,7 +28,8 @@ class Upload {
     virtual void finish(std::function<void(UploadResult)> done) = 0;
 };
 
-/// Begins an upload under a valid scene name, or says with null that it cannot be stored.
+/// Begins an upload under a valid name of a scene or photometric file, or says with null that it
+/// cannot be stored.
 using UploadFactory = std::function<std::unique_ptr<Upload>(const std::string& name)>;
 
 }  // namespace raybundle

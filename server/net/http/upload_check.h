@@ -13,7 +13,8 @@
 
 namespace raybundle {
 
-/// What decides about PUT /scenes/NAME.glb, before a byte of the file has been read.
+/// What decides about PUT /scenes/NAME.glb and /photometry/NAME.ies or .ldt, before a byte of the
+/// file has been read.
 struct UploadRequest {
     std::string path;  ///< decoded
     std::string origin, host;
@@ -30,6 +31,9 @@ struct UploadLimits {
 /// The refusal, or nothing where the upload may begin.
 std::optional<HttpResponse> refuse_upload(const UploadRequest& request, const UploadLimits& limits,
                                           const OriginRules& origins);
+
+/// The name in such a path, which has been decoded; empty for any other path.
+std::string_view uploaded_name(std::string_view path);
 
 /// Length in bytes of a Content-Length header; nothing unless it is a plain decimal number.
 std::optional<std::uint64_t> parse_length(std::string_view header);

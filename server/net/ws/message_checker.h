@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,21 @@
 #include "net/ws/wire_codec.h"
 
 namespace raybundle {
+
+constexpr double kMinLength = 1e-6;   ///< of a direction, an axis, a distance
+constexpr float kMaxTurn = 360.0F;    ///< degrees
+constexpr std::size_t kMaxName = 64;  ///< characters
+
+inline glm::dvec3 to_vector(const v1::Vec3& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+/// Characters of a text.
+inline std::size_t characters(const std::string& utf8) {
+    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char byte) {
+        return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+    }));
+}
 
 /// Collects the first violation; later checks are skipped.
 class MessageChecker {

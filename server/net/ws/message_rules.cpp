@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "net/http/scene_name.h"
+#include "net/ws/addition_rules.h"
 #include "net/ws/measure_rules.h"
 #include "net/ws/message_checker.h"
 
@@ -22,17 +23,14 @@ using Client = v1::ClientMessage;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr double kMaxNumber = 1e9;   ///< metres, seconds, photometric units: keeps squares finite
-constexpr float kMaxNear = 1e9F;     // m, as the coordinates of a Vec3
-constexpr double kMinLength = 1e-6;  ///< of a direction, an axis, a distance
-constexpr float kMinFov = 0.001F;    ///< radians
-constexpr float kMaxFov = 3.14F;     ///< radians
+constexpr double kMaxNumber = 1e9;  ///< metres, seconds, photometric units: keeps squares finite
+constexpr float kMaxNear = 1e9F;    // m, as the coordinates of a Vec3
+constexpr float kMinFov = 0.001F;   ///< radians
+constexpr float kMaxFov = 3.14F;    ///< radians
 constexpr int kMaxGroupLights = 4096;
-constexpr float kMaxTurn = 360.0F;  ///< degrees
-constexpr float kMaxCone = 90.0F;   ///< degrees
+constexpr float kMaxCone = 90.0F;  ///< degrees
 constexpr float kMinKelvin = 1000.0F;
 constexpr float kMaxKelvin = 25000.0F;
-constexpr std::size_t kMaxName = 64;   ///< characters
 constexpr std::size_t kMaxText = 500;  ///< characters of a pin
 constexpr std::size_t kMaxToken = 1024;
 constexpr float kMaxExposure = 30.0F;  ///< EV
@@ -178,17 +176,7 @@ void check_body(const v1::SetDepths& depths, MessageChecker& check) {
 void check_body(const v1::MoveObject& move, MessageChecker& check) {
     check.require(move.object() >= 1, "moveObject.object", "is missing");
     check.require(move.has_transform(), "moveObject.transform", "is missing");
-    const auto& transform = move.transform();
-    if (transform.has_rotation()) {
-        const auto& q = transform.rotation();
-        const double length = glm::length(glm::dvec4(q.x(), q.y(), q.z(), q.w()));
-        check.require(length >= kMinLength, "moveObject.transform.rotation", "must not be zero");
-    }
-    if (transform.has_scale()) {
-        const glm::dvec3 scale = glm::abs(to_vector(transform.scale()));
-        check.require(std::min({scale.x, scale.y, scale.z}) >= kMinLength,
-                      "moveObject.transform.scale", "must not be zero");
-    }
+    check_transform(move.transform(), "moveObject.transform", check);
 }
 
 /// Where a light is, how it is turned and how its beam is shaped.
@@ -239,7 +227,27 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
     }
     check.require(characters(light.group()) <= kMaxName, "setLight.group",
                   "must be at most 64 characters");
+    if (!light.photometry().empty()) {
+        const std::string problem = photometry_name_problem(light.photometry());
+        check.require(problem.empty(), "setLight.photometry", problem);
+    }
     check_place(light, check);
+}
+
+void check_body(const v1::AddObject& object, MessageChecker& check) {
+    check_addition(object, check);
+}
+
+void check_body(const v1::RemoveObject& object, MessageChecker& check) {
+    check.require(object.object() >= 1, "removeObject.object", "is missing");
+}
+
+void check_body(const v1::AddLuminaire& luminaire, MessageChecker& check) {
+    check_addition(luminaire, check);
+}
+
+void check_body(const v1::RemoveLight& light, MessageChecker& check) {
+    check.require(light.light() >= 1, "removeLight.light", "is missing");
 }
 
 void check_body(const v1::SetGroup& group, MessageChecker& check) {
@@ -440,6 +448,10 @@ constexpr MessageRule rules[] = {
     {Client::kRemoveLightingScene, v1::EDITOR, Waiting::queued,
      check<&Client::remove_lighting_scene>},
     {Client::kPlayAnimation, v1::EDITOR, Waiting::queued, check<&Client::play_animation>},
+    {Client::kAddObject, v1::EDITOR, Waiting::queued, check<&Client::add_object>},
+    {Client::kRemoveObject, v1::EDITOR, Waiting::queued, check<&Client::remove_object>},
+    {Client::kAddLuminaire, v1::EDITOR, Waiting::queued, check<&Client::add_luminaire>},
+    {Client::kRemoveLight, v1::EDITOR, Waiting::queued, check<&Client::remove_light>},
     {Client::kUndo, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kListScenes, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kOpenScene, v1::EDITOR, Waiting::queued, check<&Client::open_scene>},

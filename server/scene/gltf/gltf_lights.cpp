@@ -113,9 +113,15 @@ class LightReader {
         set_intensity(number_or(use, "multiplier", 1.0F),
                       glm::min(vector_or(use, "color", glm::vec3(1.0F)), 1.0F), light);
         light.profile = profile(index);
+        light.photometry = file_name(value_or<std::string>(profiles_[index], "uri", ""));
         sources_.push_back({node, std::nullopt});
         place(node, light);
         scene_.punctual_lights.push_back(std::move(light));
+    }
+
+    /// Of a file's uri; empty where the bytes are in the uri itself.
+    static std::string file_name(const std::string& uri) {
+        return uri.starts_with("data:") ? "" : uri.substr(uri.find_last_of('/') + 1);
     }
 
     std::shared_ptr<const IesProfile> profile(std::size_t index) {

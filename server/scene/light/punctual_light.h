@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -31,6 +32,16 @@ struct PunctualSetting {
     glm::vec3 loaded{0.0F};  ///< intensity as the file has it
 };
 
+/// How a luminaire was made that has been added while the scene is shown.
+struct AddedLuminaire {
+    std::uint32_t number = 0;  ///< its Light::id
+    std::string name;
+    std::string photometry;  ///< file of SceneFolder
+    glm::vec3 position{0.0F}, aim{0.0F, -1.0F, 0.0F};
+    float rotation = 0.0F;  ///< all three as in LightPlace
+    std::string group;
+};
+
 /// A light without extent (glTF's KHR_lights_punctual): no ray can hit it. It shines along -z of
 /// its axes. Photometric, without a cut-off: glTF's `range` is not physical, and tells of many
 /// lights only which to look at first.
@@ -57,6 +68,11 @@ struct PunctualLight {
     float outer_cosine = 0.0F;    ///< spot: dark outside this one; below inner_cosine
     /// Of a point light: its intensity over direction, whose factor `intensity` is then.
     std::shared_ptr<const IesProfile> profile;
+    std::string photometry;  ///< name of the file of its profile; empty: none, or not known
+    /// What it was like before its photometry was exchanged; null: it has not been.
+    std::shared_ptr<const PunctualLight> as_loaded;
+    std::shared_ptr<const AddedLuminaire> added;  ///< null: it is of the scene's file
+    bool removed = false;                         ///< it is dark, but has its number
     LightControl control;
     /// Once it has been changed; `intensity` is that times control.dim, and 0 while it is off.
     std::optional<PunctualSetting> setting;

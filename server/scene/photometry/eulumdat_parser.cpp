@@ -145,12 +145,18 @@ Head read_head(LineReader& in, IesProfile::Data& data) {
         in.fail(fmt::format("{} x {} values; the limit is {}", head.planes, head.angles,
                             IesReader::max_values));
     }
-    for (const char* size :
-         {"the length", "the width", "the height", "the luminous length", "the luminous width",
-          "the luminous height in C0", "the luminous height in C90", "the luminous height in C180",
-          "the luminous height in C270", "the downward flux fraction"}) {
+    constexpr double metres = 1e-3;
+    for (const char* size : {"the length", "the width", "the height"}) {
         in.number_if_given(size);
     }
+    data.luminous_size.x = metres * in.number_if_given("the luminous length").value_or(0.0);
+    data.luminous_size.y = metres * in.number_if_given("the luminous width").value_or(0.0);
+    for (const char* height : {"the luminous height in C0", "the luminous height in C90",
+                               "the luminous height in C180", "the luminous height in C270"}) {
+        data.luminous_size.z =
+            std::max(data.luminous_size.z, metres * in.number_if_given(height).value_or(0.0));
+    }
+    in.number_if_given("the downward flux fraction");
     head.light_output_ratio = in.number_if_given("the light output ratio").value_or(0.0) / 100.0;
     head.factor = in.number_if_given("the conversion factor").value_or(1.0);
     if (head.factor == 0.0) {

@@ -193,6 +193,16 @@ int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
     return line;
 }
 
+/// Width (across C0), length (along it) and height; a negative width stands for a diameter.
+glm::dvec3 read_size(IesReader& reader, double metres) {
+    const double width = metres * reader.number("the width");
+    const double length = metres * reader.number("the length");
+    const double height = metres * reader.number("the height");
+    const bool round = width < 0.0 || (length < 0.0 && width == 0.0);
+    return round ? glm::dvec3(std::max(std::abs(width), std::abs(length)), 0.0, std::abs(height))
+                 : glm::dvec3(std::abs(length), width, std::abs(height));
+}
+
 }  // namespace
 
 IesProfile parse_ies(const std::string& file, std::string_view bytes) {
@@ -214,10 +224,8 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
             fmt::format("{} x {} values; the limit is {}", rows, columns, IesReader::max_values));
     }
     data.type = static_cast<IesProfile::Type>(reader.count("the photometric type", 3));
-    reader.count("the units type", 2);
-    for (const char* length : {"the width", "the length", "the height"}) {
-        reader.number(length);
-    }
+    const bool feet = reader.count("the units type", 2) == 1;
+    data.luminous_size = read_size(reader, feet ? 0.3048 : 1.0);
     const double ballast = reader.number("the ballast factor", 0, 1e6);
     // Since 2002 it is not used any more, in 2019 it says how the file was made.
     const double lamp_factor = reader.number("the ballast-lamp photometric factor", 0, 1e6);

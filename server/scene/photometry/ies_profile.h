@@ -26,6 +26,9 @@ class IesProfile {
         std::vector<double> candela;
         double input_watts = 0.0;  ///< electrical, of the whole luminaire
         double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
+        /// Of the luminous opening, m: along its plane C0, across it, and its height. A width of 0:
+        /// round; all 0: not given.
+        glm::dvec3 luminous_size{0.0};
         std::vector<std::string> notes{};  ///< what a user should know about how it was read
     };
 

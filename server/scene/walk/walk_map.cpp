@@ -160,8 +160,14 @@ WalkMap make_walk_map(const Scene& scene, std::span<const glm::mat4> worlds, con
     const Bounds box{map.origin, map.origin + size};
     std::vector<bool> near;
     for (const Object& object : scene.objects) {
-        const Bounds bounds = placed_bounds(object, worlds[near.size()]);
-        near.push_back(object.kind != ObjectKind::door &&
+        if (near.size() >= worlds.size()) {  // it has been added since
+            near.push_back(false);
+            continue;
+        }
+        const glm::mat4& world = worlds[near.size()];
+        const Bounds bounds = placed_bounds(object, world);
+        const bool removed = glm::mat3(world) == glm::mat3(0.0F);
+        near.push_back(!removed && object.kind != ObjectKind::door &&
                        (overlap(bounds, box) || below(bounds, eye)));
     }
     Filler filler(map);

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "bundle/low_discrepancy.h"
 #include "scene/daylight_edit.h"
 #include "session/changes/change_expansion.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
+#include "session/messages/addition_messages.h"
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
@@ -20,15 +20,27 @@ namespace raybundle {
 
 namespace {
 
+/// What is removed, or comes back, is a move to nowhere or from there.
+bool is_move(const v1::SceneChanged& change) {
+    return change.has_move_object() || change.has_add_object();
+}
+
+/// Number of the object that moves.
+std::uint32_t moved_object(const v1::SceneChanged& change) {
+    return change.has_move_object() ? change.move_object().object() : change.add_object().object();
+}
+
 /// Whether a change can be worked in together with those that come before it.
-bool fits(const PendingChange& next, const std::vector<PendingChange>& pending) {
-    const bool moving = pending.front().change.has_move_object();
+bool fits(const PendingChange& next, const std::vector<PendingChange>& pending,
+          const Scene& scene) {
+    const bool moving = is_move(pending.front().change);
     if (next.stands_for_several() || next.change.has_set_daylight() ||
-        pending.back().change.has_set_daylight() || next.change.has_move_object() != moving) {
+        pending.back().change.has_set_daylight() || is_move(next.change) != moving ||
+        grows(scene, next.change) || grows(scene, pending.back().change)) {
         return false;
     }
     const auto same = [&next](const PendingChange& p) {
-        return subject_of(p.change) == subject_of(next.change);
+        return moved_object(p.change) == moved_object(next.change);
     };
     return !moving ||
            (pending.size() < MOST_MOVED && std::none_of(pending.begin(), pending.end(), same));
@@ -64,6 +76,11 @@ HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const Clien
             parts_.server.reply_error(event, problem.code(), problem.message());
             return HandlerResult::answered;
         }
+        const v1::Error gone = problem_of_presence(parts_.scene.scene(), change);
+        if (gone.code() != v1::Error::CODE_UNSPECIFIED) {
+            parts_.server.reply_error(event, gone.code(), gone.message());
+            return HandlerResult::answered;
+        }
     }
     parts_.animations.note_request(event, change);
     queue_.add(event);
@@ -96,7 +113,7 @@ void ChangeCoordinator::start_pending() {
     if (pending.front().change.has_set_daylight()) {
         undim_sky(pending);
     }
-    while (!queue_.empty() && fits(queue_.front(), pending) &&
+    while (!queue_.empty() && fits(queue_.front(), pending, parts_.scene.scene()) &&
            recorder_.fits_scene(queue_.front())) {
         pending.push_back(queue_.take());
     }
@@ -108,8 +125,10 @@ void ChangeCoordinator::start_pending() {
 
 /// False: nothing could be saved, so nothing has changed.
 bool ChangeCoordinator::start(std::vector<PendingChange> pending) {
-    const bool moving = pending.front().change.has_move_object();
-    const bool made = moving ? start_moves(pending) : start_surfaces(pending);
+    const v1::SceneChanged& first = pending.front().change;
+    const bool made = grows(parts_.scene.scene(), first) ? start_growth(pending)
+                      : is_move(first)                   ? start_moves(pending)
+                                                         : start_surfaces(pending);
     if (made) {
         for (const PendingChange& change : pending) {
             announce(change);
@@ -123,7 +142,7 @@ bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
     queue_.put_back(recorder_.record(pending));
     std::vector<ObjectMove> moves;
     for (const PendingChange& p : pending) {
-        const std::uint32_t object = p.change.move_object().object() - 1;
+        const std::uint32_t object = moved_object(p.change) - 1;
         moves.push_back({object, parts_.scene.scene().objects[object].world_from_object()});
     }
     if (moves.empty()) {
@@ -166,22 +185,6 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     return true;
 }
 
-/// A material calls for shaders that the scene did not need so far: another solver takes over the
-/// solution.
-void ChangeCoordinator::replan(std::span<const std::uint32_t> reflecting) {
-    LiveScene& live = parts_.scene;
-    SolverSettings settings = live.solver_settings();
-    settings.seed = mix_bits(settings.seed + ++replans_);
-    auto next = std::make_unique<Solver>(live.scene(), live.mesh(), settings);
-    auto programs = std::make_unique<ViewPrograms>(next->scene());
-    parts_.pictures.renew(*next, *programs);
-    gather_all();
-    begin_phase(*next, false);
-    next->take_over(live.solver(), reflecting, parts_.receivers.list());
-    live.replace(std::move(next), std::move(programs));
-    spdlog::info("shaders have been planned anew for a change of the scene");
-}
-
 /// Puts the changes that a request stands for where their turn is next, or answers it once they
 /// have been made.
 void ChangeCoordinator::start_several(const PendingChange& pending) {
@@ -196,10 +199,14 @@ void ChangeCoordinator::start_several(const PendingChange& pending) {
         return;
     }
     recorder_.begin_several();
-    const Expansion expansion =
-        expand(pending, parts_.scene.scene(), parts_.scene.log(), parts_.lighting);
+    const Expansion expansion = expand(pending, parts_.scene.scene(), parts_.scene.mesh(),
+                                       parts_.scene.log(), parts_.lighting);
     if (expansion.problem.code() == v1::Error::CODE_UNSPECIFIED) {
-        queue_.add_expanded(expansion.changes, pending);
+        if (expansion.is_answer) {
+            queue_.put_first({expansion.changes.front(), pending.requests, false});
+        } else {
+            queue_.add_expanded(expansion.changes, pending);
+        }
         return;
     }
     for (const ClientEvent& request : pending.requests) {
@@ -270,7 +277,7 @@ void ChangeCoordinator::shrink_for_drag() {
 void ChangeCoordinator::announce(const PendingChange& pending) {
     parts_.scene.note_change();
     v1::ServerMessage message;
-    *message.mutable_scene_changed() = pending.change;
+    *message.mutable_scene_changed() = announced(parts_.scene.scene(), pending.change);
     for (const ClientEvent& request : pending.requests) {
         parts_.server.reply(request, message);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,8 @@ class ChangeCoordinator {
   private:
     bool start(std::vector<PendingChange> pending);
     bool start_moves(std::vector<PendingChange>& pending);
+    bool start_growth(std::vector<PendingChange>& changes);
+    std::unique_ptr<Solver> plan_anew(std::unique_ptr<ViewPrograms>& programs);
     bool start_surfaces(std::vector<PendingChange>& pending);
     void undim_sky(std::vector<PendingChange>& pending) const;
     void start_several(const PendingChange& pending);

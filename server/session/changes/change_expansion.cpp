@@ -6,7 +6,11 @@
 #include <utility>
 
 #include "scene/light_edit.h"
+#include "scene/luminaire_edit.h"
+#include "scene/object_limits.h"
+#include "session/messages/addition_messages.h"
 #include "session/messages/light_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 namespace {
@@ -56,7 +60,7 @@ Expansion set_group(const PendingChange& pending, const Scene& scene) {
     }
     const std::set<std::uint32_t> joining(sum.lights().begin(), sum.lights().end());
     Expansion result;
-    for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
+    for (const std::uint32_t id : light_numbers(scene)) {
         const LightControl* const control = control_of(scene, id);
         const bool member = control != nullptr && control->group == sum.group();
         if (!member && !joining.contains(id)) {
@@ -80,10 +84,80 @@ Expansion set_group(const PendingChange& pending, const Scene& scene) {
                : result;
 }
 
+/// All luminaires that shine by the same file as one of them.
+Expansion exchange_type(const v1::SetLight& request, const Scene& scene) {
+    if (!request.has_photometry()) {
+        return refused(v1::Error::INVALID_ARGUMENT, "setLight.sameType: needs photometry");
+    }
+    if (const std::string problem = problem_of(scene, request); !problem.empty()) {
+        return refused(v1::Error::INVALID_ARGUMENT, "setLight." + problem);
+    }
+    const auto one = punctual_index(scene, request.light());
+    if (!one || !scene.punctual_lights[*one].profile) {
+        return refused(v1::Error::INVALID_ARGUMENT, "setLight.sameType: light " +
+                                                        std::to_string(request.light()) +
+                                                        " shines by no photometric file");
+    }
+    Expansion result;
+    for (const std::uint32_t id : light_numbers(scene)) {
+        const auto other = punctual_index(scene, id);
+        if (other && scene.punctual_lights[*other].profile == scene.punctual_lights[*one].profile) {
+            v1::SetLight& light = *result.changes.emplace_back().mutable_set_light();
+            light.set_light(id);
+            light.set_photometry(request.photometry());
+        }
+    }
+    return result;
+}
+
+Expansion add_field(const v1::AddLuminaire& request, const Scene& scene) {
+    const std::string problem = problem_of(scene, from_message(request));
+    if (!problem.empty()) {
+        return refused(v1::Error::INVALID_ARGUMENT, "addLuminaire." + problem);
+    }
+    const std::vector<v1::AddLuminaire> field = field_of(scene, request);
+    if (added_lights(scene) + field.size() > max_added_lights) {
+        return refused(v1::Error::RESOURCE_EXHAUSTED, "addLuminaire: at most " +
+                                                          std::to_string(max_added_lights) +
+                                                          " lights can be added, and there are " +
+                                                          std::to_string(added_lights(scene)));
+    }
+    Expansion result;
+    result.is_answer = field.size() == 1;
+    for (const v1::AddLuminaire& luminaire : field) {
+        const std::string wrong = problem_of(scene, from_message(luminaire));
+        if (!wrong.empty()) {
+            return refused(v1::Error::INVALID_ARGUMENT, "addLuminaire." + wrong);
+        }
+        *result.changes.emplace_back().mutable_add_luminaire() = luminaire;
+    }
+    return result;
+}
+
+Expansion add_one_object(const v1::AddObject& request, const Scene& scene, const PatchMesh& mesh) {
+    std::string problem = addition_problem(scene, mesh, from_message(request));
+    if (!problem.empty()) {
+        const bool full = problem.find("at most") == 0 || problem.find("more than") != problem.npos;
+        return refused(full ? v1::Error::RESOURCE_EXHAUSTED : v1::Error::NOT_FOUND,
+                       "addObject." + problem);
+    }
+    Expansion result;
+    result.is_answer = true;
+    const v1::AddObject object = numbered(scene, request);
+    if (object.copy_of() > 0) {
+        problem = problem_of(scene, object.copy_of() - 1, from_message(object.transform()));
+    }
+    if (!problem.empty()) {
+        return refused(v1::Error::INVALID_ARGUMENT, "addObject.transform." + problem);
+    }
+    *result.changes.emplace_back().mutable_add_object() = object;
+    return result;
+}
+
 }  // namespace
 
-Expansion expand(const PendingChange& pending, const Scene& scene, const ChangeLog& log,
-                 const LightingScenes& lighting) {
+Expansion expand(const PendingChange& pending, const Scene& scene, const PatchMesh& mesh,
+                 const ChangeLog& log, const LightingScenes& lighting) {
     const v1::ClientMessage& message = pending.requests.front().message;
     if (message.has_set_group()) {
         return set_group(pending, scene);
@@ -94,6 +168,15 @@ Expansion expand(const PendingChange& pending, const Scene& scene, const ChangeL
         return changes ? Expansion{std::move(*changes), {}}
                        : refused(v1::Error::NOT_FOUND,
                                  "applyLightingScene.name: no lighting scene '" + name + "'");
+    }
+    if (message.has_add_object()) {
+        return add_one_object(message.add_object(), scene, mesh);
+    }
+    if (message.has_add_luminaire()) {
+        return add_field(message.add_luminaire(), scene);
+    }
+    if (message.has_set_light()) {
+        return exchange_type(message.set_light(), scene);
     }
     return undo_to(message.undo().epoch(), log);
 }

@@ -13,10 +13,13 @@ namespace raybundle {
 struct Expansion {
     std::vector<v1::SceneChanged> changes;
     v1::Error problem;  ///< unset where there is none
+    /// The change is what was asked for, and answers it; else they are answered apart.
+    bool is_answer = false;
 };
 
-/// Of an undo, a group of lights or a lighting scene, as the scene is now.
-Expansion expand(const PendingChange& pending, const Scene& scene, const ChangeLog& log,
-                 const LightingScenes& lighting);
+/// Of an undo, a group of lights, a lighting scene, what is added, or an exchange of all luminaires
+/// of a type, as the scene is now.
+Expansion expand(const PendingChange& pending, const Scene& scene, const PatchMesh& mesh,
+                 const ChangeLog& log, const LightingScenes& lighting);
 
 }  // namespace raybundle

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "scene/gltf/gltf_loader.h"
+#include "session/messages/addition_messages.h"
 #include "session/messages/scene_messages.h"
 
 namespace raybundle {
@@ -53,6 +55,42 @@ v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChan
         after.mutable_move_object()->set_final(signature.move_object().final());
     }
     return after;
+}
+
+bool is_addition(const v1::SceneChanged& change) {
+    return change.has_add_object() || change.has_add_luminaire();
+}
+
+/// What is added comes before what is done to it, in the order of its numbers.
+void additions_first(std::vector<v1::SceneChanged>& changes) {
+    std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) {
+        const bool added = is_addition(a);
+        return added != is_addition(b) ? added : added && subject_of(a) < subject_of(b);
+    });
+}
+
+/// Adds an object of the journal. False: its file is gone, or is another one.
+bool grow(Scene& scene, PatchMesh& mesh, const v1::SceneChanged& change) {
+    try {
+        add_object(scene, mesh, from_message(change.add_object()));
+        return true;
+    } catch (const SceneError& error) {
+        spdlog::error("object {} of the journal is lost: {}", change.add_object().object(),
+                      error.what());
+        return false;
+    }
+}
+
+/// Whether a change of the journal can be made. What has been added and removed since is there,
+/// and removed.
+bool fits(const Scene& scene, v1::SceneChanged change) {
+    if (change.has_add_luminaire() && !change.add_luminaire().photometry().empty()) {
+        change.mutable_add_luminaire()->set_removed(false);
+    }
+    if (change.has_add_object()) {
+        change.mutable_add_object()->set_removed(false);
+    }
+    return problem_of(scene, change).code() == v1::Error::CODE_UNSPECIFIED;
 }
 
 }  // namespace
@@ -121,16 +159,18 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
                       error.what());
         return;
     }
-    std::vector<std::uint32_t> materials(scene.materials.size());
-    std::iota(materials.begin(), materials.end(), 0U);
+    additions_first(changes);
     bool surfaces = false;
     for (const v1::SceneChanged& change : changes) {
         if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET) {
             spdlog::error("change {} of the journal cannot be read and is lost", change.epoch());
             continue;
         }
-        if (problem_of(scene, change).code() != v1::Error::CODE_UNSPECIFIED) {
+        if (!fits(scene, change)) {
             spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
+            continue;
+        }
+        if (grows(scene, change) && !grow(scene, mesh, change)) {
             continue;
         }
         apply(scene, change);
@@ -138,6 +178,8 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
         surfaces |= !change.has_move_object();
     }
     if (surfaces) {
+        std::vector<std::uint32_t> materials(scene.materials.size());
+        std::iota(materials.begin(), materials.end(), 0U);
         refresh_surfaces(scene, materials, mesh);
     }
     restore_history(scene);
@@ -167,10 +209,9 @@ void ChangeLog::restore_history(const Scene& scene) {
     } catch (const JournalError& error) {
         spdlog::error("changes before the restart cannot be undone: {}", error.what());
     }
-    const bool fits = std::all_of(past.begin(), past.end(), [&scene](const auto& before) {
-        return problem_of(scene, before).code() == v1::Error::CODE_UNSPECIFIED;
-    });
-    if (past.empty() || !fits) {
+    const bool fit = std::all_of(past.begin(), past.end(),
+                                 [&scene](const auto& before) { return fits(scene, before); });
+    if (past.empty() || !fit) {
         return;
     }
     // After a change its subject is what it is before its next one.

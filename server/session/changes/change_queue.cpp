@@ -17,8 +17,18 @@ v1::SceneChanged change_of(const ClientEvent& event) {
     const v1::ClientMessage& message = event.message;
     if (message.has_move_object()) {
         *change.mutable_move_object() = message.move_object();
-    } else if (message.has_set_light()) {
+    } else if (message.has_set_light() && !message.set_light().same_type()) {
         *change.mutable_set_light() = message.set_light();
+    } else if (message.has_add_luminaire() && message.add_luminaire().light() > 0) {
+        *change.mutable_add_luminaire() = message.add_luminaire();
+    } else if (message.has_add_object() && message.add_object().object() > 0) {
+        *change.mutable_add_object() = message.add_object();
+    } else if (message.has_remove_light()) {
+        change.mutable_add_luminaire()->set_light(message.remove_light().light());
+        change.mutable_add_luminaire()->set_removed(true);
+    } else if (message.has_remove_object()) {
+        change.mutable_add_object()->set_object(message.remove_object().object());
+        change.mutable_add_object()->set_removed(true);
     } else if (message.has_set_material()) {
         *change.mutable_set_material() = message.set_material();
     } else if (message.has_set_daylight()) {
@@ -99,6 +109,10 @@ void ChangeQueue::add_steps(const std::vector<v1::SceneChanged>& changes) {
 bool ChangeQueue::has_steps() const {
     return std::any_of(pending_.begin(), pending_.end(),
                        [](const PendingChange& p) { return p.change.has_animation(); });
+}
+
+void ChangeQueue::put_first(PendingChange pending) {
+    pending_.push_front(std::move(pending));
 }
 
 PendingChange ChangeQueue::take() {

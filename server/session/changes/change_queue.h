@@ -46,6 +46,8 @@ class ChangeQueue {
     /// Changes that an animation makes, behind all others.
     void add_steps(const std::vector<v1::SceneChanged>& changes);
     [[nodiscard]] bool has_steps() const;
+    /// The change that requests ask for, once it is known which that is; answered by it.
+    void put_first(PendingChange pending);
     [[nodiscard]] bool empty() const { return pending_.empty(); }
     [[nodiscard]] std::size_t size() const { return pending_.size(); }
     [[nodiscard]] const PendingChange& front() const { return pending_.front(); }

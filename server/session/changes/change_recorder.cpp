@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "session/messages/addition_messages.h"
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
@@ -25,6 +26,14 @@ std::vector<std::string> keys_of(const PendingChange& pending) {
         }
     }
     return keys;
+}
+
+/// What there is to know of an addition, or of what is there again.
+template <typename Addition>
+void complete(const Scene& scene, Addition& addition) {
+    const bool removed = addition.removed();
+    addition = state_of_addition(scene, addition);
+    addition.set_removed(removed);
 }
 
 }  // namespace
@@ -60,6 +69,10 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
         pending.change.set_by(0);  // numbers of viewers are each server's own
     } else if (pending.change.has_set_light()) {
         *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
+    } else if (pending.change.has_add_object()) {
+        complete(scene, *pending.change.mutable_add_object());
+    } else if (pending.change.has_add_luminaire()) {
+        complete(scene, *pending.change.mutable_add_luminaire());
     } else if (pending.change.has_set_daylight()) {
         *pending.change.mutable_set_daylight() = resolved(scene, pending.change.set_daylight());
     }

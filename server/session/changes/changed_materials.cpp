@@ -10,7 +10,7 @@ namespace {
 /// Index of the material that a change concerns, or no_material.
 std::uint32_t material_of(const Scene& scene, const PendingChange& pending) {
     const std::uint32_t id = subject_of(pending.change).second;
-    if (pending.change.has_set_daylight()) {
+    if (pending.change.has_set_daylight() || pending.change.has_add_luminaire()) {
         return no_material;
     }
     return pending.change.has_set_light() ? material_of_light(scene, id) : id - 1;

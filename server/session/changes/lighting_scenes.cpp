@@ -2,6 +2,7 @@
 #include "session/changes/lighting_scenes.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "session/messages/light_messages.h"
@@ -83,7 +84,7 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
     saved.set_number(number.value_or(0));
     saved.mutable_scene()->set_name(name);
     saved.mutable_scene()->set_by_name(by_name);
-    for (std::uint32_t id = 1; id <= light_count(scene); ++id) {
+    for (const std::uint32_t id : light_numbers(scene)) {
         if (in_lighting_scenes(scene, id)) {
             *saved.add_lights() = setting_of_light(scene, id);
         }
@@ -117,10 +118,12 @@ std::optional<std::vector<v1::SceneChanged>> LightingScenes::changes_to(const st
     if (known == scenes_.end()) {
         return std::nullopt;
     }
+    const std::vector<std::uint32_t> present = light_numbers(scene);
+    const std::set<std::uint32_t> numbers(present.begin(), present.end());
     std::vector<v1::SceneChanged> changes;
     for (const v1::SetLight& wanted : known->second.lights()) {
-        const bool exists = wanted.light() >= 1 && wanted.light() <= light_count(scene) &&
-                            in_lighting_scenes(scene, wanted.light());
+        const bool exists =
+            numbers.contains(wanted.light()) && in_lighting_scenes(scene, wanted.light());
         if (!exists || !problem_of(scene, wanted).empty() ||
             setting_of_light(scene, wanted.light()).SerializeAsString() ==
                 wanted.SerializeAsString()) {

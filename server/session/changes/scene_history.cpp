@@ -78,9 +78,11 @@ std::optional<std::vector<v1::SceneChanged>> SceneHistory::back_to(std::uint32_t
             changes.push_back(wanted);
         }
     }
-    // It brings its lights undimmed; what they were dimmed to comes after it.
-    std::stable_partition(changes.begin(), changes.end(),
-                          [](const v1::SceneChanged& c) { return c.has_set_daylight(); });
+    // It brings its lights undimmed; what they were dimmed to comes after it. What is there again
+    // is there before it is changed.
+    std::stable_partition(changes.begin(), changes.end(), [](const v1::SceneChanged& c) {
+        return c.has_set_daylight() || c.has_add_object() || c.has_add_luminaire();
+    });
     return changes;
 }
 

@@ -118,17 +118,16 @@ v1::SetDaylight state_of_daylight(const Scene& scene) {
 }
 
 void describe_sky_lights(const Scene& scene, v1::SetDaylight* message) {
-    std::size_t first = scene.lights.size();
+    auto first = static_cast<std::uint32_t>(scene.lights.size()) + 1;
     for (const PunctualLight& light : scene.punctual_lights) {
-        if (light.of_sky) {
-            break;
-        }
-        ++first;
+        first += light.added || light.of_sky ? 0 : 1;
     }
     v1::Scene all;
     describe_lights(scene, &all);
-    for (int i = static_cast<int>(first); i < all.lights_size(); ++i) {
-        *message->add_lights() = all.lights(i);
+    for (const v1::Light& light : all.lights()) {
+        if (light.id() >= first) {
+            *message->add_lights() = light;
+        }
     }
 }
 

@@ -64,9 +64,7 @@ void describe_place(const PunctualLight& light, v1::Light* out) {
     }
 }
 
-/// Punctual lights are numbered after the area lights.
-void describe_light(const PunctualLight& light, v1::Scene* message) {
-    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
+void describe_light(const PunctualLight& light, std::uint32_t id, v1::Scene* message) {
     v1::Light* out = message->add_lights();
     const bool directional = light.kind == PunctualKind::directional;
     const PunctualSetting setting = setting_of(light);
@@ -87,11 +85,11 @@ void describe_light(const PunctualLight& light, v1::Scene* message) {
     describe_figures(loaded_figures(light), out);
     describe_control(light.control, out);
     describe_place(light, out);
+    out->set_photometry(light.photometry);
+    out->set_added(light.added != nullptr);
 }
 
-/// Comes after all others.
-void describe_light(const SkyLight& light, v1::Scene* message) {
-    const auto id = static_cast<std::uint32_t>(message->lights_size()) + 1;
+void describe_light(const SkyLight& light, std::uint32_t id, v1::Scene* message) {
     v1::Light* out = message->add_lights();
     out->set_id(id);
     out->set_name(light.image ? "surroundings" : "sky");
@@ -151,6 +149,9 @@ LightEdit from_message(const v1::SetLight& light) {
     if (light.has_maintenance_factor()) {
         edit.maintenance_factor = light.maintenance_factor();
     }
+    if (light.has_photometry()) {
+        edit.photometry = light.photometry();
+    }
     read_place(light, edit);
     return edit;
 }
@@ -158,8 +159,10 @@ LightEdit from_message(const v1::SetLight& light) {
 v1::SetLight resolved(const Scene& scene, const v1::SetLight& light) {
     v1::SetLight result = light;
     if (light.has_flux()) {
-        result.set_intensity(
-            static_cast<float>(light.flux() / flux_per_intensity(scene, light.light())));
+        // A photometric file comes with lm for its unit.
+        const double lumens =
+            light.photometry().empty() ? flux_per_intensity(scene, light.light()) : 1.0;
+        result.set_intensity(static_cast<float>(light.flux() / lumens));
         result.clear_flux();
     }
     if (light.has_colour_temperature()) {
@@ -174,7 +177,8 @@ std::string problem_of(const Scene& scene, const v1::SetLight& light) {
     if (!problem.empty()) {
         return "light: " + problem;
     }
-    if (light.has_flux() && !(flux_per_intensity(scene, light.light()) > 0.0)) {
+    if (light.has_flux() && light.photometry().empty() &&
+        !(flux_per_intensity(scene, light.light()) > 0.0)) {
         return "flux: light " + std::to_string(light.light()) + " has none: needs intensity";
     }
     return "";
@@ -193,6 +197,9 @@ v1::SetLight state_of_light(const Scene& scene, std::uint32_t id) {
         state.set_on(setting.on);
         to_message(setting.colour, state.mutable_colour());
         describe_cones(light, &state);
+        if (light.kind != PunctualKind::directional) {
+            state.set_photometry(light.as_loaded ? light.photometry : "");
+        }
         if (has_own_place(light)) {
             describe_own_place(light, &state);
         }
@@ -229,11 +236,21 @@ void describe_lights(const Scene& scene, v1::Scene* message) {
         describe_figures(loaded_figures(light), out);
         describe_control(light.control, out);
     }
-    for (const PunctualLight& light : scene.punctual_lights) {
-        describe_light(light, message);
-    }
-    if (scene.sky_light) {
-        describe_light(*scene.sky_light, message);
+    // Those of the file come before the sky, added ones after it.
+    auto next = static_cast<std::uint32_t>(scene.lights.size()) + 1;
+    for (const bool added : {false, true}) {
+        for (const PunctualLight& light : scene.punctual_lights) {
+            if ((light.added != nullptr) != added) {
+                continue;
+            }
+            const std::uint32_t id = added ? light.added->number : next++;
+            if (!light.removed) {
+                describe_light(light, id, message);
+            }
+        }
+        if (!added && scene.sky_light) {
+            describe_light(*scene.sky_light, next, message);
+        }
     }
     std::map<std::string, v1::LightGroup> groups;
     for (const v1::Light& light : message->lights()) {

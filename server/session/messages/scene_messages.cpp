@@ -8,6 +8,7 @@
 #include "scene/effects/effects_plan.h"
 #include "scene/object_kind.h"
 #include "scene/object_limits.h"
+#include "session/messages/addition_messages.h"
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
 
@@ -135,11 +136,22 @@ v1::Error problem_of(const Scene& scene, const v1::SceneChanged& change) {
         return wrong.empty() ? v1::Error()
                              : error(v1::Error::INVALID_ARGUMENT, "setDaylight." + wrong);
     }
+    if (change.has_add_object()) {
+        const std::string wrong = problem_of(scene, change.add_object());
+        return wrong.empty() ? v1::Error() : error(v1::Error::NOT_FOUND, wrong);
+    }
+    if (change.has_add_luminaire()) {
+        const std::string wrong = problem_of(scene, change.add_luminaire());
+        const bool absent =
+            change.add_luminaire().removed() && !has_light(scene, change.add_luminaire().light());
+        return wrong.empty()
+                   ? v1::Error()
+                   : error(absent ? v1::Error::NOT_FOUND : v1::Error::INVALID_ARGUMENT, wrong);
+    }
     const bool light = change.has_set_light();
     const std::string problem = light ? problem_of(scene, change.set_light())
                                       : problem_of(scene, from_message(change.set_material()));
-    const std::size_t count = light ? light_count(scene) : scene.materials.size();
-    const bool known = id >= 1 && id <= count;
+    const bool known = light ? has_light(scene, id) : id >= 1 && id <= scene.materials.size();
     return problem.empty() ? v1::Error()
                            : error(known ? v1::Error::INVALID_ARGUMENT : v1::Error::NOT_FOUND,
                                    (light ? "setLight." : "setMaterial.material: ") + problem);
@@ -156,6 +168,10 @@ v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change) {
         *state.mutable_set_daylight() = state_of_daylight(scene);
     } else if (change.has_set_light()) {
         *state.mutable_set_light() = state_of_light(scene, id);
+    } else if (change.has_add_object()) {
+        *state.mutable_add_object() = state_of_addition(scene, change.add_object());
+    } else if (change.has_add_luminaire()) {
+        *state.mutable_add_luminaire() = state_of_addition(scene, change.add_luminaire());
     } else {
         const Material& material = scene.materials[id - 1];
         v1::SetMaterial* message = state.mutable_set_material();
@@ -177,33 +193,53 @@ void apply(Scene& scene, const v1::SceneChanged& change) {
         apply(scene, from_message(change.set_daylight()));
     } else if (change.has_set_light()) {
         apply(scene, from_message(change.set_light()));
+    } else if (change.has_add_object()) {
+        apply(scene, change.add_object());
+    } else if (change.has_add_luminaire()) {
+        apply(scene, change.add_luminaire());
     } else {
         apply(scene, from_message(change.set_material()));
     }
+}
+
+void describe_object(const Object& object, v1::Object* out) {
+    out->set_id(object.id);
+    out->set_name(object.name);
+    out->set_movable(object.movable);
+    out->set_kind(object.kind == ObjectKind::door        ? v1::Object::DOOR
+                  : object.kind == ObjectKind::structure ? v1::Object::STRUCTURE
+                                                         : v1::Object::THING);
+    for (const std::string& name : object.path) {
+        out->add_path(name);
+    }
+    out->set_storey(storey_of(object.path));
+    to_message(world_bounds(object), out->mutable_bounds());
+    to_message(object.transform, out->mutable_transform());
+    for (int i = 0; i < 16; ++i) {
+        out->add_world_from_parent(object.world_from_parent[i / 4][i % 4]);
+    }
+    out->set_added(object.added != nullptr);
+}
+
+void describe_material(const Scene& scene, std::size_t material, v1::Material* out) {
+    out->set_id(static_cast<std::uint32_t>(material) + 1);
+    out->set_name(scene.materials[material].name);
+    to_message(scene.materials[material].base_colour, out->mutable_base_colour());
+    out->set_roughness(scene.materials[material].roughness);
+    out->set_metallic(scene.materials[material].metallic);
+    out->set_matt(scene.materials[material].specular == 0.0F);
 }
 
 void describe_scene(const Scene& scene, v1::Scene* message) {
     message->set_name(scene.name);
     to_message(scene.bounds, message->mutable_bounds());
     for (const Object& object : scene.objects) {
-        v1::Object* out = message->add_objects();
-        out->set_id(object.id);
-        out->set_name(object.name);
-        out->set_movable(object.movable);
-        out->set_kind(object.kind == ObjectKind::door        ? v1::Object::DOOR
-                      : object.kind == ObjectKind::structure ? v1::Object::STRUCTURE
-                                                             : v1::Object::THING);
-        for (const std::string& name : object.path) {
-            out->add_path(name);
-        }
-        out->set_storey(storey_of(object.path));
-        to_message(world_bounds(object), out->mutable_bounds());
-        to_message(object.transform, out->mutable_transform());
-        for (int i = 0; i < 16; ++i) {
-            out->add_world_from_parent(object.world_from_parent[i / 4][i % 4]);
+        if (!object.removed) {
+            describe_object(object, message->add_objects());
         }
     }
     describe_lights(scene, message);
+    describe_luminaires(message);
     *message->mutable_daylight() = state_of_daylight(scene);
     for (const Camera& camera : scene.cameras) {
         v1::Camera* out = message->add_cameras();
@@ -214,13 +250,7 @@ void describe_scene(const Scene& scene, v1::Scene* message) {
         out->set_vertical_fov(camera.vertical_fov);
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        v1::Material* out = message->add_materials();
-        out->set_id(static_cast<std::uint32_t>(i) + 1);
-        out->set_name(scene.materials[i].name);
-        to_message(scene.materials[i].base_colour, out->mutable_base_colour());
-        out->set_roughness(scene.materials[i].roughness);
-        out->set_metallic(scene.materials[i].metallic);
-        out->set_matt(scene.materials[i].specular == 0.0F);
+        describe_material(scene, i, message->add_materials());
     }
     describe_effects(scene, message);
 }

@@ -28,6 +28,8 @@ v1::SceneChanged state_of(const Scene& scene, const v1::SceneChanged& change);
 /// Makes a change without problem. Patches get their colours by refresh_surfaces().
 void apply(Scene& scene, const v1::SceneChanged& change);
 
+void describe_object(const Object& object, v1::Object* out);
+void describe_material(const Scene& scene, std::size_t material, v1::Material* out);
 /// What `welcome` says about the scene: objects, lights, cameras, materials, effects.
 void describe_scene(const Scene& scene, v1::Scene* message);
 

@@ -12,9 +12,12 @@ namespace raybundle {
 ViewService::ViewService(const Parts& parts)
     : parts_(parts),
       targets_(parts.scene.log()),
-      walk_mapper_(std::as_const(parts.scene).scene(), parts.policy.settings().rests.walk_map,
-                   [this](const ClientEvent& event, const std::optional<WalkMap>& map,
-                          std::uint32_t epoch) { answer_walk_map(event, map, epoch); }) {}
+      walk_mapper_(
+          std::as_const(parts.scene).scene(), parts.policy.settings().rests.walk_map,
+          [this](const ClientEvent& event, const std::optional<WalkMap>& map, std::uint32_t epoch) {
+              answer_walk_map(event, map, epoch);
+          },
+          &parts.scene.geometry_mutex()) {}
 
 HandlerResult ViewService::set_camera(ViewerSession& session, const ClientEvent& event) {
     session.follow(0);

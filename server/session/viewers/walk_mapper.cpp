@@ -10,8 +10,8 @@
 
 namespace raybundle {
 
-WalkMapper::WalkMapper(const Scene& scene, double rest, Answer answer)
-    : scene_(scene), rest_(rest), answer_(std::move(answer)) {
+WalkMapper::WalkMapper(const Scene& scene, double rest, Answer answer, std::mutex* geometry)
+    : scene_(scene), rest_(rest), answer_(std::move(answer)), geometry_(geometry) {
     thread_ = std::jthread([this](const std::stop_token& token) { run(token); });
 }
 
@@ -36,6 +36,12 @@ void WalkMapper::ask(const ClientEvent& request, std::uint32_t epoch) {
     }
 }
 
+WalkMap WalkMapper::map_of(const std::vector<glm::mat4>& worlds, const glm::vec3& eye) const {
+    const std::unique_lock lock =
+        geometry_ != nullptr ? std::unique_lock(*geometry_) : std::unique_lock<std::mutex>();
+    return make_walk_map(scene_, worlds, eye);
+}
+
 void WalkMapper::run(const std::stop_token& token) {
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, token, [this] { return !jobs_.empty(); })) {
@@ -45,7 +51,7 @@ void WalkMapper::run(const std::stop_token& token) {
         const SteadyClock clock;
         const TimePoint begun = clock.now();
         const glm::vec3 eye = from_message(job.request.message.get_walk_map().eye());
-        answer_(job.request, make_walk_map(scene_, job.worlds, eye), job.epoch);
+        answer_(job.request, map_of(job.worlds, eye), job.epoch);
         const std::chrono::duration<double, std::milli> pause(rest_ * clock.ms_since(begun));
         lock.lock();
         changed_.wait_for(lock, token, pause, [] { return false; });

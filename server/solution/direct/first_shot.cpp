@@ -28,7 +28,7 @@ unsigned mask_words(std::size_t lights) {
 
 bool same_place(const layout::PunctualData& a, const layout::PunctualData& b) {
     return a.position == b.position && a.axis_x == b.axis_x && a.axis_y == b.axis_y &&
-           a.axis_z == b.axis_z;
+           a.axis_z == b.axis_z && a.map == b.map;
 }
 
 /// Parts along an edge of a patch: many patches are small ones, and many lights average over what
@@ -60,14 +60,7 @@ FirstShot::FirstShot(const GpuScene& scene)
       lights_("punctual lights", scene.punctual_lights().size() * sizeof(layout::PunctualData)),
       patches_("first shot", 2 * std::size_t{scene.patch_count()} * sizeof(glm::vec4)) {
     patches_.clear();
-    std::vector<float> tables;
-    for (const auto& profile : ies_) {
-        append_table(*profile, tables);
-    }
-    if (!tables.empty()) {
-        check_storage("ies profiles", tables.size() * sizeof(float));
-        profiles_ = Buffer::from<float>("ies profiles", tables);
-    }
+    upload_profiles();
     if (scene.many_lamps()) {
         many_ = std::make_unique<ManyLamps>(scene);
     } else {
@@ -85,6 +78,30 @@ FirstShot::FirstShot(const GpuScene& scene)
 FirstShot::~FirstShot() = default;
 FirstShot::FirstShot(FirstShot&&) noexcept = default;
 
+void FirstShot::upload_profiles() {
+    std::vector<float> tables;
+    for (const auto& profile : ies_) {
+        append_table(*profile, tables);
+    }
+    if (!tables.empty()) {
+        check_storage("ies profiles", tables.size() * sizeof(float));
+        profiles_ = Buffer::from<float>("ies profiles", tables);
+    }
+}
+
+/// Those of lights that have been added, or exchanged theirs. The others keep their numbers.
+void FirstShot::add_profiles() {
+    const std::size_t known = ies_.size();
+    for (const auto& profile : profiles_of(scene_.punctual_lights())) {
+        if (std::find(ies_.begin(), ies_.end(), profile) == ies_.end()) {
+            ies_.push_back(profile);
+        }
+    }
+    if (ies_.size() > known) {
+        upload_profiles();
+    }
+}
+
 void FirstShot::remember(const FirstShot& other) {
     if (remembered_.bytes() == 0) {
         remembered_ = Buffer("first shot before", patches_.bytes());
@@ -101,6 +118,7 @@ void FirstShot::remember_darkness() {
 }
 
 void FirstShot::update(bool radiance_follows, std::span<const std::uint32_t> reflecting) {
+    add_profiles();
     if (many_) {
         bind();
         many_->update(lights_, ies_, radiance_follows);
@@ -160,10 +178,13 @@ void FirstShot::begin_lights() {
         return;
     }
     begun_ = begun_lights_ = true;
+    add_profiles();
     bind();
     const Lights now = maps_->placed(ies_);
     for (std::size_t k = 0; k < known_.size(); ++k) {
-        const bool same = same_place(known_[k], now[k]) && known_[k].intensity == now[k].intensity;
+        const bool same = same_place(known_[k], now[k]) &&
+                          known_[k].intensity == now[k].intensity &&
+                          known_[k].profile == now[k].profile;
         same ? touch_nothing(known_[k]) : touch_all(known_[k]);
     }
     reach_ = touched_share(known_) > most_touched ? Reach::everything : Reach::lamps;

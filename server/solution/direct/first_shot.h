@@ -76,6 +76,8 @@ class FirstShot {
                unsigned most_lights, bool ends) const;
     void shoot_patches(unsigned pass, bool ends);
     void draw_maps(bool all, const Lights& before);
+    void upload_profiles();
+    void add_profiles();
     void touch_moves(std::span<const ObjectMove> moves);
     [[nodiscard]] bool others_stay(const Lights& now) const;
     void end_change(bool radiance_follows);

@@ -22,10 +22,17 @@ std::vector<glm::vec4> places_of(std::span<const layout::PunctualData> lights) {
     return places;
 }
 
+/// Whether one shines that was a dark one elsewhere: nothing is known of what it reaches.
+bool is_new(const layout::PunctualData& before, const layout::PunctualData& now) {
+    return before.intensity == glm::vec4(0.0F) && now.intensity != glm::vec4(0.0F) &&
+           before.map.z != PUNCTUAL_DIRECTIONAL && before.position != now.position;
+}
+
 bool lamps_differ(const layout::PunctualData& a, const layout::PunctualData& b) {
     const bool directional = a.map.z == PUNCTUAL_DIRECTIONAL;  // placed by the scene's bounds
     return (!directional && a.position != b.position) || a.axis_x != b.axis_x ||
-           a.axis_y != b.axis_y || a.axis_z != b.axis_z || a.intensity != b.intensity;
+           a.axis_y != b.axis_y || a.axis_z != b.axis_z || a.intensity != b.intensity ||
+           a.profile != b.profile;
 }
 
 }  // namespace
@@ -84,16 +91,19 @@ void ManyLamps::update(Buffer& lights, const IesProfiles& profiles, bool radianc
     const std::vector<layout::PunctualData> now = placed_lights(scene_, profiles);
     const bool first = known_.empty();
     const bool moved = scene_.moved_objects().x != NO_PATCH;
+    bool added = false;
     changed_.clear();
     for (std::uint32_t k = 0; k < known_.size(); ++k) {
         if (lamps_differ(known_[k], now[k])) {
             changed_.push_back(k);
+            added = added || is_new(known_[k], now[k]);
         }
     }
     ++version_;
     places_before_ = std::move(places_);
     places_ = places_of(now);
-    const bool anew = first || changed_.size() > most_changed || unit_ != scene_.radiance_unit();
+    const bool anew =
+        first || added || changed_.size() > most_changed || unit_ != scene_.radiance_unit();
     unit_ = scene_.radiance_unit();
     all_changed_ = anew || moved;
     if (!anew && !moved && changed_.empty() && !scene_.reflectance().any_glossy()) {

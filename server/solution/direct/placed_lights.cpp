@@ -41,7 +41,7 @@ std::vector<layout::PunctualData> placed_lights(const GpuScene& scene,
         data.axis_x = glm::vec4(glm::vec3(placed.axes[0]), light.inner_cosine);
         data.axis_y = glm::vec4(glm::vec3(placed.axes[1]), light.outer_cosine);
         data.axis_z = glm::vec4(glm::vec3(placed.axes[2]), 0.0F);
-        data.intensity = glm::vec4(light.intensity / scene.radiance_unit(), 0.0F);
+        data.intensity = glm::vec4(glm::vec3(placed.intensity) / scene.radiance_unit(), 0.0F);
         data.map = {0U, 0U, static_cast<unsigned>(light.kind), 0U};
         data.profile = {light.profile ? number.at(light.profile.get()) : NO_PROFILE,
                         light.of_sky ? 1U : 0U, 0U, 0U};

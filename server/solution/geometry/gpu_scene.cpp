@@ -75,7 +75,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       has_sky_(raybundle::has_sky(scene)),
       sky_(sky_of(scene)),
       sky_before_(sky_),
-      punctual_lights_(without_discs(scene.punctual_lights)),
+      light_slots_(scene),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),
@@ -198,11 +198,10 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     define_if(any_material([](const Material& m) { return m.normal_texture.texture >= 0; }),
               "NORMAL_MAPS");
     define_if(any_material([](const Material& m) { return m.unlit; }), "UNLIT");
-    define_if(!scene.punctual_lights.empty(), "FIRST_SHOT");
+    define_if(!punctual_lights().empty(), "FIRST_SHOT");
     define_if(many_lamps(), "MANY_LAMPS");
-    define_if(std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
-                          [](const PunctualLight& light) { return light.profile != nullptr; }),
-              "IES");
+    has_profiles_ = light_slots_.any_slots() || any_profile(punctual_lights());
+    define_if(has_profiles_, "IES");
     define_if(sky_.environment != nullptr, "ENVIRONMENT");
     thin_walls_ = has_thin_walls(scene, mesh);
     constant_radiance_ = constant_radiance_ && !reflectance_.any_glossy() && !medium_;
@@ -224,7 +223,7 @@ void GpuScene::choose_defines(const Scene& scene, const PatchMesh& mesh) {
     const auto dark = [](const glm::vec3& emission) { return emission == glm::vec3(0.0F); };
     mirror_or_glass_ = has_mirror_or_glass(scene);
     mirrors_shine_ = trace_caustics_ && mirror_or_glass_ &&
-                     (has_sky_ || !scene.punctual_lights.empty() ||
+                     (has_sky_ || !punctual_lights().empty() ||
                       !std::all_of(mesh.emission.begin(), mesh.emission.end(), dark));
     caustics_ = mirrors_shine_ || medium_.has_value();
     define_if(caustics_, "CAUSTICS");

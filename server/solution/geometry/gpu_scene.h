@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "solution/geometry/facet_boxes.h"
 #include "solution/geometry/facet_raster.h"
+#include "solution/geometry/light_slots.h"
 #include "solution/geometry/patch_members.h"
 #include "solution/geometry/reflectance_tables.h"
 #include "solution/specular/specular_rays.h"
@@ -132,15 +133,15 @@ class GpuScene {
     [[nodiscard]] glm::vec3 sky_change_towards(const glm::vec3& direction) const;
     /// Whether the last update_surfaces() has changed what lets light pass: glass, or holes.
     [[nodiscard]] bool openings_changed() const { return openings_changed_; }
-    /// The lights without extent and the sky that the scene was made with, of other intensities.
+    /// The lights without extent and the sky as they are now. Requires covers_lights().
     void update_lights(const Scene& scene);
-    /// A light with a disc is several without.
+    /// A light with a disc is several without; see LightSlots.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
-        return punctual_lights_;
+        return light_slots_.lights();
     }
     /// There are more of them than shadow maps: rays look for them, see ManyLamps.
     [[nodiscard]] bool many_lamps() const {
-        return punctual_lights_.size() > PunctualLight::most_mapped;
+        return punctual_lights().size() > PunctualLight::most_mapped;
     }
     /// Whether the shaders and buffers made for the first scene fit its lights as they are now.
     [[nodiscard]] bool covers_lights(const Scene& scene) const;
@@ -220,11 +221,12 @@ class GpuScene {
     bool trace_caustics_;
     bool constant_radiance_;
     bool has_sky_ = false;
+    bool has_profiles_ = false;  // some lights may shine by photometric files
     Sky sky_, sky_before_;
     glm::vec3 sky_factor_{1.0F};     // of what has been transferred of sky_before_
     Texture2D environment_texture_;  // only where there is one
     std::size_t environment_bytes_ = 0;
-    std::vector<PunctualLight> punctual_lights_;
+    LightSlots light_slots_;
     std::vector<Bounds> object_bounds_;         // object space
     std::vector<glm::mat4> world_from_object_;  // [place * objects + object]
     std::vector<glm::mat4> placed_;             // present ones, of what is stray as well

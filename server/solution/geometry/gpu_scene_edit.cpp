@@ -52,7 +52,7 @@ void GpuScene::update_surfaces(const Scene& scene, const PatchMesh& mesh,
 }
 
 void GpuScene::update_lights(const Scene& scene) {
-    punctual_lights_ = without_discs(scene.punctual_lights);
+    light_slots_.update(scene);
     const bool other = scene.environment != sky_.environment;
     sky_ = sky_of(scene);
     if (other) {
@@ -61,7 +61,7 @@ void GpuScene::update_lights(const Scene& scene) {
 }
 
 bool GpuScene::covers_lights(const Scene& scene) const {
-    return without_discs(scene.punctual_lights).size() == punctual_lights_.size() &&
+    return light_slots_.fit(scene) && (has_profiles_ || !any_profile(scene.punctual_lights)) &&
            raybundle::has_sky(scene) == has_sky_ &&
            (scene.environment != nullptr) == (sky_.environment != nullptr);
 }
@@ -116,10 +116,14 @@ void GpuScene::move_objects(std::span<const ObjectMove> moves) {
 }
 
 PlacedLight GpuScene::placed_light(std::size_t light) const {
-    const PunctualLight& punctual = punctual_lights_[light];
-    return place_light(punctual, punctual.object == PunctualLight::no_object
-                                     ? glm::translate(glm::mat4(1.0F), -origin_)
-                                     : placed_[static_cast<std::size_t>(punctual.object)]);
+    const PunctualLight& punctual = punctual_lights()[light];
+    if (punctual.object == PunctualLight::no_object) {
+        return place_light(punctual, glm::translate(glm::mat4(1.0F), -origin_));
+    }
+    const glm::mat4& carrier = placed_[static_cast<std::size_t>(punctual.object)];
+    PlacedLight placed = place_light(punctual, carrier);
+    placed.intensity *= glm::mat3(carrier) == glm::mat3(0.0F) ? 0.0 : 1.0;  // it has been removed
+    return placed;
 }
 
 std::vector<Bounds> GpuScene::moved_bounds() const {

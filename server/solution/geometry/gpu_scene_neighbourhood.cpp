@@ -20,10 +20,11 @@ float volume(const glm::mat4& matrix) {
 /// What has to be known of the objects to tell when they have left the neighbourhood.
 void GpuScene::find_pieces(const Scene& scene, const PatchMesh& mesh) {
     object_pieces_.resize(object_count_);
+    const glm::mat4 shift = glm::translate(glm::mat4(1.0F), -origin_);
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
         const glm::uvec3& t = mesh.triangles[i];
         const std::uint32_t object = mesh.vertex_object[t.x];
-        const glm::mat3 world(placed_[object]);
+        const glm::mat3 world(scene.objects[object].placement());
         const float area =
             0.5F * glm::length(glm::cross(world * (mesh.positions[t.y] - mesh.positions[t.x]),
                                           world * (mesh.positions[t.z] - mesh.positions[t.x])));
@@ -32,8 +33,9 @@ void GpuScene::find_pieces(const Scene& scene, const PatchMesh& mesh) {
             area * luminance(scene.materials[mesh.triangle_material[i]].emission);
     }
     for (std::uint32_t i = 0; i < object_count_; ++i) {
-        first_volume_.push_back(volume(placed_[i]));
-        object_pieces_[i] = piece_at(i, placed_[i]);
+        const glm::mat4 place = shift * scene.objects[i].placement();  // removed ones may come back
+        first_volume_.push_back(volume(place));
+        object_pieces_[i] = piece_at(i, place);
     }
     neighbourhood_ = find_neighbourhood(object_pieces_);
 }

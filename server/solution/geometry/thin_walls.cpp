@@ -18,7 +18,7 @@ constexpr float sliver_share = 2.5e-3F;  // of the scene's diameter
 std::vector<glm::vec3> world_positions(const Scene& scene, const PatchMesh& mesh) {
     std::vector<glm::mat4> matrices;
     for (const Object& object : scene.objects) {
-        matrices.push_back(object.world_from_object());
+        matrices.push_back(object.placement());  // of what has been removed, too: it may come back
     }
     std::vector<glm::vec3> result;
     result.reserve(mesh.positions.size());

@@ -117,7 +117,8 @@ class RadianceStore {
     }
 
     /// Copies the solution of a store for the same patches, with what is left of its last change;
-    /// glossy parts stay as they are.
+    /// glossy parts stay as they are. This store may have patches of more objects, see
+    /// scene/mesh/mesh_growth.h: these stay as they are.
     void adopt(const RadianceStore& other) const;
     /// What is served is from now on kept as it is, apart from what iterations bring: both means
     /// estimate the same light, so that what was kept can be judged (zones/kept_light.h).

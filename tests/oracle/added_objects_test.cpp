@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects that are removed and copied while the solution is there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../reference/lit_room.h"
+#include "changed_room.h"
+#include "growing_room.h"
+
+namespace raybundle {
+namespace {
+
+constexpr std::uint32_t box = 1;  // object
+constexpr std::uint64_t iterations = 512;
+
+class AddedObjects : public testing::TestWithParam<bool> {
+  protected:
+    AddedObjects() : room(room_to_furnish(GetParam())) {}
+
+    GrowingRoom room;
+};
+
+TEST_P(AddedObjects, ThatAreRemovedAndComeBackEndWhereAFreshSolveDoes) {
+    room.iterate(200);
+    room.remove_object(box);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "removed");
+    room.remove_object(box, false);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "there again");
+}
+
+TEST_P(AddedObjects, ACopyEndsWhereAFreshSolveOfTheSceneWithItDoes) {
+    room.iterate(iterations);
+    const auto before = room.light();
+    const std::size_t fronts = room.b.mesh.front_patch_count();
+    const std::uint32_t copy = room.grow(box, {2.5F, 0.0F, 0.5F});
+    const auto grown = room.light();
+    ASSERT_GT(grown.size(), before.size());
+    for (std::size_t i = 0; i < fronts; ++i) {
+        ASSERT_NEAR(grown[i].g, before[i].g, 1e-4F * before[i].g + 1e-6F) << i;
+    }
+    room.remove_object(copy, false);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "with a copy");
+    room.remove_object(copy);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "without it again");
+    const auto [level, difference] = compared(room.light(), before);
+    EXPECT_NEAR(level, 1.0, 0.012);
+    EXPECT_LT(difference, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, AddedObjects, testing::Bool(),
+                         [](const auto& room) { return room.param ? "Open" : "Closed"; });
+
+/// Of the only lamp of a closed room nothing is left, and it comes back as bright as it was.
+TEST(RemovedObjects, TakeTheirLightAlong) {
+    SceneBuilder b;
+    const auto wall = b.add_material(glm::vec3(0.6F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_box({0, 0, 0}, {5, 3, 4}, true, 5, wall);
+    b.add_object("lamp");
+    b.add_box({2.0F, 2.5F, 1.5F}, {2.6F, 2.7F, 2.1F}, false, 2, lamp);
+    GrowingRoom room(std::move(b));
+    room.iterate(iterations);
+    const auto before = room.light();
+    room.remove_object(1);
+    room.iterate(iterations);
+    const auto dark = room.light();
+    const auto [rest, apart] = compared(dark, before);
+    EXPECT_LT(rest, 0.02);
+    room.remove_object(1, false);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "the lamp is there again");
+}
+
+/// A lamp without extent goes and comes with what carries it.
+TEST(RemovedObjects, TakeTheLightsThatTheyCarryAlong) {
+    SceneBuilder b = room_to_furnish(false);
+    add_punctual_light(b, glm::mat4(1.0F), PunctualKind::point, {1.5F, 1.4F, 1.9F}, {0, -1, 0},
+                       glm::vec3(40.0F));
+    b.scene.punctual_lights.back().object = static_cast<int>(box);
+    GrowingRoom room(std::move(b));
+    room.iterate(200);
+    room.remove_object(box);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "the box and its lamp removed");
+    room.remove_object(box, false);
+    room.iterate(iterations);
+    room.expect_fresh(iterations, "both there again");
+}
+
+/// Patches of several triangles, two-sided ones, and facets keep what they are in a copy.
+TEST(GrownMesh, HasThePatchesOfWhatItIsACopyOf) {
+    SceneBuilder b;
+    Material sheet;
+    sheet.double_sided = true;
+    sheet.specular = 0.0F;
+    const auto both = b.add_material(sheet);
+    const auto wall = b.add_material(glm::vec3(0.5F));
+    b.add_quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}, 4, 4, both);
+    b.add_object("thing");
+    b.add_box({1, 0, 1}, {2, 1, 2}, false, 2, wall);
+    b.add_quad({1, 2, 1}, {0, 0, 1}, {1, 0, 0}, 2, 2, both);
+    b.join(4);
+    Scene scene = b.scene;
+    PatchMesh mesh = b.mesh;
+    const PatchMesh thing = part_of(mesh, 1);
+    AddedObject added;
+    added.copy_of = 2;
+    added.name = "another";
+    add_object(scene, mesh, added);
+    const PatchMesh copy = part_of(mesh, 2);
+    EXPECT_EQ(scene.objects[2].name, "another");
+    EXPECT_TRUE(scene.objects[2].removed);
+    EXPECT_EQ(copy.triangle_count(), thing.triangle_count());
+    EXPECT_EQ(copy.side_count(), thing.side_count());
+    EXPECT_EQ(copy.patch_count(), thing.patch_count());
+    EXPECT_EQ(copy.front_patch_count(), thing.front_patch_count());
+    EXPECT_EQ(copy.facets.size(), thing.facets.size());
+    EXPECT_EQ(mesh.patch_count(), b.mesh.patch_count() + thing.patch_count());
+    for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
+        const std::uint32_t triangle = mesh.side_triangle[side];
+        EXPECT_TRUE(side == triangle || mesh.back_side[triangle] == side);
+    }
+    for (std::uint32_t patch = 0; patch < b.mesh.front_patch_count(); ++patch) {
+        EXPECT_EQ(mesh.triangle_of(patch), b.mesh.triangle_of(patch));
+    }
+    for (std::uint32_t patch = 0; patch < thing.patch_count(); ++patch) {
+        EXPECT_EQ(copy.sides_of(patch).size(), thing.sides_of(patch).size());
+    }
+    take_back(scene, mark_growth(b.scene));
+    EXPECT_EQ(scene.objects.size(), b.scene.objects.size());
+}
+
+}  // namespace
+}  // namespace raybundle
