@@ -13,10 +13,11 @@ namespace raybundle {
 namespace {
 
 // Below it nothing can be moved (protocol/README.md): what an animation scales to nothing.
-constexpr float min_scale = 1e-6F;
+constexpr float least_animated_scale = 1e-6F;
 
 float with_size(float scale) {
-    return std::abs(scale) < min_scale ? std::copysign(min_scale, scale) : scale;
+    return std::abs(scale) < least_animated_scale ? std::copysign(least_animated_scale, scale)
+                                                  : scale;
 }
 
 /// A unit vector across another one.

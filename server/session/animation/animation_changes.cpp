@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/animation/animation_changes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -11,10 +12,10 @@ namespace raybundle {
 namespace {
 
 // What single precision loses of a number on its way through a message.
-constexpr float rounding = 1e-6F;
+constexpr float message_rounding = 1e-6F;
 
 bool differs(float a, float b) {
-    return std::abs(a - b) > rounding * std::max({1.0F, std::abs(a), std::abs(b)});
+    return std::abs(a - b) > message_rounding * std::max({1.0F, std::abs(a), std::abs(b)});
 }
 
 bool differs(const glm::vec3& a, const glm::vec3& b) {

@@ -11,7 +11,7 @@ namespace {
 
 // What one viewer does with an animation within it is one step of undo, as of a slider that is held
 // (protocol/raybundle.proto).
-constexpr double pause_ms = 2000.0;
+constexpr double run_pause_ms = 2000.0;
 constexpr std::size_t max_stands = 1000;  // as many as ChangeRecords keeps
 
 bool shares(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
@@ -98,7 +98,7 @@ void AnimationPlayer::settle(std::size_t index) {
 void AnimationPlayer::begin_run(std::size_t index, std::uint32_t by, const std::string& by_name) {
     State& state = states_[index];
     const bool goes_on =
-        state.playing || (state.by == by && clock_.ms_since(state.touched) < pause_ms);
+        state.playing || (state.by == by && clock_.ms_since(state.touched) < run_pause_ms);
     if (!goes_on) {
         state.first_epoch = 0;
         state.moved.clear();

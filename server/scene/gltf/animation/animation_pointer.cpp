@@ -11,23 +11,23 @@ struct Pointer {
     AnimatedValue value;
 };
 
-constexpr std::string_view lights = "/extensions/KHR_lights_punctual/lights/";
-constexpr std::string_view materials = "/materials/";
-constexpr std::string_view nodes = "/nodes/";
+constexpr std::string_view lights_pointer = "/extensions/KHR_lights_punctual/lights/";
+constexpr std::string_view materials_pointer = "/materials/";
+constexpr std::string_view nodes_pointer = "/nodes/";
 
 constexpr Pointer pointers[] = {
-    {nodes, "/translation", AnimatedValue::translation},
-    {nodes, "/rotation", AnimatedValue::rotation},
-    {nodes, "/scale", AnimatedValue::scale},
-    {lights, "/intensity", AnimatedValue::intensity},
-    {lights, "/color", AnimatedValue::colour},
-    {lights, "/spot/innerConeAngle", AnimatedValue::inner_cone},
-    {lights, "/spot/outerConeAngle", AnimatedValue::outer_cone},
-    {materials, "/pbrMetallicRoughness/baseColorFactor", AnimatedValue::base_colour},
-    {materials, "/pbrMetallicRoughness/roughnessFactor", AnimatedValue::roughness},
-    {materials, "/pbrMetallicRoughness/metallicFactor", AnimatedValue::metallic},
-    {materials, "/emissiveFactor", AnimatedValue::emissive_factor},
-    {materials, "/extensions/KHR_materials_emissive_strength/emissiveStrength",
+    {nodes_pointer, "/translation", AnimatedValue::translation},
+    {nodes_pointer, "/rotation", AnimatedValue::rotation},
+    {nodes_pointer, "/scale", AnimatedValue::scale},
+    {lights_pointer, "/intensity", AnimatedValue::intensity},
+    {lights_pointer, "/color", AnimatedValue::colour},
+    {lights_pointer, "/spot/innerConeAngle", AnimatedValue::inner_cone},
+    {lights_pointer, "/spot/outerConeAngle", AnimatedValue::outer_cone},
+    {materials_pointer, "/pbrMetallicRoughness/baseColorFactor", AnimatedValue::base_colour},
+    {materials_pointer, "/pbrMetallicRoughness/roughnessFactor", AnimatedValue::roughness},
+    {materials_pointer, "/pbrMetallicRoughness/metallicFactor", AnimatedValue::metallic},
+    {materials_pointer, "/emissiveFactor", AnimatedValue::emissive_factor},
+    {materials_pointer, "/extensions/KHR_materials_emissive_strength/emissiveStrength",
      AnimatedValue::emissive_strength},
 };
 

@@ -17,10 +17,10 @@ namespace {
 
 // Derived: hours of 60 keys a second of tens of nodes; each step looks at all channels, each key
 // takes up to 52 bytes.
-constexpr std::size_t max_animations = 1000;
-constexpr std::size_t max_channels = 10'000;  // of all animations
-constexpr std::size_t max_keys = 4'000'000;   // likewise
-constexpr float max_seconds = 86400.0F;
+constexpr std::size_t most_animations = 1000;
+constexpr std::size_t most_channels = 10'000;       // of all animations
+constexpr std::size_t most_track_keys = 4'000'000;  // likewise
+constexpr float longest_track = 86400.0F;
 
 std::size_t components_of(AnimatedValue value) {
     switch (value) {
@@ -54,8 +54,8 @@ class AnimationReader {
             leave_out("animations", "must be an array", "they are left out");
         }
         for (std::size_t i = 0; i < count; ++i) {
-            if (i == max_animations) {
-                leave_out("animations", fmt::format("more than {}", max_animations),
+            if (i == most_animations) {
+                leave_out("animations", fmt::format("more than {}", most_animations),
                           "the others are left out");
                 break;
             }
@@ -98,9 +98,9 @@ class AnimationReader {
         animation.name = name_of(source, path, index);
         const Json& channels = array_of(source, path, "channels");
         channels_ += channels.size();
-        if (channels_ > max_channels) {
+        if (channels_ > most_channels) {
             document_.fail(path + ".channels",
-                           fmt::format("more than {} channels in all", max_channels));
+                           fmt::format("more than {} channels in all", most_channels));
         }
         for (std::size_t c = 0; c < channels.size(); ++c) {
             const std::string channel_path = path + "." + item_path("channels", c);
@@ -246,8 +246,9 @@ class AnimationReader {
         const std::size_t keys = item(document_.model().accessors, input).count;
         const std::size_t parts = track.interpolation == Interpolation::cubic_spline ? 3 : 1;
         keys_ += keys;
-        if (keys_ > max_keys) {
-            document_.fail(path + ".input", fmt::format("more than {} keys in all", max_keys));
+        if (keys_ > most_track_keys) {
+            document_.fail(path + ".input",
+                           fmt::format("more than {} keys in all", most_track_keys));
         }
         if (item(document_.model().accessors, output).count != keys * parts) {
             document_.fail(
@@ -284,8 +285,8 @@ class AnimationReader {
         if (times.empty() || (interpolation == Interpolation::cubic_spline && times.size() < 2)) {
             document_.fail(path, "has too few keys");
         }
-        if (!(times.front() >= 0.0F && times.back() <= max_seconds)) {
-            document_.fail(path, fmt::format("times must be 0..{} s", max_seconds));
+        if (!(times.front() >= 0.0F && times.back() <= longest_track)) {
+            document_.fail(path, fmt::format("times must be 0..{} s", longest_track));
         }
         for (std::size_t i = 1; i < times.size(); ++i) {
             if (!(times[i] > times[i - 1])) {
