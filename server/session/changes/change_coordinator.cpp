@@ -20,6 +20,9 @@ namespace raybundle {
 
 namespace {
 
+// Who sets the day again so soon after having heard of it holds its slider.
+constexpr double day_pause_ms = 2000.0;
+
 /// What is removed, or comes back, is a move to nowhere or from there.
 bool is_move(const v1::SceneChanged& change) {
     return change.has_move_object() || change.has_add_object();
@@ -83,6 +86,10 @@ HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const Clien
         }
     }
     parts_.animations.note_request(event, change);
+    if (change.has_set_daylight()) {
+        day_held_ =
+            day_by_ == event.viewer && parts_.policy.clock().ms_since(day_told_) < day_pause_ms;
+    }
     queue_.add(event);
     return HandlerResult::answered;
 }
@@ -158,10 +165,19 @@ bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
     return true;
 }
 
+/// Whether somebody holds the slider of the day, or an animation plays: all is redrawn at every
+/// step, which takes its time.
+bool ChangeCoordinator::goes_on(const std::vector<PendingChange>& pending) const {
+    return std::any_of(pending.begin(), pending.end(), [this](const PendingChange& p) {
+        return p.change.has_animation() || (p.change.has_set_daylight() && day_held_);
+    });
+}
+
 /// Keeps of `pending` what could be saved.
 bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     ChangedMaterials changed(parts_.scene.scene(), pending);
     const std::vector<float> cones = cones_of(parts_.scene.scene());
+    const bool held = goes_on(pending);
     queue_.put_back(recorder_.record(pending));
     if (pending.empty()) {
         return false;
@@ -175,7 +191,10 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
             [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });
     if (covered) {
         gather_all();
-        begin_phase(live.solver(), false);
+        begin_phase(live.solver(), held);
+        if (held) {
+            shrink_for_drag();
+        }
         live.solver().change_surfaces(live.scene(), live.mesh(), changed.all(),
                                       changed.reflecting(), parts_.receivers.list());
     } else {
@@ -264,7 +283,8 @@ void ChangeCoordinator::begin_phase(Solver& solver, bool dragged) {
     parts_.metrics.count_phase();
 }
 
-/// While an object is dragged, phases gather light in fewer pixels if they take too long.
+/// While an object is dragged, the day goes on or an animation plays, phases gather light in fewer
+/// pixels if they take too long.
 void ChangeCoordinator::shrink_for_drag() {
     const TimePoint now = parts_.policy.clock().now();
     for (const auto& [id, session] : parts_.viewers) {
@@ -276,6 +296,10 @@ void ChangeCoordinator::shrink_for_drag() {
 
 void ChangeCoordinator::announce(const PendingChange& pending) {
     parts_.scene.note_change();
+    if (pending.change.has_set_daylight()) {
+        day_by_ = pending.change.by();
+        day_told_ = parts_.policy.clock().now();
+    }
     v1::ServerMessage message;
     *message.mutable_scene_changed() = announced(parts_.scene.scene(), pending.change);
     for (const ClientEvent& request : pending.requests) {

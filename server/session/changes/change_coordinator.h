@@ -67,6 +67,7 @@ class ChangeCoordinator {
     bool start_moves(std::vector<PendingChange>& pending);
     bool start_growth(std::vector<PendingChange>& changes);
     std::unique_ptr<Solver> plan_anew(std::unique_ptr<ViewPrograms>& programs);
+    [[nodiscard]] bool goes_on(const std::vector<PendingChange>& pending) const;
     bool start_surfaces(std::vector<PendingChange>& pending);
     void undim_sky(std::vector<PendingChange>& pending) const;
     void start_several(const PendingChange& pending);
@@ -81,6 +82,9 @@ class ChangeCoordinator {
     ChangeQueue queue_;
     ChangeRecorder recorder_;
     std::uint64_t replans_ = 0;
+    std::uint32_t day_by_ = 0;  // viewer that has set the daylight last
+    TimePoint day_told_;        // when all heard of it
+    bool day_held_ = false;     // the daylight that waits goes on with that
 };
 
 }  // namespace raybundle
