@@ -82,6 +82,8 @@ describe('animations', () => {
         await page.evaluate(() => window.raybundle.ask({playAnimation: {animation: 'door', playing: false, seconds: 2}}));
         await page.waitForFunction(() => document.querySelector('#changes li')?.textContent.includes('played door to 2.00'));
         assert.equal(await page.locator('#changes li').count(), 1);
+        await page.click('#panel-toggle');
+        await page.locator('#animations').scrollIntoViewIfNeeded();
         await keepScreenshot(page, 'animations_phone');
         assert.deepEqual(faults, []);
         const viewer = await openPage((/** @type {any} */ request, /** @type {any} */ send) =>
