@@ -15,8 +15,8 @@ import {automaticExposure, readDisplay} from '../walkthrough/off_screen.js';
 const EXPOSURE_MS = 200;
 /** How soon it follows, seconds. */
 const ADAPTATION_S = 0.25;
-/** Size of what brightness is compared in, pixels. */
-const COMPARED = {width: 64, height: 48};
+/** Height of what brightness is compared in, pixels; its shape is that of the picture. */
+const COMPARED_HEIGHT = 48;
 /** Display codes go about as this power of light. */
 const DISPLAY_GAMMA = 2.2;
 /** The drawing is matched to a picture so often, and by so much, EV: what differs more is not its exposure. */
@@ -54,7 +54,7 @@ export class DrawnExposure {
     #wanted = 0;
     #found = -Infinity;
     #last = 0;
-    #small = new OffscreenCanvas(COMPARED.width, COMPARED.height).getContext('2d', {alpha: false, willReadFrequently: true});
+    #small = new OffscreenCanvas(1, 1).getContext('2d', {alpha: false, willReadFrequently: true});
 
     /**
      * The server's picture has come.
@@ -75,11 +75,13 @@ export class DrawnExposure {
             return;
         }
         this.#beyond = header.exposure - (automaticExposure(renderer, view, aspect) ?? header.exposure);
+        const size = {width: Math.max(Math.round(COMPARED_HEIGHT * aspect), 1), height: COMPARED_HEIGHT};
+        Object.assign(this.#small.canvas, size);
         this.#small.imageSmoothingQuality = 'high';
-        this.#small.drawImage(picture, 0, 0, COMPARED.width, COMPARED.height);
-        const aim = mean(this.#small.getImageData(0, 0, COMPARED.width, COMPARED.height).data);
+        this.#small.drawImage(picture, 0, 0, size.width, size.height);
+        const aim = mean(this.#small.getImageData(0, 0, size.width, size.height).data);
         for (let i = 0; i < MATCHES; ++i) {
-            const own = mean(readDisplay(renderer, view, this.look, COMPARED.width, COMPARED.height));
+            const own = mean(readDisplay(renderer, view, this.look, size.width, size.height));
             const step = own > 0 && aim > 0 ? DISPLAY_GAMMA * Math.log2(aim / own) : 0;
             this.#match = Math.min(Math.max(this.#match + step, -MOST_MATCHED), MOST_MATCHED);
         }
