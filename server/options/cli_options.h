@@ -89,6 +89,15 @@ struct ConfigOptions {
     bool print = false;
 };
 
+/// Whose JSON Web Tokens open a server; see JwtSettings.
+struct JwtOptions {
+    std::string issuer, audience;
+    std::string secret_file;             ///< of HS256
+    std::vector<std::string> key_files;  ///< PEM, of RS256
+    std::string role_claim = "raybundle_role";
+    std::string name_claim = "name";
+};
+
 /// Who may connect to a server, and how.
 struct NetworkOptions {
     std::string listen = "127.0.0.1:8080";
@@ -96,6 +105,7 @@ struct NetworkOptions {
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;
     std::vector<AccessToken> tokens;  ///< from the configuration file only
+    std::optional<JwtOptions> jwt;    ///< likewise
     double max_messages_per_second = 1000.0;
     int max_connections = 256;
     int max_connections_per_address = 32;

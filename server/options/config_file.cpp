@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
@@ -21,6 +22,7 @@ constexpr std::size_t max_file_bytes = 1U << 20U;
 constexpr std::size_t max_tokens = 1000;
 constexpr const char* scene_key = "scene";
 constexpr const char* tokens_key = "tokens";
+constexpr const char* jwt_key = "jwt";
 // Not on the command line, which others can see.
 constexpr const char* redis_user_key = "redisUser";
 constexpr const char* redis_password_key = "redisPassword";
@@ -66,7 +68,8 @@ std::string suggestion(const std::string& key, const std::vector<std::string>& k
 }
 
 std::vector<std::string> known_keys() {
-    std::vector<std::string> keys{scene_key, tokens_key, redis_user_key, redis_password_key};
+    std::vector<std::string> keys{scene_key, tokens_key, jwt_key, redis_user_key,
+                                  redis_password_key};
     for (const OptionRow& option : option_table()) {
         keys.emplace_back(option.key);
     }
@@ -195,6 +198,37 @@ std::vector<AccessToken> read_tokens(const Json& value) {
     return tokens;
 }
 
+JwtOptions read_jwt(const Json& value) {
+    if (!value.is_object()) {
+        throw BadValue("must be an object with issuer, audience and secretFile or keyFiles");
+    }
+    JwtOptions jwt;
+    const std::map<std::string, std::string*> texts{{"issuer", &jwt.issuer},
+                                                    {"audience", &jwt.audience},
+                                                    {"secretFile", &jwt.secret_file},
+                                                    {"roleClaim", &jwt.role_claim},
+                                                    {"nameClaim", &jwt.name_claim}};
+    std::vector<std::string> known{"keyFiles"};
+    for (const auto& [key, target] : texts) {
+        known.push_back(key);
+    }
+    for (const auto& [key, entry] : value.items()) {
+        const auto text = texts.find(key);
+        try {
+            if (text != texts.end()) {
+                read(entry, *text->second);
+            } else if (key == "keyFiles") {
+                read(entry, jwt.key_files);
+            } else {
+                refuse_unknown(key, known);
+            }
+        } catch (const BadValue& bad) {
+            throw BadValue(key + ": " + bad.what());
+        }
+    }
+    return jwt;
+}
+
 void read_key(const std::string& key, const Json& value, Options& options) {
     if (key == scene_key) {
         read(value, options.scene.file);
@@ -202,6 +236,10 @@ void read_key(const std::string& key, const Json& value, Options& options) {
     }
     if (key == tokens_key) {
         options.network.tokens = read_tokens(value);
+        return;
+    }
+    if (key == jwt_key) {
+        options.network.jwt = read_jwt(value);
         return;
     }
     if (key == redis_user_key || key == redis_password_key) {
@@ -330,6 +368,11 @@ std::string print_config(const Options& options) {
     for (const OptionRow& option : option_table()) {
         json[option.key] =
             std::visit([&](const auto& field) { return to_json(field(options)); }, option.field);
+    }
+    if (const auto& jwt = options.network.jwt) {
+        json[jwt_key] = {{"issuer", jwt->issuer},          {"audience", jwt->audience},
+                         {"secretFile", jwt->secret_file}, {"keyFiles", jwt->key_files},
+                         {"roleClaim", jwt->role_claim},   {"nameClaim", jwt->name_claim}};
     }
     json[tokens_key] = Json::array();
     for (const AccessToken& token : options.network.tokens) {

@@ -4,6 +4,9 @@
 #include <arpa/inet.h>
 #include <spdlog/spdlog.h>
 
+#include <fstream>
+#include <memory>
+
 namespace raybundle {
 namespace {
 
@@ -15,16 +18,60 @@ bool is_loopback(const std::string& host) {
     return host == "localhost" || host == "::1" || (numeric && (ntohl(ipv4.s_addr) >> 24U) == 127U);
 }
 
+/// All of a file without the line end that editors add. Throws UsageError.
+std::string content_of(const std::string& file) {
+    constexpr std::size_t max_bytes = 65536;
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(max_bytes, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (!stream.is_open() || stream.bad()) {
+        throw UsageError("jwt: " + file + ": cannot be read");
+    }
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+/// Null where there is none. Throws UsageError.
+std::shared_ptr<const JwtVerifier> jwt_verifier(const Options& options) {
+    if (!options.network.jwt) {
+        return nullptr;
+    }
+    const JwtOptions& jwt = *options.network.jwt;
+    JwtSettings settings;
+    settings.issuer = jwt.issuer;
+    settings.audience = jwt.audience;
+    settings.role_claim = jwt.role_claim;
+    settings.name_claim = jwt.name_claim;
+    if (!jwt.secret_file.empty()) {
+        settings.secret = content_of(jwt.secret_file);
+    }
+    for (const std::string& file : jwt.key_files) {
+        settings.public_keys.push_back(content_of(file) + "\n");
+    }
+    try {
+        return std::make_shared<const JwtVerifier>(settings);
+    } catch (const std::runtime_error& error) {
+        throw UsageError(std::string("jwt: ") + error.what());
+    }
+}
+
+bool has_tokens(const Options& options) {
+    return !options.network.tokens.empty() || options.network.jwt.has_value();
+}
+
 void check_exposure(const Options& options, const std::string& host) {
     if (is_loopback(host)) {
         return;
     }
-    if (options.network.tokens.empty() && !options.network.allow_remote) {
+    if (!has_tokens(options) && !options.network.allow_remote) {
         throw UsageError("--listen " + options.network.listen +
                          " lets anyone on the network change the scene; configure tokens, or add "
                          "--allow-remote if that is meant");
     }
-    if (!options.network.tokens.empty() && options.network.tls_cert.empty()) {
+    if (has_tokens(options) && options.network.tls_cert.empty()) {
         spdlog::warn("tokens travel unencrypted to {}: use --tls-cert and --tls-key",
                      options.network.listen);
     }
@@ -56,9 +103,10 @@ ServerSettings server_settings(const Options& options) {
     settings.max_upload_s = options.serve.max_upload_seconds;
     // Without tokens, who reaches the server may do everything: on this machine a browser can be
     // made to by any page.
-    const bool no_foreign_names = options.network.tokens.empty() && is_loopback(host);
+    const bool no_foreign_names = !has_tokens(options) && is_loopback(host);
     settings.access = {AccessTokens(options.network.tokens),
-                       {options.network.allowed_origins, no_foreign_names}};
+                       {options.network.allowed_origins, no_foreign_names},
+                       jwt_verifier(options)};
     return settings;
 }
 

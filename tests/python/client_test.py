@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python client against a real server; run by run_in_environment.py."""
 import asyncio
+import base64
+import hmac
 import io
 import json
 import os
@@ -10,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 from datetime import datetime, timedelta, timezone
@@ -19,7 +22,7 @@ import numpy as np
 
 import raybundle
 from raybundle import link, recording
-from served import ROOT, Daemon
+from served import EXECUTABLE, ROOT, Daemon
 
 BOX = str(ROOT / "scenes/cornell_box.gltf")
 EXAMPLES = ROOT / "protocol/python/examples"
@@ -262,6 +265,50 @@ class Reconnecting(unittest.IsolatedAsyncioTestCase):
                 await waiting
             with self.assertRaises(raybundle.ConnectionClosed):
                 await client.wait_for(lambda: False)
+
+
+def signed_token(secret, claims):
+    """A JSON Web Token by HS256."""
+    def encode(data):
+        return base64.urlsafe_b64encode(data).rstrip(b"=")
+    text = encode(b'{"alg":"HS256"}') + b"." + encode(json.dumps(claims).encode())
+    return (text + b"." + encode(hmac.digest(secret, text, "sha256"))).decode()
+
+
+class LoginTokens(unittest.IsolatedAsyncioTestCase):
+    def config(self, **jwt):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        secret = Path(folder.name) / "secret"
+        secret.write_bytes(b"s" * 32 + b"\n")
+        file = Path(folder.name) / "config.json"
+        file.write_text(json.dumps({"jwt": {"issuer": "https://login.example", "audience": "raybundle",
+                                            "secretFile": str(secret), **jwt}}))
+        return str(file)
+
+    async def test_who_comes_by_a_token_of_the_login_service_has_its_name_and_role(self):
+        daemon = Daemon(BOX, "--config", self.config(roleClaim="roles"))
+        self.addCleanup(daemon.end)
+        claims = {"iss": "https://login.example", "aud": "raybundle", "sub": "42", "name": "Ada",
+                  "roles": ["staff", "REVIEWER"], "exp": time.time() + 3600}
+        async with await raybundle.connect(daemon.address, viewport=(64, 48), name="somebody",
+                                           token=signed_token(b"s" * 32, claims)) as client:
+            self.assertEqual((client.role, client.welcome.name), ("REVIEWER", "Ada"))
+            with self.assertRaises(raybundle.RequestRefused) as refused:
+                await client.undo(0)
+            self.assertEqual(refused.exception.code, "PERMISSION_DENIED")
+        for token in (signed_token(b"s" * 32, {**claims, "exp": time.time() - 1}), signed_token(b"t" * 32, claims), ""):
+            with self.assertRaises(raybundle.RequestRefused) as refused:
+                await raybundle.connect(daemon.address, token=token)
+            self.assertEqual(refused.exception.code, "UNAUTHENTICATED")
+
+    def test_settings_that_are_wrong_end_the_server(self):
+        for wrong, reason in (({"audience": ""}, "audience"), ({"secretFile": "/nowhere"}, "/nowhere"),
+                              ({"isuer": "a"}, "did you mean 'issuer'"), ({"keyFiles": 3}, "keyFiles: must be")):
+            done = subprocess.run([EXECUTABLE, "serve", BOX, "--config", self.config(**wrong)], capture_output=True,
+                                  text=True)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(reason, done.stderr)
 
 
 class Addresses(unittest.TestCase):

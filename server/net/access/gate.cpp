@@ -3,19 +3,44 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+
 namespace raybundle {
+
+namespace {
+
+double unix_s() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+/// Nothing for a token that opens nothing.
+std::optional<Pass> Gate::pass_for(const Access& access, std::string_view token) {
+    if (access.open()) {
+        return Pass{};
+    }
+    if (access.jwt != nullptr && looks_like_jwt(token)) {
+        const auto jwt = access.jwt->verify(token, unix_s());
+        return jwt ? std::optional(
+                         Pass{jwt->role, access.jwt->fingerprint(), jwt->name, jwt->expires_s})
+                   : std::nullopt;
+    }
+    const TokenDigest digest = token_digest(token);
+    const auto found = access.tokens.find(digest);
+    return found ? std::optional(Pass{found->role, digest, found->name}) : std::nullopt;
+}
 
 std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
     const auto current = access();
-    const Pass pass{v1::EDITOR, token_digest(hello.token()), {}};
-    const auto role = current->tokens.role_of(pass.token);
-    if (!role) {
+    const auto pass = pass_for(*current, hello.token());
+    if (!pass) {
         const std::string reason = hello.token().empty() ? "is missing" : "is not valid";
         return Denial{{v1::Error::UNAUTHENTICATED, "hello.token: " + reason, std::nullopt},
                       std::nullopt};
     }
-    const auto token = current->tokens.find(pass.token);
-    const std::string token_name = token ? token->name : "";
+    const std::string& token_name = pass->token_name;
     if (current->tokens.owns_name(hello.name()) && !same_name(hello.name(), token_name)) {
         return Denial{
             {v1::Error::PERMISSION_DENIED,
@@ -31,7 +56,7 @@ std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
                       CloseCode::try_again_later};
     }
     ++present_;
-    return Pass{*role, pass.token, token_name};
+    return *pass;
 }
 
 double Gate::note_wrong_token(const std::string& peer, std::string_view where, double now_ms) {
@@ -48,7 +73,16 @@ void Gate::leave() {
 }
 
 bool Gate::still_valid(const Pass& pass) const {
-    return access()->tokens.role_of(pass.token) == pass.role;
+    const auto current = access();
+    if (pass.expires_s) {
+        return current->jwt != nullptr && current->jwt->fingerprint() == pass.token &&
+               unix_s() < *pass.expires_s;
+    }
+    if (current->open()) {
+        return pass.role == v1::EDITOR;
+    }
+    const auto token = current->tokens.find(pass.token);
+    return token && token->role == pass.role;
 }
 
 bool Gate::opens_metrics(std::string_view authorization) const {
@@ -58,12 +92,10 @@ bool Gate::opens_metrics(std::string_view authorization) const {
 std::optional<v1::Role> Gate::role_of(std::string_view authorization) const {
     constexpr std::string_view kScheme = "Bearer ";
     const auto current = access();
-    if (current->tokens.empty()) {
-        return v1::EDITOR;
-    }
-    return authorization.starts_with(kScheme)
-               ? current->tokens.role_of(token_digest(authorization.substr(kScheme.size())))
-               : std::nullopt;
+    const bool scheme = authorization.starts_with(kScheme);
+    const auto pass =
+        pass_for(*current, scheme ? authorization.substr(kScheme.size()) : std::string_view());
+    return pass ? std::optional(pass->role) : std::nullopt;
 }
 
 std::shared_ptr<const Access> Gate::access() const {

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "net/access/access_tokens.h"
+#include "net/access/jwt.h"
 #include "net/access/wrong_tokens.h"
 #include "net/ws/upgrade_check.h"
 #include "net/ws/viewer_link.h"
@@ -21,6 +22,10 @@ namespace raybundle {
 struct Access {
     AccessTokens tokens;
     OriginRules origins;
+    std::shared_ptr<const JwtVerifier> jwt{};  ///< null: such tokens open nothing
+
+    /// Everybody may do everything.
+    [[nodiscard]] bool open() const { return tokens.empty() && jwt == nullptr; }
 };
 
 /// What a viewer got for its token.
@@ -28,6 +33,8 @@ struct Pass {
     v1::Role role = v1::EDITOR;
     TokenDigest token{};
     std::string token_name{};  ///< empty where the server has no tokens
+    /// Of a JWT: Unix time, s; `token` is its verifier's fingerprint then.
+    std::optional<double> expires_s{};
 };
 
 /// Why a viewer stays outside; `close` says whether its connection ends.
@@ -68,6 +75,8 @@ class Gate {
     [[nodiscard]] std::size_t present() const;
 
   private:
+    [[nodiscard]] static std::optional<Pass> pass_for(const Access& access, std::string_view token);
+
     const std::size_t max_viewers_;
     mutable std::mutex mutex_;
     std::shared_ptr<const Access> access_;

@@ -31,9 +31,9 @@ constexpr int kMaxGroupLights = 4096;
 constexpr float kMaxCone = 90.0F;  ///< degrees
 constexpr float kMinKelvin = 1000.0F;
 constexpr float kMaxKelvin = 25000.0F;
-constexpr std::size_t kMaxText = 500;  ///< characters of a pin
-constexpr std::size_t kMaxToken = 1024;
-constexpr float kMaxExposure = 30.0F;  ///< EV
+constexpr std::size_t kMaxText = 500;    ///< characters of a pin
+constexpr std::size_t kMaxToken = 8192;  ///< bytes; of a JWT
+constexpr float kMaxExposure = 30.0F;    ///< EV
 constexpr float kMaxSeconds = 86400.0F;
 constexpr std::uint64_t kMaxGridPoints = 1024;
 constexpr std::uint32_t kMaxDepthColumns = 512;
@@ -95,7 +95,7 @@ void check_body(const v1::Hello& hello, MessageChecker& check) {
     check.require(!hello.protocol().empty(), "hello.protocol", "is missing");
     check.require(characters(hello.name()) <= kMaxName, "hello.name",
                   "must be at most 64 characters");
-    check.require(hello.token().size() <= kMaxToken, "hello.token", "must be at most 1024 bytes");
+    check.require(hello.token().size() <= kMaxToken, "hello.token", "must be at most 8192 bytes");
     if (hello.has_viewport()) {
         check.size(hello.viewport(), true, "hello.viewport");
     }

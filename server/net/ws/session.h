@@ -40,13 +40,19 @@ class Session {
     /// Sends it.
     void release_held();
 
+    /// When its token expires, Unix time in s; nothing where it does not.
+    [[nodiscard]] std::optional<double> expires_s() const {
+        return pass_ ? pass_->expires_s : std::nullopt;
+    }
+
     /// Time for hello is over: closes if there was none.
     void on_hello_timeout();
 
     /// The connection is gone.
     void on_closed();
 
-    /// The gate has other tokens now: closes if this viewer's would not be accepted again.
+    /// The gate has other tokens now, or this one expires: closes if it would not be accepted
+    /// again.
     void check_pass();
 
     [[nodiscard]] bool has_joined() const { return pass_.has_value(); }

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "net/clock.h"
@@ -59,6 +60,7 @@ void ViewerConnection::on_receive(std::string_view bytes) {
     if (session_.held_until()) {
         set_timer();
     }
+    watch_expiry();
     if (!slice_.take(bytes.size(), last)) {
         // libwebsockets keeps what it has read; the network thread wakes itself once the others
         // have been served.
@@ -106,6 +108,19 @@ void ViewerConnection::set_timer() {
                         microseconds(std::max(due_ms - server_time_ms(), 1.0) / 1000.0));
 }
 
+/// A session ends with its token. Timers are no longer than a day.
+void ViewerConnection::watch_expiry() {
+    constexpr double day_s = 86400.0;
+    const auto expires = session_.expires_s();
+    if (!expires || expiry_timer_set_ || link_->closing()) {
+        return;
+    }
+    expiry_timer_set_ = true;
+    const double now =
+        std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    lws_set_timer_usecs(connection_, microseconds(std::clamp(*expires - now, 0.001, day_s)));
+}
+
 bool ViewerConnection::on_timer() {
     if (link_->closing()) {
         return false;
@@ -113,6 +128,10 @@ bool ViewerConnection::on_timer() {
     if (session_.held_until()) {
         session_.release_held();
         set_timer();
+    } else if (session_.has_joined()) {
+        session_.check_pass();
+        expiry_timer_set_ = false;
+        watch_expiry();
     } else {
         session_.on_hello_timeout();
     }

@@ -51,6 +51,7 @@ class ViewerConnection {
   private:
     bool write_piece();
     void set_timer();
+    void watch_expiry();
 
     lws* connection_;
     NetworkState& state_;
@@ -59,6 +60,7 @@ class ViewerConnection {
     std::optional<Outgoing> current_;  ///< being written
     std::size_t written_ = 0;          ///< payload bytes of current_
     bool close_timer_set_ = false;
+    bool expiry_timer_set_ = false;
     ReceiveSlice slice_;
     const std::string peer_;
     const double hello_deadline_ms_;
