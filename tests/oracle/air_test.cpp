@@ -238,10 +238,8 @@ TEST_P(AirAsByPathTracing, Agrees) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, AirAsByPathTracing,
-                         testing::Values(AirCase{"closed_room", closed_room, air_of(30.0), 0.03,
-                                                 0.05},
-                                         AirCase{"open_room", open_room, air_of(30.0), 0.03, 0.05},
-                                         AirCase{"outdoors", outdoors, air_of(60.0), 0.03, 0.05}),
+                         testing::Values(AirCase{"outdoors", outdoors, air_of(60.0), 0.03, 0.05,
+                                                 192, 800}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 class HeavyAirAsByPathTracing : public testing::TestWithParam<AirCase> {};
