@@ -99,12 +99,12 @@ struct ServedScene {
                 const std::shared_ptr<const SceneFolder>& folder,
                 const RenderLoopSettings& settings, Server& server)
         : log(open_change_log(journals, loaded)),
-          loop((loaded.scene.folder = folder, log.restore(loaded.scene, loaded.mesh),
-                std::move(loaded.scene)),
-               std::move(loaded.mesh), settings, server, log),
+          restored((loaded.scene.folder = folder, log.restore(loaded.scene, loaded.mesh), true)),
+          loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log),
           metrics(server, loop, log) {}
 
     ChangeLog log;
+    bool restored;  // before anything is moved from
     RenderLoop loop;
     MetricsSource metrics;
 };

@@ -216,6 +216,18 @@ TEST_F(Additions, ObjectsAreRemovedCopiedAndTakenFromTheFolder) {
     EXPECT_EQ(objects_now(), before) << daemon_->output();
     JsonViewer again(daemon_->port());
     again.join(editor_token);
+    // It stands in the way of rays, too.
+    const Json& box_of_twin = before.at(before.size() - 2).at("bounds");
+    const Json hit =
+        again.request({{"probe",
+                        {{"ray",
+                          {{"origin", vec(0.5 * (box_of_twin["min"]["x"].get<double>() +
+                                                 box_of_twin["max"]["x"].get<double>()),
+                                          5.4,
+                                          0.5 * (box_of_twin["min"]["z"].get<double>() +
+                                                 box_of_twin["max"]["z"].get<double>()))},
+                           {"direction", vec(0, -1, 0)}}}}}});
+    EXPECT_EQ(hit.at("probeResult").at("object"), number) << hit;
     EXPECT_TRUE(again.request({{"undo", {{"epoch", 0}}}}).contains("ok"));
     EXPECT_EQ(ids(objects_now()), ids(first));
 }

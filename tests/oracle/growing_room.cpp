@@ -154,10 +154,12 @@ void GrowingRoom::expect_fresh(std::uint64_t iterations, const char* what) {
     GrowingRoom fresh(b, 77);
     fresh.iterate(iterations);
     const auto [level, difference] = compared(light(), fresh.light());
-    EXPECT_NEAR(level, 1.0, 0.012) << what;
+    // Over seeds the levels of two such solves differ with a standard deviation of 0.7 %, those of
+    // their pictures of 1 %: three of them.
+    EXPECT_NEAR(level, 1.0, 0.021) << what;
     EXPECT_LT(difference, 0.05) << what;
     const auto [shown, apart] = compared(image->read_radiance(), fresh.image->read_radiance());
-    EXPECT_NEAR(shown, 1.0, 0.015) << what;
+    EXPECT_NEAR(shown, 1.0, 0.03) << what;
     EXPECT_LT(apart, 0.08) << what;
 }
 
