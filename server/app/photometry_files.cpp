@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <algorithm>
 
 #include <filesystem>
 #include <fstream>
@@ -24,10 +25,14 @@ OrderedJson entry_of(const SceneFolder& folder, const std::string& name) {
     try {
         const auto profile = folder.photometry(name);
         const IesProfile::Data& data = profile->data();
-        const glm::dvec3& size = data.luminous_size;
+        const IesProfile::Opening& opening = data.opening;
+        const auto [shorter, longer] = std::minmax(opening.width, opening.length);
         entry["flux"] = profile->flux();
         entry["power"] = data.input_watts;
-        entry["size"] = {{"length", size.x}, {"width", size.y}, {"height", size.z}};
+        entry["size"] = {
+            {"length", longer},
+            {"width", opening.round ? 0.0 : shorter},
+            {"height", *std::max_element(opening.heights.begin(), opening.heights.end())}};
         entry["problems"] = data.notes;
     } catch (const SceneError& error) {
         entry["problems"] = {error.json_path().empty() ? error.reason()

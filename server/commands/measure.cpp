@@ -6,32 +6,23 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/progress.h"
 #include "app/stopwatch.h"
 #include "commands/command.h"
+#include "commands/measure_task.h"
 #include "measure/daylight_scene.h"
+#include "measure/glare/ugr_measurement.h"
+#include "measure/make_measurement.h"
 #include "measure/requirement.h"
 #include "measure/work_plane.h"
 
 namespace raybundle {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double usual_error = 0.05;
 constexpr double usual_seconds = 60.0;
-
-/// What the options ask for.
-struct Task {
-    MeasurementSettings settings;
-    std::vector<CalculationPoint> points;
-    GridSize grid;         ///< 0 x 0: single points
-    double spacing = 0.0;  ///< m, largest that EN 12464-1 allows, where that chose the grid
-    std::optional<Requirement> requirement;
-};
 
 double parse_number(const std::string& option, const std::string& text) {
     double value = 0.0;
@@ -43,9 +34,13 @@ double parse_number(const std::string& option, const std::string& text) {
     return value;
 }
 
-Requirement parse_requirement(const std::string& text) {
+Requirement parse_requirement(const std::string& text, Quantity quantity) {
     const std::size_t slash = text.find('/');
     Requirement requirement;
+    if (is_glare(quantity)) {
+        requirement.most = parse_number("--require", text);
+        return requirement;
+    }
     requirement.mean = parse_number("--require", text.substr(0, slash));
     if (slash != std::string::npos) {
         requirement.uniformity = parse_number("--require", text.substr(slash + 1));
@@ -78,12 +73,13 @@ MeasuredArea area_of(const MeasureOptions& options) {
 
 glm::dvec3 direction_of(const MeasureOptions& options, Quantity quantity) {
     const bool wanted = quantity == Quantity::vertical || quantity == Quantity::normal ||
-                        quantity == Quantity::semicylindrical;
+                        quantity == Quantity::semicylindrical ||
+                        (is_glare(quantity) && options.directions == 0);
     if (options.direction.empty() && wanted) {
         throw UsageError(std::string("--direction: ") + name_of(quantity) + " needs one");
     }
-    if (!wanted) {
-        return glm::dvec3(0.0, 1.0, 0.0);
+    if (!wanted && options.direction.empty()) {
+        return is_glare(quantity) ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
     }
     const glm::dvec3 direction = parse_vector("--direction", options.direction);
     const double across = quantity == Quantity::normal
@@ -95,68 +91,120 @@ glm::dvec3 direction_of(const MeasureOptions& options, Quantity quantity) {
     return direction;
 }
 
-void place_points(const MeasureOptions& options, Task& task) {
-    const glm::dvec3 direction = direction_of(options, task.settings.quantity);
-    if (options.plane.empty() == options.points.empty()) {
-        throw UsageError("measure: needs either --plane or --point");
+GridSize grid_of(const std::string& text) {
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const auto part = [](const std::string& digits) {
+        return static_cast<std::uint32_t>(parse_number("--grid", digits));
+    };
+    const GridSize grid = {part(text.substr(0, cross)),
+                           part(text.substr(std::min(cross + 1, text.size())))};
+    if (grid.points() < 1) {
+        throw UsageError("--grid: has no points");
     }
-    for (const std::string& point : options.points) {
-        task.points.push_back({parse_vector("--point", point), direction});
+    return grid;
+}
+
+std::vector<glm::dvec3> place_on_plane(const MeasureOptions& options, std::size_t most,
+                                       MeasureTask& task) {
+    const MeasuredArea area = area_of(options);
+    if (options.grid == "EN12464") {
+        task.grid = en12464_grid(area);
+        task.spacing = en12464_spacing(glm::length(area.u), glm::length(area.v));
+    } else {
+        task.grid = grid_of(options.grid);
+    }
+    task.spacing_grid = task.grid;
+    if (task.grid.points() > most) {
+        throw UsageError(fmt::format("measure: the grid has {} x {} points, not 1 to {}",
+                                     task.grid.columns, task.grid.rows, most));
+    }
+    return points_of(area, task.grid);
+}
+
+std::vector<glm::dvec3> place_in_outline(const MeasureOptions& options, std::size_t most,
+                                         MeasureTask& task) {
+    ZoneShape shape;
+    for (const std::string& corner : options.outline) {
+        shape.outline.push_back(parse_vector("--outline", corner));
     }
     if (!options.plane.empty()) {
-        const MeasuredArea area = area_of(options);
-        if (options.grid == "EN12464") {
-            task.grid = en12464_grid(area);
-            task.spacing = en12464_spacing(glm::length(area.u), glm::length(area.v));
-        } else {
-            const std::size_t cross = std::min(options.grid.find('x'), options.grid.size());
-            const auto part = [&](const std::string& text) {
-                return static_cast<std::uint32_t>(parse_number("--grid", text));
-            };
-            task.grid = {part(options.grid.substr(0, cross)),
-                         part(options.grid.substr(std::min(cross + 1, options.grid.size())))};
-        }
-        if (task.grid.points() >= 1 && task.grid.points() <= PointMeasurement::most_points) {
-            for (const glm::dvec3& position : points_of(area, task.grid)) {
-                task.points.push_back({position, direction});
-            }
-        }
+        shape.outline = outline_of(area_of(options));
     }
-    if (task.points.empty() || task.points.size() > PointMeasurement::most_points) {
-        throw UsageError(fmt::format("measure: the grid has {} x {} points, not 1 to {}",
-                                     task.grid.columns, task.grid.rows,
-                                     PointMeasurement::most_points));
+    shape.margin = options.margin;
+    shape.surrounding = options.surrounding;
+    if (!is_polygon(shape.outline)) {
+        throw UsageError("--outline: needs three corners or more, with an area");
+    }
+    const bool standard = options.grid == "EN12464";
+    ZoneGrid zone = lay_grid(shape, standard ? GridSize() : grid_of(options.grid), most);
+    if (zone.points.empty()) {
+        throw UsageError(
+            fmt::format("measure: of the grid's {} x {} points none, or more than {}, "
+                        "belong to the outline",
+                        zone.grid.columns, zone.grid.rows, most));
+    }
+    task.spacing = zone.spacing;
+    task.spacing_grid = zone.grid;
+    return std::move(zone.points);
+}
+
+void place_points(const MeasureOptions& options, MeasureTask& task) {
+    const std::size_t most = most_points(task.settings.quantity);
+    const glm::dvec3 direction = direction_of(options, task.settings.quantity);
+    if (options.directions > 0 && is_glare(task.settings.quantity)) {
+        task.settings.views = views_all_round(options.directions, direction);
+    }
+    const int ways = (options.plane.empty() ? 0 : 1) + (options.points.empty() ? 0 : 1) +
+                     (options.outline.empty() ? 0 : 1);
+    if (ways != 1) {
+        throw UsageError("measure: needs either --plane, --outline or --point");
+    }
+    std::vector<glm::dvec3> places;
+    for (const std::string& point : options.points) {
+        places.push_back(parse_vector("--point", point));
+    }
+    if (options.points.empty()) {
+        const bool polygon = !options.outline.empty() || options.surrounding > 0.0;
+        places = (polygon ? place_in_outline : place_on_plane)(options, most, task);
+    }
+    if (places.size() > most) {
+        throw UsageError(fmt::format("measure: has {} points, not 1 to {}", places.size(), most));
+    }
+    for (const glm::dvec3& place : places) {
+        task.points.push_back({place, direction});
     }
 }
 
-Task task_of(const Options& options) {
-    Task task;
+MeasureTask task_of(const Options& options) {
+    MeasureTask task;
     const auto quantity = quantity_named(options.measure.quantity);
     if (!quantity) {
         throw UsageError("--quantity: '" + options.measure.quantity +
                          "' is none of HORIZONTAL, VERTICAL, NORMAL, CYLINDRICAL, "
-                         "SEMICYLINDRICAL, DAYLIGHT_FACTOR");
+                         "SEMICYLINDRICAL, DAYLIGHT_FACTOR, UGR, DGP");
     }
     task.settings.quantity = *quantity;
     task.settings.direct = options.measure.direct;
+    task.settings.small_sources = options.measure.small_sources;
     task.settings.seed = options.scene.seed;
     task.settings.factor = options.measure.maintenance.value_or(1.0);
+    task.maintained = options.measure.maintained;
     if (*quantity == Quantity::daylight_factor) {
         task.settings.factor *= 100.0 / overcast_illuminance;
     }
     if (!options.measure.require.empty()) {
-        task.requirement = parse_requirement(options.measure.require);
+        task.requirement = parse_requirement(options.measure.require, *quantity);
     }
     place_points(options.measure, task);
     return task;
 }
 
-bool decided(const Task& task, const PointMeasurement& points) {
-    return !task.requirement || judge(*task.requirement, points.summary()) != Verdict::unknown;
+bool decided(const MeasureTask& task, const Measurement& points) {
+    return verdict_of(task.checks(points)) != Verdict::unknown;
 }
 
 /// Goes on until the error is met and what is required is known, or time is over. Returns seconds.
-double gather(const Options& options, const Task& task, PointMeasurement& points) {
+double gather(const Options& options, const MeasureTask& task, Measurement& points) {
     constexpr std::uint64_t looks = 8;  // at the error, each time there are an eighth more samples
     const double wanted = options.stop.error.value_or(usual_error);
     const double most_seconds = options.stop.seconds.value_or(usual_seconds);
@@ -185,123 +233,30 @@ double gather(const Options& options, const Task& task, PointMeasurement& points
     return seconds;
 }
 
-Json json_of(const Interval& interval) {
-    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
-}
-
-Json json_of(const glm::dvec3& v) {
-    return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
-}
-
-void print_json(const Task& task, const PointMeasurement& points, double seconds) {
-    const MeasurementSummary all = points.summary();
-    Json json = {{"quantity", name_of(task.settings.quantity)},
-                 {"unit", unit_of(task.settings.quantity)},
-                 {"direct", task.settings.direct},
-                 {"columns", task.grid.columns},
-                 {"rows", task.grid.rows},
-                 {"points", Json::array()}};
-    const std::vector<Interval> values = points.values();
-    for (std::size_t i = 0; i < points.points().size(); ++i) {
-        Json point = {{"position", json_of(points.points()[i].position)}};
-        if (points.inside(i)) {
-            point["inside"] = true;
-        } else {
-            point.update(json_of(values[i]));
-        }
-        json["points"].push_back(point);
-    }
-    json["mean"] = json_of(all.mean);
-    json["minimum"] = json_of(all.minimum);
-    json["maximum"] = json_of(all.maximum);
-    json["uniformity"] = json_of(all.uniformity);
-    json["diversity"] = json_of(all.diversity);
-    json["inside"] = points.points().size() - points.measured();
-    json["relativeError"] = points.relative_error();
-    json["paths"] = points.rounds() * PointMeasurement::batches;  // of each point
-    json["seconds"] = seconds;
-    if (task.requirement) {
-        json["requirement"] = {{"mean", task.requirement->mean},
-                               {"verdict", name_of(judge(*task.requirement, all))}};
-        if (task.requirement->uniformity) {
-            json["requirement"]["uniformity"] = *task.requirement->uniformity;
-        }
-    }
-    fmt::print("{}\n", json.dump(2));
-}
-
-void print_values(const Task& task, const PointMeasurement& points) {
-    const std::size_t columns = std::max<std::size_t>(task.grid.columns, 1);
-    const std::vector<Interval> values = points.values();
-    for (std::size_t i = 0; i < points.points().size(); ++i) {
-        const glm::dvec3& p = points.points()[i].position;
-        if (i % columns == 0) {
-            fmt::print("{:9.3f} {:9.3f} {:9.3f} ", p.x, p.y, p.z);
-        }
-        const Interval& value = values[i];
-        fmt::print("{:>14}", points.inside(i) ? "in a solid"
-                                              : fmt::format("{:.4g} ±{:.2g}", value.value,
-                                                            value.high - value.value));
-        if (i % columns == columns - 1) {
-            fmt::print("\n");
-        }
-    }
-}
-
-void print_text(const Task& task, const PointMeasurement& points, double seconds) {
-    const MeasurementSummary all = points.summary();
-    const char* const unit = unit_of(task.settings.quantity);
-    fmt::print("{}{}, {}, 95 % intervals; each line begins with its first point's x, y, z in m\n",
-               name_of(task.settings.quantity), task.settings.direct ? ", direct light" : "", unit);
-    if (task.spacing > 0.0) {
-        fmt::print("grid of EN 12464-1: {} x {} points, spacing of {:.3f} m at most\n",
-                   task.grid.columns, task.grid.rows, task.spacing);
-    }
-    print_values(task, points);
-    const auto line = [](const char* name, const Interval& found, const char* of) {
-        fmt::print("{:<10} {:.4g} {} ({:.4g} to {:.4g})\n", name, found.value, of, found.low,
-                   found.high);
-    };
-    line("mean", all.mean, unit);
-    line("minimum", all.minimum, unit);
-    line("maximum", all.maximum, unit);
-    line("Uo", all.uniformity, "");
-    line("Ud", all.diversity, "");
-    if (const std::size_t inside = points.points().size() - points.measured(); inside > 0) {
-        fmt::print("{} points lie in solids and are left out\n", inside);
-    }
-    fmt::print("{} paths for each point in {:.2f} s\n", points.rounds() * PointMeasurement::batches,
-               seconds);
-    if (task.requirement) {
-        fmt::print("required {}: {}\n",
-                   task.requirement->uniformity
-                       ? fmt::format("{:g} {} and Uo {:g}", task.requirement->mean, unit,
-                                     *task.requirement->uniformity)
-                       : fmt::format("{:g} {}", task.requirement->mean, unit),
-                   name_of(judge(*task.requirement, all)));
-    }
-}
-
 }  // namespace
 
 int run_measure(const Options& options) {
-    const Task task = task_of(options);
+    const MeasureTask task = task_of(options);
     LoadedScene loaded = load_scene(options);
     if (task.settings.quantity == Quantity::daylight_factor) {
         leave_overcast_sky(loaded.scene, loaded.mesh);
     }
-    PointMeasurement points(std::make_shared<const MeasuredScene>(loaded.scene, loaded.mesh),
-                            task.points, task.settings);
-    if (points.measured() == 0) {
+    if (task.maintained) {
+        maintain_lamps(loaded.scene, loaded.mesh);
+    }
+    const std::unique_ptr<Measurement> points =
+        make_measurement(std::make_shared<const MeasuredScene>(loaded.scene, loaded.mesh),
+                         task.points, task.settings);
+    if (points->measured() == 0) {
         spdlog::error("all points lie in solids");
         return exit_failed;
     }
-    const double seconds = gather(options, task, points);
-    (options.measure.json_to_stdout ? print_json : print_text)(task, points, seconds);
+    const double seconds = gather(options, task, *points);
+    (options.measure.json_to_stdout ? print_json : print_text)(task, *points, seconds);
     if (!task.requirement) {
         return exit_done;
     }
-    switch (judge(*task.requirement, points.summary())) {
+    switch (verdict_of(task.checks(*points))) {
         case Verdict::met:
             return exit_done;
         case Verdict::missed:

@@ -2,6 +2,7 @@
 #include "measure/daylight_scene.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "scene/light/sky_dome.h"
 
@@ -22,6 +23,24 @@ void leave_overcast_sky(Scene& scene, PatchMesh& mesh) {
     }
     std::fill(mesh.emission.begin(), mesh.emission.end(), glm::vec3(0.0F));
     set_environment(std::make_shared<SkyDome>(settings), scene);
+}
+
+void maintain_lamps(Scene& scene, PatchMesh& mesh) {
+    std::vector<float> left(scene.materials.size(), 1.0F);
+    for (const Light& light : scene.lights) {
+        if (light.material >= 0) {
+            left[static_cast<std::size_t>(light.material)] = light.control.maintenance_factor;
+        }
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        scene.materials[i].emission *= left[i];
+    }
+    for (std::size_t side = 0; side < mesh.side_count(); ++side) {
+        mesh.emission[side] *= left[mesh.triangle_material[mesh.side_triangle[side]]];
+    }
+    for (PunctualLight& light : scene.punctual_lights) {
+        light.intensity *= light.of_sky ? 1.0F : light.control.maintenance_factor;
+    }
 }
 
 }  // namespace raybundle

@@ -15,4 +15,7 @@ inline constexpr double overcast_illuminance = 10'000.0;
 /// own sky has, else 0.2.
 void leave_overcast_sky(Scene& scene, PatchMesh& mesh);
 
+/// Dims each lamp to what its own maintenance factor leaves of it; sky and suns stay as they are.
+void maintain_lamps(Scene& scene, PatchMesh& mesh);
+
 }  // namespace raybundle

@@ -9,29 +9,19 @@
 #include <vector>
 
 #include "measure/interval.h"
+#include "measure/measurement.h"
 #include "measure/point_paths.h"
 
 namespace raybundle {
-
-struct CalculationPoint {
-    glm::dvec3 position{0.0};   ///< world space, m
-    glm::dvec3 direction{0.0};  ///< that it faces, where the quantity has one; any length but 0
-};
 
 struct MeasurementSettings {
     Quantity quantity = Quantity::horizontal;
     bool direct = false;  ///< without light that surfaces have reflected
     double factor = 1.0;  ///< of all values, as a maintenance factor, or % per lx
     std::uint64_t seed = 1;
-};
-
-/// What all points together say, with 95 % intervals.
-struct MeasurementSummary {
-    Interval mean;     ///< of the points
-    Interval minimum;  ///< of the points
-    Interval maximum;
-    Interval uniformity;  ///< Uo, minimum over mean
-    Interval diversity;   ///< Ud, minimum over maximum
+    // Of glare alone.
+    std::vector<glm::dvec3> views{};  ///< for all points; empty: each point has its own direction
+    bool small_sources = false;       ///< UgrSettings::small_sources
 };
 
 /// Calculation points that gather light path by path. The samples of a point form independently
@@ -41,7 +31,7 @@ struct MeasurementSummary {
 /// Few paths have not met yet what is rare, the inside of a lamp's shade, and a point that has not
 /// scatters little. Reflected light is smooth in the air, and its noise alike at all points of an
 /// area: no point's is taken to be less than the mean of all.
-class PointMeasurement {
+class PointMeasurement : public Measurement {
   public:
     static constexpr std::size_t most_points = 4096;
     static constexpr std::uint32_t batches = 16;
@@ -54,19 +44,15 @@ class PointMeasurement {
 
     /// One more sample of each batch for the next `count` points, on all threads: around the
     /// points, so that each is at most a round ahead of the others.
-    void add_samples(std::size_t count);
-    /// For all points.
-    void add_round() { add_samples(points_.size()); }
+    void add_samples(std::size_t count) override;
 
-    /// Rounds that all points have.
-    [[nodiscard]] std::uint64_t rounds() const { return steps_ / points_.size(); }
-    [[nodiscard]] std::span<const CalculationPoint> points() const { return points_; }
-    /// Points that lie in a solid: nothing is measured there.
-    [[nodiscard]] bool inside(std::size_t point) const { return inside_[point]; }
-    [[nodiscard]] std::size_t measured() const { return measured_; }
+    [[nodiscard]] std::uint64_t rounds() const override { return steps_ / points_.size(); }
+    [[nodiscard]] std::span<const CalculationPoint> points() const override { return points_; }
+    [[nodiscard]] bool inside(std::size_t point) const override { return inside_[point]; }
+    [[nodiscard]] std::size_t measured() const override { return measured_; }
 
     /// At each point, 95 %; before the first round nothing is known, nor inside solids.
-    [[nodiscard]] std::vector<Interval> values() const;
+    [[nodiscard]] std::vector<Interval> values() const override;
     /// Of all that are measured: there is one at least, and a round.
     ///
     /// The true minimum lies with 97.5 % above the smallest of the points' one-sided 97.5 % lower
@@ -74,8 +60,11 @@ class PointMeasurement {
     /// it lies so often only where all of them hold, so each has 1 - 2.5 %/n (Bonferroni). The
     /// maximum is alike. Ratios take the ends of both intervals, each with half of the 5 %.
     [[nodiscard]] MeasurementSummary summary() const;
+    [[nodiscard]] std::optional<MeasurementSummary> all() const override {
+        return measured_ > 0 ? std::optional(summary()) : std::nullopt;
+    }
     /// Half of the widest interval over the mean of all points; infinite before least_rounds.
-    [[nodiscard]] double relative_error() const;
+    [[nodiscard]] double relative_error() const override;
 
   private:
     /// Mean of the batches and its variances.

@@ -15,8 +15,9 @@ namespace {
 using std::numbers::inv_pi;
 using std::numbers::pi;
 
-constexpr std::array quantity_names = {"HORIZONTAL",  "VERTICAL",        "NORMAL",
-                                       "CYLINDRICAL", "SEMICYLINDRICAL", "DAYLIGHT_FACTOR"};
+constexpr std::array quantity_names = {
+    "HORIZONTAL",      "VERTICAL",        "NORMAL", "CYLINDRICAL",
+    "SEMICYLINDRICAL", "DAYLIGHT_FACTOR", "UGR",    "DGP"};
 
 const glm::dvec3 up(0.0, 1.0, 0.0);
 
@@ -61,7 +62,7 @@ const char* name_of(Quantity quantity) {
 }
 
 const char* unit_of(Quantity quantity) {
-    return quantity == Quantity::daylight_factor ? "%" : "lx";
+    return is_glare(quantity) ? "" : quantity == Quantity::daylight_factor ? "%" : "lx";
 }
 
 Receiver::Receiver(Quantity quantity, const glm::dvec3& direction)

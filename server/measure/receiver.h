@@ -18,12 +18,19 @@ enum class Quantity {
     semicylindrical,  ///< of its half that faces a direction,
                       ///< (1/pi) int L (1 + cos(alpha)) sin(theta) dw, lx
     daylight_factor,  ///< horizontal, by an overcast sky alone, over that outside, %
+    ugr,              ///< unified glare rating of an eye's place (CIE 117:1995)
+    dgp,              ///< daylight glare probability (Wienold, Christoffersen 2006)
 };
+
+/// Whether it rates what an eye sees, instead of light that arrives on a surface.
+inline bool is_glare(Quantity quantity) {
+    return quantity == Quantity::ugr || quantity == Quantity::dgp;
+}
 
 /// By its name on the wire and on the command line, upper or lower case.
 std::optional<Quantity> quantity_named(const std::string& name);
 const char* name_of(Quantity quantity);
-/// "lx" or "%".
+/// "lx", "%" or "" of ratings.
 const char* unit_of(Quantity quantity);
 
 /// How a point receives light: the weight w(direction) of the radiance that arrives from there. All

@@ -6,11 +6,44 @@
 namespace raybundle {
 namespace {
 
-Verdict judge(const Interval& found, double least) {
+Verdict at_least(const Interval& found, double least) {
     if (found.low >= least) {
         return Verdict::met;
     }
     return found.high < least ? Verdict::missed : Verdict::unknown;
+}
+
+Verdict at_most(std::span<const GlareRating> ratings, double most) {
+    Verdict verdict = ratings.empty() ? Verdict::unknown : Verdict::met;
+    for (const GlareRating& rating : ratings) {
+        const bool rated = rating.state == GlareRating::State::rated;
+        if (rated && rating.value.low > most) {
+            return Verdict::missed;
+        }
+        const bool holds =
+            rated ? rating.value.high <= most : rating.state == GlareRating::State::no_source;
+        verdict = holds ? verdict : Verdict::unknown;
+    }
+    return verdict;
+}
+
+const char* symbol_of(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::vertical:
+            return "Ev";
+        case Quantity::cylindrical:
+            return "Ez";
+        case Quantity::semicylindrical:
+            return "Esz";
+        case Quantity::daylight_factor:
+            return "D";
+        case Quantity::ugr:
+            return "UGR";
+        case Quantity::dgp:
+            return "DGP";
+        default:
+            return "Em";
+    }
 }
 
 }  // namespace
@@ -26,14 +59,37 @@ const char* name_of(Verdict verdict) {
     }
 }
 
-Verdict judge(const Requirement& requirement, const MeasurementSummary& found) {
-    const Verdict mean = judge(found.mean, requirement.mean);
-    const Verdict uniformity =
-        requirement.uniformity ? judge(found.uniformity, *requirement.uniformity) : Verdict::met;
-    if (mean == Verdict::missed || uniformity == Verdict::missed) {
-        return Verdict::missed;
+std::vector<Check> check(const Requirement& requirement, Quantity quantity,
+                         const std::optional<MeasurementSummary>& found,
+                         std::span<const GlareRating> ratings) {
+    std::vector<Check> checks;
+    if (is_glare(quantity)) {
+        if (requirement.most) {
+            checks.push_back({symbol_of(quantity), *requirement.most, true,
+                              at_most(ratings, *requirement.most)});
+        }
+        return checks;
     }
-    return mean == Verdict::met && uniformity == Verdict::met ? Verdict::met : Verdict::unknown;
+    if (requirement.mean) {
+        checks.push_back({symbol_of(quantity), *requirement.mean, false,
+                          found ? at_least(found->mean, *requirement.mean) : Verdict::unknown});
+    }
+    if (requirement.uniformity) {
+        checks.push_back(
+            {"Uo", *requirement.uniformity, false,
+             found ? at_least(found->uniformity, *requirement.uniformity) : Verdict::unknown});
+    }
+    return checks;
+}
+
+Verdict verdict_of(std::span<const Check> checks) {
+    const auto has = [&](Verdict verdict) {
+        return std::any_of(checks.begin(), checks.end(),
+                           [verdict](const Check& one) { return one.verdict == verdict; });
+    };
+    return has(Verdict::missed)    ? Verdict::missed
+           : has(Verdict::unknown) ? Verdict::unknown
+                                   : Verdict::met;
 }
 
 }  // namespace raybundle

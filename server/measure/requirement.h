@@ -2,8 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "measure/point_measurement.h"
+#include "measure/measurement.h"
+#include "measure/receiver.h"
 
 namespace raybundle {
 
@@ -11,14 +15,31 @@ enum class Verdict { met, missed, unknown };
 /// "met", "missed" or "not yet known".
 const char* name_of(Verdict verdict);
 
-/// What a task asks of its area, as a row of EN 12464-1 does.
+/// What a task asks of one quantity of its area, as a row of EN 12464-1 does.
 struct Requirement {
-    double mean = 0.0;                 ///< in the unit of the quantity, at least
+    std::optional<double> mean;        ///< in the unit of the quantity, at least
     std::optional<double> uniformity;  ///< Uo, at least
+    std::optional<double> most;        ///< of ratings of glare, at every point
+
+    [[nodiscard]] bool empty() const { return !mean && !uniformity && !most; }
 };
 
-/// By intervals: missed where one lies below what is required, met where all lie above, else
-/// unknown.
-Verdict judge(const Requirement& requirement, const MeasurementSummary& found);
+/// One number that is required.
+struct Check {
+    std::string what;  ///< Em, Ez, Ev, D, Uo, UGR or DGP
+    double required = 0.0;
+    bool at_most = false;
+    Verdict verdict = Verdict::unknown;
+};
+
+/// By intervals: missed where one lies on the wrong side of what is required, met where all of it
+/// lies on the right one, else unknown. A place without a rating is unknown; one where nothing
+/// glares meets any.
+std::vector<Check> check(const Requirement& requirement, Quantity quantity,
+                         const std::optional<MeasurementSummary>& found,
+                         std::span<const GlareRating> ratings);
+
+/// Of all together: missed where one is, met where all are.
+Verdict verdict_of(std::span<const Check> checks);
 
 }  // namespace raybundle

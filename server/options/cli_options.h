@@ -188,13 +188,18 @@ struct InspectOptions {
 struct MeasureOptions {
     std::vector<std::string> plane;  ///< corner and two edges, each x,y,z in metres
     std::vector<std::string> points;
+    std::vector<std::string> outline;  ///< corners, likewise
+    double surrounding = 0.0;          ///< m
+    std::uint32_t directions = 0;      ///< of glare
+    bool small_sources = false;
+    bool maintained = false;
     std::string quantity = "HORIZONTAL";
     std::string direction;
     std::string grid = "EN12464";
     double margin = 0.0;  ///< m
     bool direct = false;
     std::optional<double> maintenance;
-    std::string require;  ///< Em or Em/Uo
+    std::string require;  ///< Em or Em/Uo; of glare the most
     bool json_to_stdout = false;
 };
 

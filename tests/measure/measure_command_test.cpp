@@ -71,6 +71,44 @@ TEST(MeasureCommand, ItsStatusSaysWhetherTheRequirementIsMet) {
         6);
 }
 
+TEST(MeasureCommand, RatesGlareAndNamesWhatGlares) {
+    const std::string seat = "--point 2.75,1.2,0.3 --quantity ugr --directions 8 ";
+    const Outcome found = measure(seat + "--json --require 60");
+    ASSERT_EQ(found.status, 0) << found.text;
+    const auto json = nlohmann::json::parse(found.text);
+    const auto& glare = json["points"][0]["glare"];
+    EXPECT_EQ(glare["state"], "RATED");
+    EXPECT_EQ(glare["sources"][0]["light"], 1);
+    EXPECT_LT(json["points"][0]["low"], json["points"][0]["high"]);
+    EXPECT_FALSE(json.contains("uniformity"));
+    EXPECT_EQ(json["requirement"]["checks"][0]["what"], "UGR");
+    EXPECT_EQ(measure(seat + "--require 5").status, 5);
+    const Outcome text = measure(seat);
+    EXPECT_NE(text.text.find("worst view"), std::string::npos);
+    EXPECT_NE(text.text.find("100.0 %"), std::string::npos) << text.text;
+    EXPECT_EQ(measure("--point 1,1,1 --quantity ugr").status, 2);  // looking where?
+    EXPECT_EQ(measure("--point 1,1,1 --quantity ugr --directions 5").status, 2);
+    EXPECT_EQ(measure("--point 2.75,1.2,0.3 --quantity dgp --direction 0,0,1 --error 0.5").status,
+              0);
+}
+
+TEST(MeasureCommand, MeasuresPolygonsAndTheStripsAroundThem) {
+    const std::string corners = "--outline 1,3,1 4,3,1 4,3,4 --error 0.5 --json --grid 8x8 ";
+    const auto within = nlohmann::json::parse(measure(corners).text);
+    EXPECT_NEAR(static_cast<double>(within["points"].size()), 32.0, 4.0);
+    const auto around = nlohmann::json::parse(measure(corners + "--surrounding 0.5").text);
+    EXPECT_GT(around["points"].size(), 5U);
+    for (const auto& point : around["points"]) {
+        const double x = point["position"]["x"];
+        const double z = point["position"]["z"];
+        EXPECT_FALSE(x > 1.0 && x < 4.0 && z > 1.0 && z < x);
+    }
+    const Outcome maintained = measure(corners + "--maintained");
+    EXPECT_NEAR(nlohmann::json::parse(maintained.text)["mean"]["value"],
+                0.8 * within["mean"]["value"].get<double>(), 1e-3);
+    EXPECT_EQ(measure("--outline 1,1,1 2,1,1 3,1,1").status, 2);
+}
+
 TEST(MeasureCommand, RefusesWhatSaysNothing) {
     EXPECT_EQ(measure("").status, 2);
     EXPECT_EQ(measure("--plane 0,0,0 1,0,0 2,0,0").status, 2);

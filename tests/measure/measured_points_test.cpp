@@ -9,7 +9,9 @@
 #include "lit_room.h"
 #include "measure/daylight_scene.h"
 #include "measure/point_measurement.h"
+#include "measure/requirement.h"
 #include "measure/work_plane.h"
+#include "measure/zone_area.h"
 #include "rooms.h"
 
 namespace raybundle {
@@ -269,6 +271,79 @@ TEST(WorkPlane, GridsFollowTheStandard) {
     ASSERT_EQ(points.size(), 80U);
     EXPECT_NEAR(points[0].x, 1.5, 1e-12);
     EXPECT_NEAR(points[11].z, 2.5, 1e-12);
+}
+
+TEST(ZoneArea, KeepsMarginsAndStripsAroundPolygons) {
+    // An L of 4 m x 4 m without a corner of 2 m x 2 m.
+    const std::vector<glm::dvec3> l_shape = {{0, 1, 0}, {4, 1, 0}, {4, 1, 2},
+                                             {2, 1, 2}, {2, 1, 4}, {0, 1, 4}};
+    EXPECT_TRUE(is_polygon(l_shape));
+    EXPECT_FALSE(is_polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+    const ZoneGrid whole = lay_grid({l_shape, 0.0, 0.0}, {8, 8}, 4096);
+    EXPECT_EQ(whole.points.size(), 48U);
+    const ZoneGrid inner = lay_grid({l_shape, 0.5, 0.0}, {30, 30}, 4096);
+    for (const glm::dvec3& p : inner.points) {
+        EXPECT_TRUE(p.x > 0.499 && p.z > 0.499 && p.x < 3.501 && p.z < 3.501);
+        const bool beyond = p.x > 1.501 && p.z > 1.501;  // but round the corner that sticks in
+        EXPECT_TRUE(!beyond || (p.x < 2 && p.z < 2 && std::hypot(p.x - 2, p.z - 2) > 0.499));
+        EXPECT_EQ(p.y, 1.0);
+    }
+    EXPECT_NEAR(static_cast<double>(inner.points.size()), 900.0 * 5.0 / 9.0, 20.0);
+    const ZoneGrid strip = lay_grid({l_shape, 0.0, 0.5}, {}, 4096);
+    EXPECT_GT(strip.spacing, 0.0);
+    EXPECT_FALSE(strip.points.empty());
+    for (const glm::dvec3& p : strip.points) {
+        const bool in = p.x > 0 && p.z > 0 && p.x < 4 && p.z < 4 && !(p.x > 2 && p.z > 2);
+        EXPECT_FALSE(in);
+        EXPECT_TRUE(p.x > -0.5 && p.z > -0.5 && p.x < 4.5 && p.z < 4.5);
+    }
+    EXPECT_TRUE(lay_grid({l_shape, 0.0, 0.0}, {100, 100}, 4096).points.empty());
+}
+
+/// Each lamp by its own factor; the sky as it is.
+TEST(MeasuredPoints, MaintainedLightFollowsEachLamp) {
+    SceneBuilder builder;
+    sized(builder).scene.sky_radiance = glm::vec3(10.0F);
+    for (const auto& [x, factor] : {std::pair(-1.0F, 0.5F), std::pair(1.0F, 0.9F)}) {
+        add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, {x, 2, 0}, {0, -1, 0},
+                           glm::vec3(100.0F));
+        builder.scene.punctual_lights.back().control.maintenance_factor = factor;
+    }
+    const double one = measure_at(builder, Quantity::horizontal, {0, 0, 0}, {}, 1).value;
+    maintain_lamps(builder.scene, builder.mesh);
+    const double kept = measure_at(builder, Quantity::horizontal, {0, 0, 0}, {}, 1).value;
+    const double daylight = pi * 10.0;
+    EXPECT_NEAR(kept - daylight, 0.7 * (one - daylight), 1e-4);
+}
+
+TEST(Requirement, IsUnknownWhereTheIntervalHoldsTheLimit) {
+    MeasurementSummary found;
+    found.mean = {500.0, 490.0, 510.0};
+    found.uniformity = {0.7, 0.65, 0.75};
+    const auto verdict = [&](double mean, double uniformity) {
+        return verdict_of(check({mean, uniformity, {}}, Quantity::horizontal, found, {}));
+    };
+    EXPECT_EQ(verdict(490.0, 0.6), Verdict::met);
+    EXPECT_EQ(verdict(500.0, 0.6), Verdict::unknown);
+    EXPECT_EQ(verdict(520.0, 0.6), Verdict::missed);
+    EXPECT_EQ(verdict(500.0, 0.8), Verdict::missed);
+    EXPECT_EQ(verdict_of(check({500.0, {}, {}}, Quantity::horizontal, std::nullopt, {})),
+              Verdict::unknown);
+    GlareRating seat;
+    seat.state = GlareRating::State::rated;
+    seat.value = {18.0, 17.5, 18.5};
+    std::vector<GlareRating> seats = {seat};
+    const auto glare = [&] {
+        return verdict_of(check({{}, {}, 19.0}, Quantity::ugr, std::nullopt, seats));
+    };
+    EXPECT_EQ(glare(), Verdict::met);
+    seats.push_back({});
+    EXPECT_EQ(glare(), Verdict::unknown);  // outside of the method
+    seats.back().state = GlareRating::State::no_source;
+    EXPECT_EQ(glare(), Verdict::met);
+    seats.back().state = GlareRating::State::rated;
+    seats.back().value = {20.0, 19.5, 20.5};
+    EXPECT_EQ(glare(), Verdict::missed);
 }
 
 /// Tabulated quantiles (Student 1908; any table).

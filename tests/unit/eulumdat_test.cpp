@@ -252,5 +252,50 @@ TEST(Eulumdat, ErrorsNameTheLineAndTheReason) {
               "line 1: more than 16777216 bytes, the limit of photometric files");
 }
 
+/// Millimetres, the length across C0; of a round opening the width is 0.
+TEST(Eulumdat, HasTheSizeOfItsLuminousPart) {
+    const std::string text = eulumdat({});
+    const IesProfile::Opening square = parse_eulumdat("a.ldt", text).data().opening;
+    EXPECT_DOUBLE_EQ(square.length, 0.58);
+    EXPECT_DOUBLE_EQ(square.width, 0.58);
+    EXPECT_FALSE(square.round);
+    EXPECT_NEAR(square.projected_area({0, 0, -1}), 0.58 * 0.58, 1e-12);
+    EXPECT_NEAR(square.projected_area({0.6, 0, -0.8}), 0.8 * 0.58 * 0.58, 1e-12);
+    std::string long_one = text;
+    const std::size_t at = long_one.find("580\n580\n0\n0\n0\n0\n");
+    ASSERT_NE(at, std::string::npos);
+    long_one.replace(at, 16, "1200\n100\n50\n60\n0\n0\n");
+    const IesProfile::Opening tube = parse_eulumdat("a.ldt", long_one).data().opening;
+    EXPECT_DOUBLE_EQ(tube.width, 1.2);   // along C90
+    EXPECT_DOUBLE_EQ(tube.length, 0.1);  // along C0
+    EXPECT_NEAR(tube.projected_area({1, 0, 0}), 0.05 * 1.2, 1e-12);
+    EXPECT_NEAR(tube.projected_area({0, 1, 0}), 0.06 * 0.1, 1e-12);
+    EXPECT_NEAR(tube.projected_area({-1, 0, 0}), 0.0, 1e-12);
+    std::string round = text;
+    round.replace(at, 8, "200\n0\n");
+    const IesProfile::Opening disc = parse_eulumdat("a.ldt", round).data().opening;
+    EXPECT_TRUE(disc.round);
+    EXPECT_NEAR(disc.projected_area({0, 0, -1}), pi * 0.01, 1e-12);
+}
+
+/// LM-63: feet or metres, the width across the plane of 0 degrees, negative ones are diameters.
+TEST(IesOpening, HasTheSizeOfItsLuminousPart) {
+    const auto opening = [](const std::string& size) {
+        return parse_ies("a.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 " + size +
+                                      "\n1 1 10\n0 90\n0\n100 100\n")
+            .data()
+            .opening;
+    };
+    const IesProfile::Opening metres = opening("2 0.3 1.2 0");
+    EXPECT_DOUBLE_EQ(metres.width, 0.3);
+    EXPECT_DOUBLE_EQ(metres.length, 1.2);
+    EXPECT_NEAR(opening("1 1 1 0").length, 0.3048, 1e-12);
+    const IesProfile::Opening can = opening("2 -0.2 0 0.1");
+    EXPECT_TRUE(can.round);
+    EXPECT_NEAR(can.projected_area({0, 0, -1}), pi * 0.01, 1e-12);
+    EXPECT_NEAR(can.projected_area({0.6, 0.8, 0}), 0.1 * 0.2, 1e-12);
+    EXPECT_EQ(opening("2 0 0 0").projected_area({0, 0, -1}), 0.0);
+}
+
 }  // namespace
 }  // namespace raybundle::test

@@ -128,6 +128,22 @@ struct Head {
     std::size_t lamp_sets = 0;
 };
 
+/// Millimetres; the length lies across the plane C0, of what is round it is the diameter.
+IesProfile::Opening read_opening(LineReader& in) {
+    const auto metres = [&](const char* what) {
+        return std::max(in.number_if_given(what).value_or(0.0), 0.0) / 1000.0;
+    };
+    IesProfile::Opening opening;
+    opening.width = metres("the luminous length");
+    opening.length = metres("the luminous width");
+    opening.round = opening.length == 0.0;
+    opening.length = opening.round ? opening.width : opening.length;
+    opening.heights = {metres("the luminous height in C0"), metres("the luminous height in C90"),
+                       metres("the luminous height in C180"),
+                       metres("the luminous height in C270")};
+    return opening;
+}
+
 Head read_head(LineReader& in, IesProfile::Data& data) {
     Head head;
     in.text("the company");
@@ -145,17 +161,10 @@ Head read_head(LineReader& in, IesProfile::Data& data) {
         in.fail(fmt::format("{} x {} values; the limit is {}", head.planes, head.angles,
                             IesReader::max_values));
     }
-    constexpr double metres = 1e-3;
     for (const char* size : {"the length", "the width", "the height"}) {
         in.number_if_given(size);
     }
-    data.luminous_size.x = metres * in.number_if_given("the luminous length").value_or(0.0);
-    data.luminous_size.y = metres * in.number_if_given("the luminous width").value_or(0.0);
-    for (const char* height : {"the luminous height in C0", "the luminous height in C90",
-                               "the luminous height in C180", "the luminous height in C270"}) {
-        data.luminous_size.z =
-            std::max(data.luminous_size.z, metres * in.number_if_given(height).value_or(0.0));
-    }
+    data.opening = read_opening(in);
     in.number_if_given("the downward flux fraction");
     head.light_output_ratio = in.number_if_given("the light output ratio").value_or(0.0) / 100.0;
     head.factor = in.number_if_given("the conversion factor").value_or(1.0);

@@ -174,6 +174,21 @@ void close_planes(double angle, IesProfile::Data& data) {
                                      angle, circle ? 0.0 : last));
 }
 
+/// Dimensions as LM-63 has them: the length along the plane of 0 degrees, the width across;
+/// negative ones are diameters of something round.
+IesProfile::Opening opening_of(double width, double length, double height) {
+    IesProfile::Opening opening;
+    opening.round = width < 0.0 || length < 0.0;
+    opening.width = std::abs(width);
+    opening.length = std::abs(length);
+    if (opening.round) {  // one diameter stands for both
+        opening.width = opening.width > 0.0 ? opening.width : opening.length;
+        opening.length = opening.length > 0.0 ? opening.length : opening.width;
+    }
+    opening.heights.fill(std::abs(height));
+    return opening;
+}
+
 /// Values in cd, with all factors. Returns the line of the lowest one.
 int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
     const std::size_t count = data.vertical.size() * data.horizontal.size();
@@ -191,16 +206,6 @@ int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
                                 data.vertical.size(), data.horizontal.size()));
     }
     return line;
-}
-
-/// Width (across C0), length (along it) and height; a negative width stands for a diameter.
-glm::dvec3 read_size(IesReader& reader, double metres) {
-    const double width = metres * reader.number("the width");
-    const double length = metres * reader.number("the length");
-    const double height = metres * reader.number("the height");
-    const bool round = width < 0.0 || (length < 0.0 && width == 0.0);
-    return round ? glm::dvec3(std::max(std::abs(width), std::abs(length)), 0.0, std::abs(height))
-                 : glm::dvec3(std::abs(length), width, std::abs(height));
 }
 
 }  // namespace
@@ -224,8 +229,10 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
             fmt::format("{} x {} values; the limit is {}", rows, columns, IesReader::max_values));
     }
     data.type = static_cast<IesProfile::Type>(reader.count("the photometric type", 3));
-    const bool feet = reader.count("the units type", 2) == 1;
-    data.luminous_size = read_size(reader, feet ? 0.3048 : 1.0);
+    const double metres = reader.count("the units type", 2) == 1 ? 0.3048 : 1.0;
+    const double width = metres * reader.number("the width");
+    const double length = metres * reader.number("the length");
+    data.opening = opening_of(width, length, metres * reader.number("the height"));
     const double ballast = reader.number("the ballast factor", 0, 1e6);
     // Since 2002 it is not used any more, in 2019 it says how the file was made.
     const double lamp_factor = reader.number("the ballast-lamp photometric factor", 0, 1e6);

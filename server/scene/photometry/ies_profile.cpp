@@ -35,6 +35,22 @@ bool find_interval(const std::vector<double>& values, double x, Interval& interv
 
 }  // namespace
 
+double IesProfile::Opening::projected_area(const glm::dvec3& direction) const {
+    const double across_x = std::abs(direction.x) * heights[direction.x > 0.0 ? 0 : 2];
+    const double across_y = std::abs(direction.y) * heights[direction.y > 0.0 ? 1 : 3];
+    const double plate = std::abs(direction.z) * length * width;
+    if (round) {  // the same box about it, of which a cylinder hides a part
+        constexpr double quarter = glm::pi<double>() / 4.0;
+        const double sine = std::hypot(direction.x, direction.y);
+        const double height =
+            sine > 0.0 ? (across_x * std::abs(direction.x) + across_y * std::abs(direction.y)) /
+                             (sine * sine)
+                       : 0.0;
+        return quarter * plate + height * sine * std::max(length, width);
+    }
+    return plate + across_x * width + across_y * length;
+}
+
 IesProfile::IesProfile(Data data) : data_(std::move(data)), flux_(integrate()) {}
 
 /// Horizontal angle among those of the file, by the symmetry that they imply.

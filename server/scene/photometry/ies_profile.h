@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,19 @@ class IesProfile {
   public:
     enum class Type { c = 1, b = 2, a = 3 };  ///< coordinates, with LM-63's numbers
 
+    /// The luminous part, around the photometric centre, m; along x and y of the local axes. 0: not
+    /// stated.
+    struct Opening {
+        double length = 0.0;  ///< along x, in the plane C0
+        double width = 0.0;   ///< along y; of round ones length and width are two diameters
+        bool round = false;
+        /// Of what shines on the sides that face +x, +y, -x and -y.
+        std::array<double, 4> heights{};
+
+        /// Area that is seen from a unit direction of the local axes, m²: of a box or a cylinder.
+        [[nodiscard]] double projected_area(const glm::dvec3& direction) const;
+    };
+
     /// What the file holds. Angles in degrees, ascending.
     struct Data {
         Type type = Type::c;
@@ -26,10 +40,8 @@ class IesProfile {
         std::vector<double> candela;
         double input_watts = 0.0;  ///< electrical, of the whole luminaire
         double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
-        /// Of the luminous opening, m: along its plane C0, across it, and its height. A width of 0:
-        /// round; all 0: not given.
-        glm::dvec3 luminous_size{0.0};
         std::vector<std::string> notes{};  ///< what a user should know about how it was read
+        Opening opening{};
     };
 
     explicit IesProfile(Data data);
