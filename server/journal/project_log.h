@@ -17,7 +17,14 @@ class JournalError : public std::runtime_error {
 };
 
 /// What viewers leave in a session besides changes; the numbers are stored.
-enum class NoteKind : std::uint8_t { pin = 1, viewpoint = 2, target = 3, lighting_scene = 4 };
+enum class NoteKind : std::uint8_t {
+    pin = 1,
+    viewpoint = 2,
+    target = 3,
+    lighting_scene = 4,
+    zone = 140,
+    requirements = 141
+};
 
 /// What another server of the project has added to its log: a change, or a note.
 struct LogEntry {

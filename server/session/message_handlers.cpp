@@ -46,12 +46,17 @@ constexpr MessageHandler handlers[] = {
     {Body::kProbeGrid, call<&S::probes, &ProbeService::probe_grid>},
     {Body::kMeasure, call<&S::measurements, &MeasureService::measure>},
     {Body::kRemoveMeasurement, call<&S::measurements, &MeasureService::remove>},
+    {Body::kSetZone, call<&S::measurements, &MeasureService::set_zone>},
+    {Body::kSetRequirement, call<&S::measurements, &MeasureService::set_requirement>},
+    {Body::kRemoveRequirement, call<&S::measurements, &MeasureService::remove_requirement>},
 
     {Body::kSnapshot, call<&S::snapshots, &SnapshotService::add>},
     {Body::kCancelSnapshot, call<&S::snapshots, &SnapshotService::cancel>},
 
     {Body::kAddPin, call<&S::review, &ReviewService::add_pin>},
     {Body::kRemovePin, call<&S::review, &ReviewService::remove_pin>},
+    {Body::kReplyToPin, call<&S::review, &ReviewService::reply_to_pin>},
+    {Body::kSetPin, call<&S::review, &ReviewService::set_pin>},
     {Body::kSaveViewpoint, call<&S::review, &ReviewService::save_viewpoint>},
     {Body::kRemoveViewpoint, call<&S::review, &ReviewService::remove_viewpoint>},
     {Body::kPointAt, call<&S::review, &ReviewService::point_at>},

@@ -29,6 +29,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 admission,
                 views,
                 review,
+                measurements,
                 lighting.scenes(),
                 animations,
                 presence,

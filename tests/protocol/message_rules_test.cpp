@@ -265,6 +265,23 @@ TEST(MessageValidation, Requests) {
          Case{
              R"({"measure":{"quantity":"HORIZONTAL","relativeError":0,"points":[{"position":{}}]}})",
              "measure.relativeError"},
+         Case{R"({"measure":{"quantity":"UGR","points":[{"position":{}}]}})", "measure.direction"},
+         Case{R"({"measure":{"quantity":"UGR","directions":5,"points":[{"position":{}}]}})",
+              "measure.directions"},
+         Case{R"({"measure":{"quantity":"UGR","direction":{"y":1},"points":[{"position":{}}]}})",
+              "measure.direction"},
+         Case{
+             R"({"measure":{"quantity":"HORIZONTAL","columns":1,"rows":1,"outline":[{},{"x":1}]}})",
+             "measure.outline"},
+         Case{R"({"measure":{"quantity":"HORIZONTAL","name":"a","points":[{"position":{}}]}})",
+              "measure.name"},
+         Case{R"({"measure":{"quantity":"HORIZONTAL","surrounding":1,"points":[{"position":{}}]}})",
+              "measure.surrounding"},
+         Case{R"({"setZone":{"measurement":1,"name":""}})", "setZone.name"},
+         Case{R"({"setRequirement":{}})", "setRequirement.requirement.name"},
+         Case{R"({"setRequirement":{"requirement":{"name":"a","uniformity":2}}})",
+              "setRequirement.requirement.uniformity"},
+         Case{R"({"replyToPin":{"pin":1}})", "replyToPin.text"},
          Case{R"({"removeMeasurement":{}})", "removeMeasurement.measurement"},
          Case{R"({"snapshot":{"width":9,"height":9,"relativeError":0.1}})", "snapshot.format"},
          Case{R"({"hello":{}})", "hello.protocol"}}) {

@@ -48,12 +48,6 @@ bool is_request_key(const std::string& text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
 }
 
-std::size_t characters(const std::string& utf8) {
-    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char byte) {
-        return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
-    }));
-}
-
 double number(const Message& message, const FieldDescriptor& field) {
     const auto* const reflection = message.GetReflection();
     switch (field.cpp_type()) {
@@ -384,6 +378,25 @@ void check_body(const v1::RemoveMeasurement& measurement, MessageChecker& check)
     check.require(measurement.measurement() >= 1, "removeMeasurement.measurement", "is missing");
 }
 
+void check_body(const v1::SetZone& zone, MessageChecker& check) {
+    check_zone(zone, check);
+}
+
+void check_body(const v1::SetRequirement& set, MessageChecker& check) {
+    check_requirement(set, check);
+}
+
+void check_body(const v1::ReplyToPin& reply, MessageChecker& check) {
+    const std::size_t length = characters(reply.text());
+    check.require(length >= 1 && length <= kMaxText, "replyToPin.text",
+                  "must be 1..500 characters");
+}
+
+void check_body(const v1::SetPin& pin, MessageChecker& check) {
+    check.require(characters(pin.assigned_to()) <= kMaxName, "setPin.assignedTo",
+                  "must be at most 64 characters");
+}
+
 void check_body(const v1::Ack& ack, MessageChecker& check) {
     check.require(ack.decode_ms() >= 0.0, "ack.decodeMs", "must not be negative");
 }
@@ -437,6 +450,11 @@ constexpr MessageRule rules[] = {
     {Client::kSaveViewpoint, v1::REVIEWER, Waiting::queued, check<&Client::save_viewpoint>},
     {Client::kRemoveViewpoint, v1::REVIEWER, Waiting::queued, check<&Client::remove_viewpoint>},
     {Client::kPointAt, v1::REVIEWER, Waiting::queued, check<&Client::point_at>},
+    {Client::kReplyToPin, v1::REVIEWER, Waiting::queued, check<&Client::reply_to_pin>},
+    {Client::kSetPin, v1::REVIEWER, Waiting::queued, check<&Client::set_pin>},
+    {Client::kSetZone, v1::REVIEWER, Waiting::queued, check<&Client::set_zone>},
+    {Client::kSetRequirement, v1::EDITOR, Waiting::queued, check<&Client::set_requirement>},
+    {Client::kRemoveRequirement, v1::EDITOR, Waiting::queued, nullptr},
     {Client::kMoveObject, v1::EDITOR, Waiting::newest_only, check<&Client::move_object>},
     {Client::kSetLight, v1::EDITOR, Waiting::queued, check<&Client::set_light>},
     {Client::kSetMaterial, v1::EDITOR, Waiting::queued, check<&Client::set_material>},

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "measure/daylight_scene.h"
+#include "measure/glare/ugr_measurement.h"
+#include "measure/zone_area.h"
 #include "session/messages/scene_messages.h"
 
 namespace raybundle {
@@ -34,17 +36,50 @@ glm::dvec3 normal_of(const MeasuredArea& area) {
 
 void place_on_area(const v1::Measure& measure, MeasureRequest& request) {
     const MeasuredArea area = area_of(measure);
+    request.outline = outline_of(area);
     request.grid = {measure.columns(), measure.rows()};
     if (measure.grid() == v1::Measure::EN12464) {
         request.grid = en12464_grid(area);
         request.spacing = en12464_spacing(glm::length(area.u), glm::length(area.v));
     }
-    if (request.grid.points() > PointMeasurement::most_points) {
+    if (request.grid.points() > most_points(request.task.settings.quantity)) {
         return;
     }
+    request.lattice = area;
+    request.lattice_size = request.grid;
     const glm::dvec3 direction =
         measure.has_direction() ? vector(measure.direction()) : normal_of(area);
     for (const glm::dvec3& position : points_of(area, request.grid)) {
+        request.cells.push_back(static_cast<std::uint32_t>(request.cells.size()));
+        request.task.points.push_back({position, direction});
+    }
+}
+
+/// A polygon, or the strip around an area.
+void place_in_outline(const v1::Measure& measure, MeasureRequest& request) {
+    ZoneShape shape;
+    shape.margin = static_cast<double>(measure.margin());
+    shape.surrounding = static_cast<double>(measure.surrounding());
+    for (const v1::Vec3& corner : measure.outline()) {
+        shape.outline.push_back(vector(corner));
+    }
+    if (measure.has_area()) {
+        const v1::Measure::Area& area = measure.area();
+        shape.outline = outline_of({vector(area.origin()), vector(area.u()), vector(area.v())});
+    }
+    request.outline = shape.outline;
+    if (!is_polygon(shape.outline)) {
+        return;
+    }
+    ZoneGrid zone = lay_grid(shape, {measure.columns(), measure.rows()},
+                             most_points(request.task.settings.quantity));
+    request.spacing = zone.spacing;
+    request.lattice = zone.area;
+    request.lattice_size = zone.grid;
+    request.cells = std::move(zone.cells);
+    const glm::dvec3 direction =
+        measure.has_direction() ? vector(measure.direction()) : glm::dvec3(0.0, 1.0, 0.0);
+    for (const glm::dvec3& position : zone.points) {
         request.task.points.push_back({position, direction});
     }
 }
@@ -58,6 +93,56 @@ void set_interval(const Interval& from, v1::Measured* message, SetFloat value, S
     (message->*high)(static_cast<float>(from.high));
 }
 
+void set_ratios(const MeasurementSummary& all, v1::Measured* message) {
+    using M = v1::Measured;
+    set_interval(all.uniformity, message, &M::set_uniformity, &M::set_uniformity_low,
+                 &M::set_uniformity_high);
+    set_interval(all.diversity, message, &M::set_diversity, &M::set_diversity_low,
+                 &M::set_diversity_high);
+}
+
+v1::Verdict verdict_message(Verdict verdict) {
+    return verdict == Verdict::met      ? v1::MET
+           : verdict == Verdict::missed ? v1::MISSED
+                                        : v1::NOT_YET_KNOWN;
+}
+
+v1::Glare::State state_message(GlareRating::State state) {
+    switch (state) {
+        case GlareRating::State::rated:
+            return v1::Glare::RATED;
+        case GlareRating::State::no_source:
+            return v1::Glare::NO_SOURCE;
+        default:
+            return v1::Glare::OUTSIDE;
+    }
+}
+
+void describe_glare(const GlareRating& rating, v1::Glare* message) {
+    message->set_state(state_message(rating.state));
+    to_message(glm::vec3(rating.view), message->mutable_direction());
+    message->set_background(static_cast<float>(rating.background));
+    message->set_counted(rating.sources);
+    message->set_below(rating.below);
+    message->set_beyond(rating.beyond);
+    message->set_small(rating.small);
+    message->set_large(rating.large);
+    message->set_words(rating.words);
+    for (const GlareShare& share : rating.shares) {
+        v1::Glare::Source& source = *message->add_sources();
+        source.set_name(share.name);
+        source.set_light(share.light);
+        to_message(glm::vec3(share.position), source.mutable_position());
+        source.set_share(static_cast<float>(share.share));
+        source.set_luminance(static_cast<float>(share.luminance));
+        source.set_solid_angle(static_cast<float>(share.solid_angle));
+        source.set_position_index(static_cast<float>(share.position_index));
+    }
+    for (const double luminance : rating.ratios) {
+        message->add_luminances(static_cast<float>(luminance));
+    }
+}
+
 }  // namespace
 
 MeasureRequest from_message(const v1::Measure& measure) {
@@ -66,10 +151,17 @@ MeasureRequest from_message(const v1::Measure& measure) {
     MeasurementSettings& settings = request.task.settings;
     settings.quantity = *quantity_named(v1::Measure::Quantity_Name(measure.quantity()));
     settings.direct = measure.direct();
-    if (measure.maintained() || measure.has_maintenance_factor()) {
-        request.factor = measure.has_maintenance_factor()
-                             ? static_cast<double>(measure.maintenance_factor())
-                             : usual_maintenance;
+    request.task.maintained = measure.maintained() && !measure.has_maintenance_factor();
+    if (measure.has_maintenance_factor()) {
+        request.factor = static_cast<double>(measure.maintenance_factor());
+    } else if (measure.maintained() && settings.quantity == Quantity::daylight_factor) {
+        request.factor = usual_maintenance;  // of panes: no lamp shines
+    }
+    settings.small_sources = measure.small_sources();
+    if (measure.directions() > 0) {
+        settings.views = views_all_round(measure.directions(), measure.has_direction()
+                                                                   ? vector(measure.direction())
+                                                                   : glm::dvec3(0.0, 0.0, -1.0));
     }
     settings.factor = request.factor;
     if (settings.quantity == Quantity::daylight_factor) {
@@ -77,7 +169,9 @@ MeasureRequest from_message(const v1::Measure& measure) {
     }
     request.task.relative_error =
         measure.has_relative_error() ? static_cast<double>(measure.relative_error()) : usual_error;
-    if (measure.has_area()) {
+    if (!measure.outline().empty() || (measure.has_area() && measure.surrounding() > 0.0F)) {
+        place_in_outline(measure, request);
+    } else if (measure.has_area()) {
         place_on_area(measure, request);
     }
     for (const v1::Measure::Point& point : measure.points()) {
@@ -88,23 +182,49 @@ MeasureRequest from_message(const v1::Measure& measure) {
     return request;
 }
 
-void to_message(const MeasureRequest& request, const PointMeasurer::Result& result,
-                v1::Measured* message) {
-    message->set_measurement(result.measurement);
+void describe(const MeasureRequest& request, v1::Measured* message) {
     message->set_quantity(request.quantity);
-    message->set_epoch(result.epoch);
-    message->set_settled(1.0F);
     message->set_columns(request.grid.columns);
     message->set_rows(request.grid.rows);
     message->set_factor(static_cast<float>(request.factor));
+    message->set_maintained(request.task.maintained || request.factor != 1.0);
     if (request.spacing > 0.0) {
         message->set_spacing(static_cast<float>(request.spacing));
     }
+    for (const glm::dvec3& corner : request.outline) {
+        to_message(glm::vec3(corner), message->add_outline());
+    }
+}
+
+void to_message(std::span<const Check> checks, v1::Measured* message) {
+    for (const Check& one : checks) {
+        v1::Check& check = *message->add_checks();
+        check.set_what(one.what);
+        check.set_required(static_cast<float>(one.required));
+        check.set_at_most(one.at_most);
+        check.set_verdict(verdict_message(one.verdict));
+    }
+    if (!checks.empty()) {
+        message->set_verdict(verdict_message(verdict_of(checks)));
+    }
+}
+
+void to_message(const MeasureRequest& request, const PointMeasurer::Result& result,
+                v1::Measured* message) {
+    describe(request, message);
+    message->set_measurement(result.measurement);
+    message->set_epoch(result.epoch);
+    message->set_settled(1.0F);
     for (std::size_t i = 0; i < result.values.size(); ++i) {
         v1::Measured::Point& point = *message->add_points();
         to_message(glm::vec3(request.task.points[i].position), point.mutable_position());
         point.set_inside(result.inside[i]);
-        if (!result.inside[i]) {
+        if (!result.glare.empty() && !result.inside[i]) {
+            describe_glare(result.glare[i], point.mutable_glare());
+        }
+        const bool known =
+            result.glare.empty() || result.glare[i].state == GlareRating::State::rated;
+        if (!result.inside[i] && known) {
             point.set_value(static_cast<float>(result.values[i].value));
             point.set_low(static_cast<float>(result.values[i].low));
             point.set_high(static_cast<float>(result.values[i].high));
@@ -118,10 +238,9 @@ void to_message(const MeasureRequest& request, const PointMeasurer::Result& resu
     set_interval(all.mean, message, &M::set_mean, &M::set_mean_low, &M::set_mean_high);
     set_interval(all.minimum, message, &M::set_minimum, &M::set_minimum_low, &M::set_minimum_high);
     set_interval(all.maximum, message, &M::set_maximum, &M::set_maximum_low, &M::set_maximum_high);
-    set_interval(all.uniformity, message, &M::set_uniformity, &M::set_uniformity_low,
-                 &M::set_uniformity_high);
-    set_interval(all.diversity, message, &M::set_diversity, &M::set_diversity_low,
-                 &M::set_diversity_high);
+    if (!is_glare(request.task.settings.quantity)) {
+        set_ratios(all, message);
+    }
     if (std::isfinite(result.relative_error)) {
         message->set_relative_error(static_cast<float>(result.relative_error));
     }

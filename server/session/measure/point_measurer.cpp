@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -18,12 +19,23 @@ namespace {
 /// Points that get 16 paths each between two looks at what else there is to do: some milliseconds.
 constexpr std::size_t slice = 32;
 
+/// What shines in a scene that is measured.
+enum class SceneLight : std::size_t { present, maintained, overcast };
+
+SceneLight light_of(const PointMeasurer::Task& task) {
+    return task.settings.quantity == Quantity::daylight_factor ? SceneLight::overcast
+           : task.maintained                                   ? SceneLight::maintained
+                                                               : SceneLight::present;
+}
+
 /// A scene of its own with what points need of it.
 struct OwnMeasuredScene {
-    OwnMeasuredScene(Scene s, PatchMesh m, bool overcast)
+    OwnMeasuredScene(Scene s, PatchMesh m, SceneLight light)
         : scene(std::move(s)), mesh(std::move(m)) {
-        if (overcast) {
+        if (light == SceneLight::overcast) {
             leave_overcast_sky(scene, mesh);
+        } else if (light == SceneLight::maintained) {
+            maintain_lamps(scene, mesh);
         }
         measured = std::make_unique<const MeasuredScene>(scene, mesh);
     }
@@ -40,10 +52,10 @@ struct OwnMeasuredScene {
 struct PointMeasurer::OwnScene {
     OwnScene(const Scene& s, const PatchMesh& m) : scene(s), mesh(m) {}
 
-    [[nodiscard]] std::shared_ptr<const MeasuredScene> measured(bool overcast) const {
-        std::shared_ptr<const OwnMeasuredScene>& own = overcast ? overcast_ : present_;
+    [[nodiscard]] std::shared_ptr<const MeasuredScene> measured(SceneLight light) const {
+        std::shared_ptr<const OwnMeasuredScene>& own = own_[static_cast<std::size_t>(light)];
         if (!own) {
-            own = std::make_shared<const OwnMeasuredScene>(scene, mesh, overcast);
+            own = std::make_shared<const OwnMeasuredScene>(scene, mesh, light);
         }
         return {own, own->measured.get()};
     }
@@ -52,7 +64,7 @@ struct PointMeasurer::OwnScene {
     PatchMesh mesh;
 
   private:
-    mutable std::shared_ptr<const OwnMeasuredScene> present_, overcast_;
+    mutable std::array<std::shared_ptr<const OwnMeasuredScene>, 3> own_;
 };
 
 PointMeasurer::PointMeasurer(const RestSettings& rests)
@@ -151,15 +163,14 @@ void PointMeasurer::work(std::unique_lock<std::mutex>& lock, std::uint32_t measu
     const std::shared_ptr<const OwnScene> scene = newest_;
     const std::uint32_t epoch = newest_epoch_;
     const bool anew = !job.points || job.scene != scene;
-    std::unique_ptr<PointMeasurement> points = anew ? nullptr : std::move(job.points);
+    std::unique_ptr<Measurement> points = anew ? nullptr : std::move(job.points);
     preparing_ = anew;
     lock.unlock();
     tbb::task_arena arena(1);
     arena.execute([&] {
         if (anew) {
-            points = std::make_unique<PointMeasurement>(
-                scene->measured(task->settings.quantity == Quantity::daylight_factor), task->points,
-                task->settings);
+            points =
+                make_measurement(scene->measured(light_of(*task)), task->points, task->settings);
         }
         points->add_samples(slice);
     });
@@ -179,7 +190,7 @@ void PointMeasurer::work(std::unique_lock<std::mutex>& lock, std::uint32_t measu
     report(measurement, same, *same.points);
 }
 
-void PointMeasurer::report(std::uint32_t measurement, Job& job, const PointMeasurement& points) {
+void PointMeasurer::report(std::uint32_t measurement, Job& job, const Measurement& points) {
     constexpr double worth_telling = 2.0 / 3.0;  // of the error told last
     const bool nothing = points.measured() == 0;
     if (!nothing && points.rounds() < PointMeasurement::least_rounds) {
@@ -201,9 +212,8 @@ void PointMeasurer::report(std::uint32_t measurement, Job& job, const PointMeasu
     for (std::size_t i = 0; i < points.points().size(); ++i) {
         result.inside.push_back(points.inside(i));
     }
-    if (!nothing) {
-        result.all = points.summary();
-    }
+    result.glare = points.glare();
+    result.all = points.all();
     result.met = met;
     job.reported = error;
     job.done = met && job.scene == newest_;

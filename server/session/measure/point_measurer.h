@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "measure/point_measurement.h"
+#include "measure/make_measurement.h"
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "scheduling/scheduling_settings.h"
@@ -27,6 +27,7 @@ class PointMeasurer {
         std::vector<CalculationPoint> points;
         MeasurementSettings settings;
         double relative_error = 0.05;  ///< to reach
+        bool maintained = false;       ///< by the lamps' own maintenance factors
     };
     struct Result {
         std::uint32_t measurement = 0;
@@ -34,6 +35,7 @@ class PointMeasurer {
         double relative_error = 0.0;
         std::vector<Interval> values;           ///< of the points
         std::vector<bool> inside;               ///< likewise
+        std::vector<GlareRating> glare;         ///< likewise, where that is measured
         std::optional<MeasurementSummary> all;  ///< nothing: all points lie in solids
         bool met = false;                       ///< the error wanted, or nothing is to be measured
     };
@@ -58,8 +60,8 @@ class PointMeasurer {
     struct OwnScene;
     struct Job {
         std::shared_ptr<const Task> task;
-        std::unique_ptr<PointMeasurement> points;  // of the thread alone
-        std::shared_ptr<const OwnScene> scene;     // that the points are in
+        std::unique_ptr<Measurement> points;    // of the thread alone
+        std::shared_ptr<const OwnScene> scene;  // that the points are in
         std::uint32_t epoch = 0;
         double reported = 0.0;  // error of the last result
         bool done = false;
@@ -68,7 +70,7 @@ class PointMeasurer {
     void run();
     [[nodiscard]] Job* next_job();
     void work(std::unique_lock<std::mutex>& lock, std::uint32_t measurement, Job& job);
-    void report(std::uint32_t measurement, Job& job, const PointMeasurement& points);
+    void report(std::uint32_t measurement, Job& job, const Measurement& points);
 
     const RestSettings rests_;
     std::shared_ptr<const OwnScene> scene_;

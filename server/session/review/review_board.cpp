@@ -129,6 +129,26 @@ bool ReviewBoard::remove_pin(std::uint32_t number) {
     return true;
 }
 
+const Pin* ReviewBoard::change_pin(std::uint32_t number, const std::string& what,
+                                   const std::function<std::string(v1::PinChanged&)>& change) {
+    const auto found = pins_.find(number);
+    if (found == pins_.end()) {
+        refuse(v1::Error::NOT_FOUND, what + ".pin: no pin " + std::to_string(number));
+        return nullptr;
+    }
+    Pin changed = found->second;
+    if (const std::string problem = change(changed.message); !problem.empty()) {
+        refuse(v1::Error::RESOURCE_EXHAUSTED, what + ": " + problem);
+        return nullptr;
+    }
+    if (!log_.keep_note(NoteKind::pin, number, stored(changed))) {
+        refuse(v1::Error::INTERNAL, "the pin could not be saved");
+        return nullptr;
+    }
+    found->second = std::move(changed);
+    return &found->second;
+}
+
 bool ReviewBoard::remove_viewpoint(std::uint32_t number) {
     if (!viewpoints_.contains(number)) {
         return refuse(v1::Error::NOT_FOUND,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ class ReviewBoard {
   public:
     static constexpr std::size_t max_pins = 256;
     static constexpr std::size_t max_viewpoints = 64;
+    static constexpr int max_replies = 100;  ///< of a pin
 
     /// Takes up what the journal holds. Notes of patches that the mesh lacks keep their text.
     ReviewBoard(ChangeLog& log, std::uint32_t side_count);
@@ -40,6 +42,10 @@ class ReviewBoard {
     /// Takes a note away; false where there is none (NOT_FOUND) or that cannot be stored.
     bool remove_pin(std::uint32_t number);
     bool remove_viewpoint(std::uint32_t number);
+    /// Replaces what a pin says by what `change` makes of it. Nothing where there is no such pin
+    /// (NOT_FOUND), `change` refuses with a text, or it cannot be stored.
+    const Pin* change_pin(std::uint32_t number, const std::string& what,
+                          const std::function<std::string(v1::PinChanged&)>& change);
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
 
     /// Takes up a pin or viewpoint that another server of the project has stored or, where `body`

@@ -56,15 +56,13 @@ HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& 
     message.set_epoch(parts_.scene.epoch());
     message.set_set_at_ms(unix_ms());
     *message.mutable_local_position() = wanted.position();
+    const Camera& camera = session.camera();
+    to_message(camera.eye, message.mutable_camera()->mutable_eye());
+    to_message(camera.target, message.mutable_camera()->mutable_target());
+    to_message(camera.up, message.mutable_camera()->mutable_up());
+    message.mutable_camera()->set_vertical_fov(camera.vertical_fov);
     measure(session, pin);
-    const Pin* const added = board_.add_pin(std::move(pin));
-    if (added == nullptr) {
-        refuse(event);
-        return HandlerResult::answered;
-    }
-    v1::ServerMessage answer;
-    *answer.mutable_pin_changed() = added->message;
-    announce(event, answer);
+    announce_pin(event, board_.add_pin(std::move(pin)));
     return HandlerResult::answered;
 }
 
@@ -108,6 +106,46 @@ HandlerResult ReviewService::remove_pin(ViewerSession& /*session*/, const Client
     } else {
         refuse(event);
     }
+    return HandlerResult::answered;
+}
+
+/// Nothing: the board has refused.
+void ReviewService::announce_pin(const ClientEvent& event, const Pin* pin) {
+    if (pin == nullptr) {
+        refuse(event);
+        return;
+    }
+    v1::ServerMessage answer;
+    *answer.mutable_pin_changed() = pin->message;
+    announce(event, answer);
+}
+
+HandlerResult ReviewService::reply_to_pin(ViewerSession& session, const ClientEvent& event) {
+    const v1::ReplyToPin& wanted = event.message.reply_to_pin();
+    announce_pin(event, board_.change_pin(wanted.pin(), "replyToPin", [&](v1::PinChanged& pin) {
+        if (pin.replies_size() >= ReviewBoard::max_replies) {
+            return std::string("the pin has 100 replies");
+        }
+        v1::PinReply& reply = *pin.add_replies();
+        reply.set_by_name(session.name());
+        reply.set_text(wanted.text());
+        reply.set_at_ms(unix_ms());
+        return std::string();
+    }));
+    return HandlerResult::answered;
+}
+
+HandlerResult ReviewService::set_pin(ViewerSession& /*session*/, const ClientEvent& event) {
+    const v1::SetPin& wanted = event.message.set_pin();
+    announce_pin(event, board_.change_pin(wanted.pin(), "setPin", [&](v1::PinChanged& pin) {
+        if (wanted.has_resolved()) {
+            pin.set_resolved(wanted.resolved());
+        }
+        if (wanted.has_assigned_to()) {
+            pin.set_assigned_to(wanted.assigned_to());
+        }
+        return std::string();
+    }));
     return HandlerResult::answered;
 }
 

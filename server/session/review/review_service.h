@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
@@ -30,6 +31,8 @@ class ReviewService {
 
     HandlerResult add_pin(ViewerSession& session, const ClientEvent& event);
     HandlerResult remove_pin(ViewerSession& session, const ClientEvent& event);
+    HandlerResult reply_to_pin(ViewerSession& session, const ClientEvent& event);
+    HandlerResult set_pin(ViewerSession& session, const ClientEvent& event);
     HandlerResult save_viewpoint(ViewerSession& session, const ClientEvent& event);
     HandlerResult remove_viewpoint(ViewerSession& session, const ClientEvent& event);
     HandlerResult point_at(ViewerSession& session, const ClientEvent& event);
@@ -47,6 +50,7 @@ class ReviewService {
   private:
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
     void refuse(const ClientEvent& event);
+    void announce_pin(const ClientEvent& event, const Pin* pin);
     void measure(ViewerSession& session, Pin& pin);
     [[nodiscard]] bool worth_refining(const Pin& pin) const;
     [[nodiscard]] bool refine(Pin& pin);

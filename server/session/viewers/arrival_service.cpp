@@ -55,6 +55,7 @@ void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
     }
     welcome->set_name(event.message.hello().name());
     parts_.review.fill_welcome(welcome);
+    parts_.measurements.fill_welcome(welcome);
 }
 
 }  // namespace raybundle

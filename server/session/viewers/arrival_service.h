@@ -10,6 +10,7 @@
 #include "session/light/light_service.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
+#include "session/measure/measure_service.h"
 #include "session/review/review_service.h"
 #include "session/viewers/presence_service.h"
 #include "session/viewers/view_service.h"
@@ -34,6 +35,7 @@ class ArrivalService {
         const ViewerAdmission& admission;
         const ViewService& views;
         const ReviewService& review;
+        const MeasureService& measurements;
         const LightingScenes& lighting;
         const AnimationService& animations;
         PresenceService& presence;
