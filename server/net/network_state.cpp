@@ -63,6 +63,24 @@ void NetworkState::set_upload_factory(UploadFactory factory) {
     upload_factory_ = std::move(factory);
 }
 
+void NetworkState::set_document_source(const void* owner, DocumentSource source) {
+    const std::lock_guard lock(document_mutex_);
+    if (source || document_owner_ == owner) {
+        document_owner_ = source ? owner : nullptr;
+        document_source_ = std::move(source);
+    }
+}
+
+void NetworkState::make_document(DocumentRequest request,
+                                 std::function<void(DocumentResult)> done) const {
+    const std::lock_guard lock(document_mutex_);
+    if (document_source_) {
+        document_source_(std::move(request), std::move(done));
+    } else {
+        done({503, "text/plain; charset=utf-8", "No scene is served yet; try again later\n", {}});
+    }
+}
+
 std::unique_ptr<Upload> NetworkState::begin_upload(const std::string& name) const {
     const std::lock_guard lock(upload_mutex_);
     return upload_factory_ ? upload_factory_(name) : nullptr;

@@ -10,6 +10,7 @@
 
 #include "net/access/gate.h"
 #include "net/http/content_store.h"
+#include "net/http/document.h"
 #include "net/http/snapshot_store.h"
 #include "net/http/upload.h"
 #include "net/server_settings.h"
@@ -53,6 +54,10 @@ struct NetworkState {
     void set_upload_factory(UploadFactory factory);
     /// Null where there is no factory or it cannot begin.
     [[nodiscard]] std::unique_ptr<Upload> begin_upload(const std::string& name) const;
+    /// Replaces the source of documents; an empty one takes away that of its owner alone.
+    void set_document_source(const void* owner, DocumentSource source);
+    /// 503 where nobody makes documents.
+    void make_document(DocumentRequest request, std::function<void(DocumentResult)> done) const;
 
     /// Prometheus text: the network's own figures, then those of the metrics source.
     [[nodiscard]] std::string metrics() const;
@@ -64,6 +69,9 @@ struct NetworkState {
     mutable std::mutex upload_mutex_;
     std::function<std::string()> photometry_source_;
     UploadFactory upload_factory_;
+    mutable std::mutex document_mutex_;
+    DocumentSource document_source_;
+    const void* document_owner_ = nullptr;
 };
 
 }  // namespace raybundle

@@ -187,6 +187,10 @@ void Server::set_photometry_source(std::function<std::string()> source) {
     impl_->state.set_photometry_source(std::move(source));
 }
 
+void Server::set_document_source(const void* owner, DocumentSource source) {
+    impl_->state.set_document_source(owner, std::move(source));
+}
+
 void Server::set_upload_factory(UploadFactory factory) {
     impl_->state.set_upload_factory(std::move(factory));
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "net/http/content_store.h"
+#include "net/http/document.h"
 #include "net/http/upload.h"
 #include "net/server_settings.h"
 #include "net/ws/client_event.h"
@@ -111,6 +112,9 @@ class Server {
 
     /// Called on the network thread for each GET /photometry; returns its JSON.
     void set_photometry_source(std::function<std::string()> source);
+    /// Makes the documents that are asked for over HTTP; called on the network thread. An empty one
+    /// takes away that of its owner alone.
+    void set_document_source(const void* owner, DocumentSource source);
 
     /// Keeps a file for a quarter of an hour; the path under which the server has it, which nobody
     /// can guess. Nothing where it is larger than all that may be kept.

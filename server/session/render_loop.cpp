@@ -34,6 +34,7 @@ void RenderLoop::rehearse(const std::atomic<bool>& stop) {
 
 void RenderLoop::run(const std::atomic<bool>& stop) {
     services_.status.begin();
+    services_.reports.step();  // whoever is welcomed may ask for documents
     bool idle = true;
     while (!stop) {
         state_.metrics.count_turn();
@@ -56,6 +57,7 @@ bool RenderLoop::turn() {
     services_.light.step();
     services_.errors.check_pictures();
     services_.measurements.step();
+    services_.reports.step();
     const bool smoothed = services_.frames.smooth();
     const bool solved = services_.solver.step();
     return sent || smoothed || solved;

@@ -23,6 +23,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
       probes({s.live, s.pictures, s.server}),
       measurements({s.live, s.policy, s.server}),
       review({s.live, s.viewers, s.pictures, s.demand, s.policy, s.server}),
+      reports({s.live, measurements, lighting.scenes(), review, s.server}),
       scenes({s.live, s.server, settings.scene_requests, settings.effect_requests}),
       arrivals({s.live,
                 s.viewers,

@@ -10,6 +10,7 @@
 #include "session/measure/measure_service.h"
 #include "session/measure/probe_service.h"
 #include "session/render_loop_settings.h"
+#include "session/report/report_service.h"
 #include "session/review/review_service.h"
 #include "session/scene_service.h"
 #include "session/session_state.h"
@@ -48,6 +49,7 @@ struct SessionServices {
     ProbeService probes;
     MeasureService measurements;
     ReviewService review;
+    ReportService reports;
     SceneService scenes;
     ArrivalService arrivals;
     StatusReporter status;

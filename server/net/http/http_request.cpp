@@ -32,6 +32,22 @@ RequestLine request_line(lws* connection) {
     return {method, std::string(uri, length > 0 ? static_cast<std::size_t>(length) : 0)};
 }
 
+std::string request_query(lws* connection) {
+    constexpr int most_parts = 16;
+    constexpr int most_bytes = 256;
+    std::string query;
+    for (int i = 0; i < most_parts; ++i) {
+        std::string part(most_bytes, '\0');
+        const int length =
+            lws_hdr_copy_fragment(connection, part.data(), most_bytes, WSI_TOKEN_HTTP_URI_ARGS, i);
+        if (length <= 0) {
+            break;
+        }
+        query += (query.empty() ? "" : "&") + part.substr(0, static_cast<std::size_t>(length));
+    }
+    return query;
+}
+
 std::string request_header(lws* connection, int token) {
     const auto index = static_cast<lws_token_indexes>(token);
     std::string text(static_cast<std::size_t>(lws_hdr_total_length(connection, index)) + 1, '\0');

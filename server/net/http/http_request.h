@@ -18,6 +18,9 @@ struct RequestLine {
 /// What an HTTP request asks for.
 RequestLine request_line(lws* connection);
 
+/// What follows the question mark, decoded; its parts are joined by &.
+std::string request_query(lws* connection);
+
 /// Value of a header by its lws_token_indexes; empty where it is absent.
 std::string request_header(lws* connection, int token);
 

@@ -37,7 +37,8 @@ int HttpService::on_event(lws* connection, int reason, void* in, std::size_t siz
         case LWS_CALLBACK_HTTP_BODY:
             return on_body(connection, {static_cast<const char*>(in), size});
         case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-            uploads_.complete(connection);
+            documents_.takes_body(connection) ? documents_.complete(connection)
+                                              : uploads_.complete(connection);
             return 0;
         case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
             return confirm_upgrade(connection) ? 0 : -1;
@@ -51,12 +52,14 @@ int HttpService::on_timer(lws* connection) {
     if (auto held = held_.extract(connection)) {
         return answer(connection, std::move(held.mapped()));
     }
-    auto late = uploads_.expire(connection);
+    auto late = documents_.takes_body(connection) ? documents_.expire(connection)
+                                                  : uploads_.expire(connection);
     return late ? answer(connection, std::move(*late)) : 0;
 }
 
 void HttpService::forget(lws* connection) {
     uploads_.forget(connection);
+    documents_.forget(connection);
     transfers_.erase(connection);
     held_.erase(connection);
 }
@@ -99,6 +102,9 @@ int HttpService::on_request(lws* connection) {
     if (has_large_headers(connection)) {
         return answer(connection, large_headers_response());
     }
+    if (is_document(path) && (method == HttpMethod::get || method == HttpMethod::put)) {
+        return on_document(connection, method, path);
+    }
     if (method == HttpMethod::put) {
         return on_upload(connection, path);
     }
@@ -124,6 +130,33 @@ int HttpService::on_request(lws* connection) {
     return answer_in(client.delay_ms, connection, http_response(method, path, content));
 }
 
+/// Whoever may look may read; reviewers bring pins in.
+int HttpService::on_document(lws* connection, HttpMethod method, const std::string& path) {
+    const bool put = method == HttpMethod::put;
+    const Caller client = caller(connection, path);
+    const auto refuse = [&](int status, const std::string& text) {
+        return answer_in(client.delay_ms, connection, text_response({status, text}));
+    };
+    if (put && path != "/pins.bcf") {
+        return refuse(405, "Only GET and HEAD");
+    }
+    if (put && !origin_allowed(request_header(connection, WSI_TOKEN_ORIGIN),
+                               request_header(connection, WSI_TOKEN_HOST),
+                               state_.gate.access()->origins)) {
+        return refuse(403, "A page of another origin may not upload");
+    }
+    if (!client.role) {
+        return refuse(401, "Needs the header Authorization: Bearer TOKEN");
+    }
+    if (put && *client.role < v1::REVIEWER) {
+        return refuse(403, "Needs the role REVIEWER");
+    }
+    auto refusal =
+        documents_.begin(connection, {path, request_query(connection), put, {}},
+                         parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH)));
+    return refusal ? answer(connection, std::move(*refusal)) : 0;
+}
+
 int HttpService::on_upload(lws* connection, const std::string& path) {
     const Caller client = caller(connection, path);
     const UploadRequest request{
@@ -135,6 +168,10 @@ int HttpService::on_upload(lws* connection, const std::string& path) {
 }
 
 int HttpService::on_body(lws* connection, std::string_view bytes) {
+    if (documents_.takes_body(connection)) {
+        documents_.write(connection, bytes);
+        return 0;
+    }
     auto problem = uploads_.write(connection, bytes);
     return problem ? answer(connection, std::move(*problem)) : 0;
 }
@@ -160,7 +197,11 @@ int HttpService::answer_in(double delay_ms, lws* connection, HttpResponse respon
 }
 
 void HttpService::answer_uploads() {
-    for (auto& [connection, response] : uploads_.finished()) {
+    auto finished = uploads_.finished();
+    for (auto& made : documents_.finished()) {
+        finished.push_back(std::move(made));
+    }
+    for (auto& [connection, response] : finished) {
         if (answer(connection, std::move(response)) != 0) {
             lws_set_timeout(connection, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
         }

@@ -11,6 +11,7 @@
 
 #include "embedded_file.h"
 #include "net/http/encoded_files.h"
+#include "net/http/http_documents.h"
 #include "net/http/http_response.h"
 #include "net/http/http_transfer.h"
 #include "net/http/http_uploads.h"
@@ -26,7 +27,7 @@ class HttpService {
   public:
     /// `wake` makes the network thread call answer_uploads(); any thread calls it.
     HttpService(NetworkState& state, std::function<void()> wake)
-        : state_(state), uploads_(state, std::move(wake)) {}
+        : state_(state), uploads_(state, wake), documents_(state, std::move(wake)) {}
 
     /// Whether on_event() is to hear of an lws_callback_reasons.
     static bool is_event(int reason);
@@ -37,7 +38,7 @@ class HttpService {
     /// LWS_CALLBACK_TIMER of a connection that is no viewer's.
     int on_timer(lws* connection);
 
-    /// Answers the uploads that have been checked.
+    /// Answers the uploads that have been checked, and sends the documents that have been made.
     void answer_uploads();
 
     /// The connection is gone.
@@ -46,6 +47,7 @@ class HttpService {
   private:
     int on_request(lws* connection);
     int on_body(lws* connection, std::string_view bytes);
+    int on_document(lws* connection, HttpMethod method, const std::string& path);
     int on_upload(lws* connection, const std::string& path);
     int on_writable(lws* connection);
     bool confirm_upgrade(lws* connection);
@@ -64,6 +66,7 @@ class HttpService {
     std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
     std::map<lws*, HttpResponse> held_;  ///< until the connection's timer
     HttpUploads uploads_;
+    HttpDocuments documents_;
 };
 
 }  // namespace raybundle

@@ -38,10 +38,6 @@ constexpr float kMaxSeconds = 86400.0F;
 constexpr std::uint64_t kMaxGridPoints = 1024;
 constexpr std::uint32_t kMaxDepthColumns = 512;
 
-glm::dvec3 to_vector(const v1::Vec3& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
-
 /// Of a request that may be asked for again.
 bool is_request_key(const std::string& text) {
     return !text.empty() && text.size() <= kMaxName &&

@@ -43,6 +43,9 @@ class ReviewService {
 
     /// A pin or viewpoint of another server of the project.
     void follow(const LogEntry& note);
+    /// Takes in the topics of a BCF archive: those that are pins of this scene bring replies and
+    /// states, the others become pins. Everybody hears of them. All or nothing.
+    DocumentResult import_bcf(const std::string& archive);
 
     /// Looks at the light of one pin, and tells everybody where it has changed.
     void check_pin();
@@ -50,6 +53,7 @@ class ReviewService {
   private:
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
     void refuse(const ClientEvent& event);
+    [[nodiscard]] Pin placed(const v1::PinChanged& topic);
     void announce_pin(const ClientEvent& event, const Pin* pin);
     void measure(ViewerSession& session, Pin& pin);
     [[nodiscard]] bool worth_refining(const Pin& pin) const;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "net/server.h"
+#include "report/report_data.h"
+#include "session/changes/lighting_scenes.h"
+#include "session/live_scene.h"
+#include "session/measure/measure_service.h"
+#include "session/review/review_service.h"
+
+namespace raybundle {
+
+/// Makes the documents that are asked for over HTTP: report.html, .pdf, .csv, .json and pins.bcf;
+/// takes pins in. The render thread copies what is known, a thread of its own writes it.
+class ReportService {
+  public:
+    struct Parts {
+        const LiveScene& scene;
+        const MeasureService& measurements;
+        const LightingScenes& lighting;
+        ReviewService& review;
+        Server& server;
+    };
+    explicit ReportService(const Parts& parts);
+    ~ReportService();
+    ReportService(const ReportService&) = delete;
+    ReportService& operator=(const ReportService&) = delete;
+
+    /// Looks at what has been asked for.
+    void step();
+
+  private:
+    using Done = std::function<void(DocumentResult)>;
+    /// What both threads share with the network's: it may outlive the service.
+    struct Inbox {
+        std::mutex mutex;
+        std::deque<std::pair<DocumentRequest, Done>> waiting;
+        bool closed = false;
+    };
+    struct Job {
+        std::shared_ptr<const ReportData> data;
+        DocumentRequest request;
+        Done done;
+    };
+
+    [[nodiscard]] std::shared_ptr<const ReportData> collect() const;
+    void run();
+
+    Parts parts_;
+    bool registered_ = false;
+    std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::deque<Job> jobs_;
+    bool stop_ = false;
+    std::thread thread_;
+};
+
+/// Options of a query as "lang=de&unit=fc&since=2026-06-21&hours=2500"; what is not known is left
+/// out.
+ReportOptions report_options(const std::string& query);
+
+}  // namespace raybundle
