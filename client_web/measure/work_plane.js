@@ -47,24 +47,29 @@ export function withInterval(value, low, high, text) {
  * @param {'lx' | 'fc'} unit  that illuminances are shown in
  * @returns {(value: number) => string}
  */
-export const valueText = (quantity, unit) =>
-    quantity === 'DAYLIGHT_FACTOR'
+export function valueText(quantity, unit) {
+    if (quantity === 'UGR' || quantity === 'DGP') {
+        return (value) => value.toFixed(quantity === 'UGR' ? 1 : 2);
+    }
+    return quantity === 'DAYLIGHT_FACTOR'
         ? (value) => `${threeDigits(value)} %`
         : (value) => `${threeDigits(inUnit(value, unit))} ${unit}`;
+}
 
 /**
  * What the numbers stand for.
  *
  * @param {Measured} result
  */
-export function planeState({points, columns, rows, spacing, factor, relativeError}) {
+export function planeState({points, columns, rows, spacing, factor, maintained, relativeError}) {
     const inside = points.filter((point) => point.inside).length;
     const parts = [`${columns} × ${rows} points`];
     if (spacing) {
         parts.push(`at most ${spacing.toFixed(2)} m apart, as EN 12464-1 asks for`);
     }
     const left = inside > 0 ? ` ${inside} lie in solids and are left out.` : '';
-    const kept = factor === 1 ? '' : ` Maintained: times ${factor}.`;
+    const own = maintained ? ' Maintained, by the factor of each lamp.' : '';
+    const kept = factor === 1 ? own : ` Maintained: times ${factor}.`;
     const error = relativeError === undefined || relativeError > 1
         ? ' The values are still uncertain.'
         : ` Values are known within ${threeDigits(100 * relativeError)} % of the mean.`;

@@ -64,7 +64,8 @@ export class WorkPlanePanel {
         this.#over.value = options.some(({value}) => value === before) && before !== 'scene' ? before : options[0].value;
     }
 
-    #request() {
+    /** What the fields ask for; null: the height is no number. */
+    request() {
         const {scene, selected} = this.app;
         const over = this.#over.value;
         const height = byId('plane-height', HTMLInputElement).valueAsNumber;
@@ -83,6 +84,7 @@ export class WorkPlanePanel {
             relativeError: 0.05,
             keep: true,
             maintained: byId('plane-maintained', HTMLInputElement).checked,
+            ...(quantity === 'UGR' ? {directions: 8} : {}),
             ...(['VERTICAL', 'SEMICYLINDRICAL'].includes(quantity) ? {direction: this.#heading()} : {}),
         };
     }
@@ -95,7 +97,7 @@ export class WorkPlanePanel {
 
     /** Measures a plane where the fields say, in place of the one before. */
     async measure() {
-        const measure = this.#request();
+        const measure = this.request();
         if (!measure) {
             this.#state.textContent = 'Enter the height as a number.';
             return;
@@ -141,7 +143,7 @@ export class WorkPlanePanel {
 
     #save() {
         if (this.#result) {
-            const unit = this.#result.quantity === 'DAYLIGHT_FACTOR' ? '%' : 'lx';
+            const unit = {DAYLIGHT_FACTOR: '%', UGR: '1'}[this.#result.quantity] ?? 'lx';
             const blob = new Blob([planeCsv(this.#result, unit)], {type: 'text/csv'});
             saveFile(blob, `${fileName(`${this.app.scene?.title} work plane`)}.csv`);
         }
@@ -158,7 +160,7 @@ export class WorkPlanePanel {
                 Mean: withInterval(result.mean, result.meanLow, result.meanHigh, text),
                 Min: withInterval(result.minimum, result.minimumLow, result.minimumHigh, text),
                 Max: withInterval(result.maximum, result.maximumLow, result.maximumHigh, text),
-                Uniformity: withInterval(result.uniformity, result.uniformityLow, result.uniformityHigh, plain),
+                Uniformity: withInterval(result.quantity === 'UGR' ? undefined : result.uniformity, result.uniformityLow, result.uniformityHigh, plain),
             };
             for (const [name, {value, interval}] of Object.entries(tiles)) {
                 showValue(`plane${name}`, value);

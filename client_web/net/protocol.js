@@ -255,6 +255,9 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Vec3} localPosition  in the space of the object
  * @property {number} [relativeError]
  * @property {number} [change]  of the illuminance since then, relative
+ * @property {{byName: string, text: string, atMs: number}[]} [replies]
+ * @property {boolean} [resolved]
+ * @property {string} [assignedTo]
  */
 
 /**
@@ -287,6 +290,36 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [low]  of the 95 % interval
  * @property {number} [high]
  * @property {boolean} inside  in a solid
+ * @property {Glare} [glare]  of UGR and DGP
+ */
+
+/**
+ * @typedef {{name: string, light: number, position: Vec3, share: number, luminance: number, solidAngle: number,
+ *     positionIndex: number}} GlareSource  share: 0..1 of what glares
+ *
+ * @typedef {object} Glare
+ * @property {'RATED' | 'NO_SOURCE' | 'OUTSIDE'} state
+ * @property {Vec3} direction  worst view
+ * @property {number} background  cd/m², of DGP lx
+ * @property {GlareSource[]} sources  the strongest first
+ * @property {string} words  what is left out, or outside of the method's range
+ * @property {number[]} luminances  of DGP, cd/m²: within 10, 30 and 60 degrees
+ */
+
+/** @typedef {'VERDICT_UNSPECIFIED' | 'MET' | 'MISSED' | 'NOT_YET_KNOWN'} Verdict */
+/** @typedef {{what: string, required: number, atMost: boolean, verdict: Verdict}} Check */
+
+/**
+ * @typedef {object} Requirement
+ * @property {string} name
+ * @property {number} [mean]  lx
+ * @property {number} [uniformity]
+ * @property {number} [glare]  UGR at most
+ * @property {number} [cylindrical]  lx
+ * @property {number} [vertical]  lx
+ * @property {number} [daylightFactor]  %
+ * @property {number} [daylightGlare]  DGP at most
+ * @property {number} [colourRendering]  Ra
  */
 
 /**
@@ -316,6 +349,12 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} [relativeError]
  * @property {number} factor
  * @property {number} [spacing]  m
+ * @property {boolean} [maintained]
+ * @property {string} [name]  of a zone
+ * @property {string} [requirement]  that it is to meet
+ * @property {Check[]} [checks]
+ * @property {Verdict} [verdict]
+ * @property {boolean} [removed]
  */
 
 /**

@@ -286,14 +286,66 @@ export class Pins {
             flag.textContent = `Light ${change}`;
             body.append(flag);
         }
+        for (const reply of pin.replies ?? []) {
+            body.append(this.#reply(reply));
+        }
+        item.classList.toggle('resolved', Boolean(pin.resolved));
         item.append(number, body);
         if (this.app.mayReview) {
+            body.append(this.#actions(pin));
             item.append(
                 smallButton('×', `Remove pin ${pin.pin}`, () =>
                     this.app.ask({removePin: {pin: pin.pin}}),
                 ),
             );
+        } else if (pin.resolved) {
+            detail.append(' · resolved');
         }
         return item;
+    }
+
+    /** @param {{byName: string, text: string}} reply */
+    #reply({byName, text}) {
+        const line = document.createElement('p');
+        line.className = 'pin-reply';
+        const who = document.createElement('b');
+        who.textContent = byName || 'Somebody';
+        line.append(who, `: ${text}`);
+        return line;
+    }
+
+    /**
+     * What a reviewer does with a pin.
+     *
+     * @param {Pin} pin
+     */
+    #actions(pin) {
+        const row = document.createElement('div');
+        row.className = 'pin-actions';
+        const form = document.createElement('form');
+        form.className = 'inline-form';
+        form.hidden = true;
+        const text = document.createElement('input');
+        text.maxLength = MAX_TEXT;
+        text.required = true;
+        text.setAttribute('aria-label', `Reply to pin ${pin.pin}`);
+        text.placeholder = 'Reply';
+        const send = document.createElement('button');
+        send.type = 'submit';
+        send.textContent = 'Send';
+        form.append(text, send);
+        form.addEventListener('submit', (event) => {
+            event.preventDefault();
+            this.app.ask({replyToPin: {pin: pin.pin, text: text.value.trim()}});
+        });
+        const reply = smallButton('Reply', `Reply to pin ${pin.pin}`, () => {
+            form.hidden = !form.hidden;
+            text.focus();
+        });
+        const state = smallButton(pin.resolved ? 'Reopen' : 'Resolve', `${pin.resolved ? 'Reopen' : 'Resolve'} pin ${pin.pin}`, () =>
+            this.app.ask({setPin: {pin: pin.pin, resolved: !pin.resolved}}),
+        );
+        row.append(state, reply, form);
+        return row;
     }
 }

@@ -20,6 +20,7 @@ import {partsOf, timeAt, zoneOf} from '../../client_web/scene/day_time.js';
 import {sunText} from '../../client_web/scene/daylight_panel.js';
 import {groupState, groupsOf} from '../../client_web/scene/light_groups.js';
 import {areaOver, planeCsv, planeState, valueText, withInterval} from '../../client_web/measure/work_plane.js';
+import {checkText, verdictSign, zoneValues} from '../../client_web/measure/zones.js';
 import {aimAt, aimOf, anglesOf} from '../../client_web/scene/light_place.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/scene/light_values.js';
 import {lightState} from '../../client_web/scene/light_state.js';
@@ -884,5 +885,25 @@ describe('work plane', () => {
         assert.equal(planeState(result),
             '2 × 1 points. 1 lie in solids and are left out. Maintained: times 0.8. The values are still uncertain.');
         assert.equal(planeCsv(result, 'lx').split('\n')[2], '0.0000,1.0000,0.5000,,,,in a solid');
+    });
+});
+
+describe('zones', () => {
+    const zone = {measurement: 1, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 1, rows: 1, factor: 1, points: [],
+        mean: 512, meanLow: 505, meanHigh: 519, uniformity: 0.71};
+
+    it('say what they have, in the unit that is chosen', () => {
+        assert.equal(zoneValues(zone, 'lx'), 'Em 512 lx (505 lx to 519 lx), Uo 0.71');
+        assert.equal(zoneValues({...zone, quantity: 'UGR', maximum: 20.24, maximumLow: 20.1, maximumHigh: 20.4}, 'fc'),
+            'UGR 20.2 (20.1 to 20.4) where it is worst');
+        assert.equal(zoneValues({...zone, mean: undefined}, 'lx'), 'Em being measured …');
+        const outside = {position: {x: 0, y: 0, z: 0}, inside: false, glare: /** @type {any} */ ({state: 'OUTSIDE'})};
+        assert.equal(zoneValues({...zone, quantity: 'UGR', points: [outside]}, 'lx'), 'UGR outside of the method');
+    });
+
+    it('say what is required, and whether it is met, without colour', () => {
+        assert.equal(checkText({what: 'Em', required: 500, atMost: false, verdict: 'MET'}, 'lx'), 'Em ≥ 500 lx: met');
+        assert.equal(checkText({what: 'UGR', required: 19, atMost: true, verdict: 'NOT_YET_KNOWN'}, 'fc'), 'UGR ≤ 19: not yet known');
+        assert.deepEqual(['MET', 'MISSED', 'NOT_YET_KNOWN', undefined].map((v) => verdictSign(/** @type {any} */ (v))), ['✓', '✗', '?', '']);
     });
 });
