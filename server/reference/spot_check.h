@@ -21,14 +21,22 @@ struct SquaredError {
     double standard_error = 0.0;
 };
 
-/// A scene as paths are traced in it; scene and mesh must outlive it.
+/// A scene as paths are traced in it; scene and mesh must outlive it. Light of punctual lights
+/// comes through thin panes, as in pictures.
 struct TracedScene {
     TracedScene(const Scene& scene, const PatchMesh& mesh)
-        : rays(scene, mesh), lights(rays), paths(rays, lights) {}
+        : rays(scene, mesh), lights(rays), paths(rays, lights, through_panes()) {}
 
     RayScene rays;
     LightSampling lights;
     PathTracer paths;
+
+  private:
+    static PathSettings through_panes() {
+        PathSettings settings;
+        settings.panes = Panes::pass;
+        return settings;
+    }
 };
 
 /// Measures the true error of a picture by path tracing some of its pixels: everything that is
