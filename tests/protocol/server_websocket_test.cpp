@@ -253,7 +253,8 @@ TEST_F(ServerWebSocketTest, BroadcastReachesEverybodyElse) {
     change.mutable_scene_changed()->set_epoch(1);
     server_->broadcast(change, from);
     EXPECT_PRED_FORMAT2(SameJson, b.read_message()->payload,
-                        R"({"sceneChanged":{"epoch":1,"by":0}})");
+                        R"({"sceneChanged":{"epoch":1,"by":0,"objects":[],"lights":[],)"
+                        R"("materials":[]}})");
     server_->broadcast(change);
     EXPECT_TRUE(a.read_message().has_value());
 }

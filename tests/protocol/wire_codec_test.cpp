@@ -150,7 +150,7 @@ TEST(WireCodec, AnswersUnknownMessagesWithTheirId) {
     EXPECT_EQ(refused(parse_text_message(R"({"id":13})")).code, v1::Error::INVALID_ARGUMENT);
     EXPECT_EQ(refused(parse_text_message(R"({"id":13,"ping":null})")).code,
               v1::Error::INVALID_ARGUMENT);
-    const std::string unknown_field("\xA2\x06\x00", 3);  // field 100, empty
+    const std::string unknown_field("\xA2\x38\x00", 3);  // field 900, empty
     EXPECT_EQ(refused(parse_binary_message(unknown_field)).code, v1::Error::UNIMPLEMENTED);
 }
 
@@ -268,8 +268,8 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         SameJson, to_json(message),
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
-        R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0}],"cameras":[],)"
-        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[]},)"
+        R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0,"photometry":"","added":false}],"cameras":[],)"
+        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[],"luminaires":[]},)"
         R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
 
@@ -280,7 +280,8 @@ TEST(WireCodec, PrintsErrorsAndOneofChanges) {
     message.mutable_scene_changed()->set_epoch(1);
     message.mutable_scene_changed()->mutable_set_light()->set_light(2);
     EXPECT_PRED_FORMAT2(SameJson, to_json(message),
-                        R"({"sceneChanged":{"epoch":1,"by":0,"setLight":{"light":2}}})");
+                        R"({"sceneChanged":{"epoch":1,"by":0,"objects":[],"lights":[],)"
+                        R"("materials":[],"setLight":{"light":2,"sameType":false}}})");
 }
 
 TEST(WireCodec, FramesHaveLittleEndianHeaderLength) {
