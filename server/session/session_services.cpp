@@ -40,7 +40,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 {settings.renderer, settings.software_rendering,
                  static_cast<bool>(settings.scene_requests)}}),
       status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
-      follower({s.live, changes, lighting, review, views}) {}
+      follower({s.live, changes, lighting, review, views, measurements}) {}
 
 void SessionServices::forget(SessionState& state, ViewerId viewer) {
     frames.forget(viewer);

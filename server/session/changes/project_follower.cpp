@@ -22,6 +22,10 @@ void ProjectFollower::step() {
             case NoteKind::lighting_scene:
                 parts_.lighting.follow(entry);
                 break;
+            case NoteKind::zone:
+            case NoteKind::requirements:
+                parts_.measurements.follow(entry);
+                break;
         }
     }
 }

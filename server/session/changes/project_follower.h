@@ -3,6 +3,7 @@
 
 #include "session/changes/change_coordinator.h"
 #include "session/changes/lighting_service.h"
+#include "session/measure/measure_service.h"
 #include "session/review/review_service.h"
 #include "session/viewers/view_service.h"
 
@@ -18,6 +19,7 @@ class ProjectFollower {
         LightingService& lighting;
         ReviewService& review;
         ViewService& views;
+        MeasureService& measurements;
     };
     explicit ProjectFollower(const Parts& parts) : parts_(parts) {}
 

@@ -21,29 +21,6 @@ MeasureService::MeasureService(const Parts& parts)
     restore_zones();
 }
 
-void MeasureService::restore_zones() {
-    for (const std::string& body : parts_.scene.log().notes(NoteKind::zone)) {
-        v1::JournalZone zone;
-        if (!zone.ParseFromString(body) || zone.measure().name().empty()) {
-            continue;
-        }
-        MeasureRequest request = from_message(zone.measure());
-        if (request.task.points.empty() || measurements_.size() >= most_zones) {
-            spdlog::warn("zone '{}' of the journal has no points and is left out",
-                         zone.measure().name());
-            continue;
-        }
-        const std::uint32_t number = zone.number();
-        last_number_ = std::max(last_number_, number);
-        request.task.settings.seed = number;
-        measurer_.add(number, request.task);
-        Measurement& added = measurements_[number];
-        added = {0, std::move(request), std::nullopt, true, parts_.policy.clock().now()};
-        added.zone = std::move(zone);
-        show_again(added);
-    }
-}
-
 std::size_t MeasureService::count(bool zones) const {
     return static_cast<std::size_t>(
         std::count_if(measurements_.begin(), measurements_.end(),
@@ -92,10 +69,16 @@ HandlerResult MeasureService::measure(ViewerSession& session, const ClientEvent&
         parts_.server.reply_error(event, code, problem);
         return HandlerResult::answered;
     }
-    const std::uint32_t number = last_number_ + 1;
+    const bool zone = !measure.name().empty();
+    const std::optional<std::uint32_t> free = new_number(zone);
+    if (!free) {
+        parts_.server.reply_error(event, v1::Error::INTERNAL, "the zone could not be saved");
+        return HandlerResult::answered;
+    }
+    const std::uint32_t number = *free;
     Measurement added{session.id(), std::move(request), event, measure.keep(),
                       parts_.policy.clock().now()};
-    if (!measure.name().empty()) {
+    if (zone) {
         added.zone.set_number(number);
         *added.zone.mutable_measure() = measure;
         added.zone.set_by_name(session.name());
@@ -104,7 +87,7 @@ HandlerResult MeasureService::measure(ViewerSession& session, const ClientEvent&
             return HandlerResult::answered;
         }
     }
-    last_number_ = number;
+    note_number(number);
     added.request.task.settings.seed = number;
     measurer_.add(number, added.request.task);
     Measurement& kept = measurements_[number] = std::move(added);
@@ -134,22 +117,12 @@ HandlerResult MeasureService::remove(ViewerSession& session, const ClientEvent& 
                                   "removeMeasurement: only reviewers and editors remove zones");
         return HandlerResult::answered;
     }
-    if (zone) {
-        if (!parts_.scene.log().keep_note(NoteKind::zone, number, {})) {
-            parts_.server.reply_error(event, v1::Error::INTERNAL,
-                                      "the zone's removal could not be saved");
-            return HandlerResult::answered;
-        }
-        ++version_;
-        v1::ServerMessage message;
-        message.mutable_measured()->set_measurement(number);
-        message.mutable_measured()->set_name(found->second.zone.measure().name());
-        message.mutable_measured()->set_removed(true);
-        parts_.server.broadcast(message);
+    if (zone && !parts_.scene.log().keep_note(NoteKind::zone, number, {})) {
+        parts_.server.reply_error(event, v1::Error::INTERNAL,
+                                  "the zone's removal could not be saved");
+        return HandlerResult::answered;
     }
-    measurer_.remove(number);
-    results_.erase(number);
-    measurements_.erase(found);
+    drop(number);
     return HandlerResult::ok;
 }
 
@@ -190,16 +163,7 @@ void MeasureService::announce_requirements(const ClientEvent& event, bool done) 
         parts_.server.reply_error(event, board_.refusal().code(), board_.refusal().message());
         return;
     }
-    ++version_;
-    v1::ServerMessage message;
-    board_.fill(message.mutable_requirements_changed());
-    parts_.server.broadcast(message);
-    for (auto& [number, measurement] : measurements_) {
-        if (measurement.is_zone() && !measurement.zone.measure().requirement().empty()) {
-            show_again(measurement);
-            send(measurement);
-        }
-    }
+    tell_requirements();
     parts_.server.reply_ok(event);
 }
 

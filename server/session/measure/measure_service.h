@@ -44,6 +44,8 @@ class MeasureService {
     /// Hands the present scene on where it is wanted, and sends what has been found.
     void step();
     void forget(ViewerId viewer);
+    /// A zone, or the requirements, of another server of the project.
+    void follow(const LogEntry& note);
 
     /// A zone for those who draw or write about it.
     struct Zone {
@@ -76,6 +78,11 @@ class MeasureService {
     [[nodiscard]] bool keep_zone(const v1::JournalZone& zone);
     [[nodiscard]] Measurement* find_zone(std::uint32_t number);
     void restore_zones();
+    bool take_up(v1::JournalZone zone);
+    void drop(std::uint32_t number);
+    [[nodiscard]] std::optional<std::uint32_t> new_number(bool zone);
+    void note_number(std::uint32_t number);
+    void tell_requirements();
     void show_again(Measurement& measurement);
     void announce_requirements(const ClientEvent& event, bool done);
     void send(Measurement& measurement);
@@ -87,6 +94,7 @@ class MeasureService {
     std::map<std::uint32_t, Measurement> measurements_;
     std::map<std::uint32_t, PointMeasurer::Result> results_;  ///< newest of zones
     std::uint32_t last_number_ = 0;
+    std::uint32_t last_own_number_ = 0;  ///< of those that other servers must not meet
     std::uint64_t version_ = 1;
     PointMeasurer measurer_;
 };

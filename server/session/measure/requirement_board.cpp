@@ -42,14 +42,19 @@ constexpr std::uint32_t the_note = 1;
 
 RequirementBoard::RequirementBoard(ChangeLog& log) : log_(log), rows_(examples()) {
     for (const std::string& body : log.notes(NoteKind::requirements)) {
-        v1::JournalRequirements stored;
-        if (stored.ParseFromString(body)) {
-            rows_.clear();
-            for (const v1::Requirement& r : stored.requirements()) {
-                if (!r.name().empty()) {
-                    rows_[r.name()] = r;
-                }
-            }
+        restore(body);
+    }
+}
+
+void RequirementBoard::restore(const std::string& body) {
+    v1::JournalRequirements stored;
+    if (!stored.ParseFromString(body)) {
+        return;
+    }
+    rows_.clear();
+    for (const v1::Requirement& r : stored.requirements()) {
+        if (!r.name().empty()) {
+            rows_[r.name()] = r;
         }
     }
 }

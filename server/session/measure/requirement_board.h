@@ -20,6 +20,8 @@ class RequirementBoard {
     /// Takes up what the journal holds.
     explicit RequirementBoard(ChangeLog& log);
 
+    /// All rows as a note of the log has them.
+    void restore(const std::string& body);
     /// False where there are too many or it cannot be stored; the reason is in refusal().
     bool set(const v1::Requirement& row);
     /// False where there is none (NOT_FOUND) or that cannot be stored.
