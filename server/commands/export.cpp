@@ -82,6 +82,12 @@ int run_export(const Options& options) {
     settings.seed = options.scene.seed;
     const EglContext context = create_egl_context({options.device.gpu, false});
     const LoadedScene loaded = load_scene(options);
+    if (loaded.scene.medium) {
+        spdlog::warn(
+            "{}: walkthroughs show surfaces without the air before them, which dims them and "
+            "scatters light; `render` shows it",
+            loaded.scene.name);
+    }
     const Camera camera = choose_camera(loaded.scene, options);
     settings.caustics = is_active(
         plan_effects(loaded.scene, loaded.mesh.patch_count(), options.stop.error.value_or(0.0)),
