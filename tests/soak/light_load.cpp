@@ -154,9 +154,6 @@ int load(std::size_t count, std::size_t silent, double seconds) {
                silent, seconds);
     Daemon daemon(scene_file("cornell_box.gltf"),
                   {"--max-viewers", "1000", "--log-level", "warn", "--journal", "none"});
-    JsonViewer editor(daemon.port());
-    editor.join("", 320, 240);
-    editor.next_frame([](const Json&) { return true; });
     Changes changes;
     std::vector<std::unique_ptr<LoadViewer>> viewers;
     const auto begun = Clock::now();
@@ -173,6 +170,9 @@ int load(std::size_t count, std::size_t silent, double seconds) {
                            static_cast<double>(std::max<std::size_t>(count - silent, 1));
     fmt::print("  all have joined after {:.1f} s; {:.0f} bytes of light each\n",
                std::chrono::duration<double>(Clock::now() - begun).count() - 3.0, joining);
+    JsonViewer editor(daemon.port());
+    editor.join("", 320, 240);
+    editor.next_frame([](const Json&) { return true; });
     const std::size_t before = bytes_of(viewers, silent, count);
     Footprint seen;
     std::jthread watcher([&] { seen = watch(daemon, seconds); });
