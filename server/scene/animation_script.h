@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scene/animation/script_playback.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/scene.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle {
 

@@ -248,9 +248,9 @@ struct Scene {
     DaylightSetting daylight;
     std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
     std::shared_ptr<const SceneAnimations> animations;  ///< none where nothing is animated
-    std::shared_ptr<const SceneFolder> folder;  ///< what can be added to it; null: nothing
-    Bounds bounds;                              ///< world space
-    glm::dvec3 origin{0.0};                     ///< m, where the file has this scene's zero
+    std::shared_ptr<const SceneFolder> folder;          ///< what can be added to it; null: nothing
+    Bounds bounds;                                      ///< world space
+    glm::dvec3 origin{0.0};                             ///< m, where the file has this scene's zero
     RemovedGeometry removed;
     std::vector<std::string> notices;  ///< what a user should know about how the file was read
 };

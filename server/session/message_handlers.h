@@ -17,7 +17,7 @@ struct MessageHandler {
 };
 
 /// The handler of each message that reaches the render thread. What a message may contain, who may
-/// send it and whether a newer one replaces it is in net/ws/message_rules.cpp.
+/// send it and whether a newer one replaces it is in net/ws/rules/message_rules.cpp.
 std::span<const MessageHandler> message_handlers();
 
 /// Null where there is none.

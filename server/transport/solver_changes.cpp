@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scene/surface_edit.h"
+#include "scene/edit/surface_edit.h"
 #include "transport/solver.h"
 
 namespace raybundle {

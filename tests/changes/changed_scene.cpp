@@ -8,8 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
+#include "scene/edit/surface_edit.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle {
 

@@ -7,7 +7,7 @@
 
 #include "changed_room.h"
 #include "growing_room.h"
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 #include "scene/scene_folder.h"
 
 namespace raybundle {

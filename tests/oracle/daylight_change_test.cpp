@@ -5,7 +5,7 @@
 
 #include "../reference/lit_room.h"
 #include "changed_room.h"
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
 
 namespace raybundle {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "../reference/lit_room.h"
 #include "changed_room.h"
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 #include "scene/scene_folder.h"
 
 namespace raybundle {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "oracle/scene_builder.h"
-#include "scene/luminaire_edit.h"
+#include "scene/edit/luminaire_edit.h"
 #include "scene/mesh/mesh_growth.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"

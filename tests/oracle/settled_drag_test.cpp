@@ -9,8 +9,8 @@
 
 #include "fresh_solves.h"
 #include "moved_box.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle {
 namespace {

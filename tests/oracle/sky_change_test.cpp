@@ -9,10 +9,10 @@
 
 #include "oracle/oracle_solve.h"
 #include "reference/camera_rays.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/light/environment.h"
 #include "scene/light/environment_map.h"
 #include "scene/light/sky_dome.h"
-#include "scene/surface_edit.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oracle/scene_builder.h"
-#include "scene/surface_edit.h"
+#include "scene/edit/surface_edit.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 

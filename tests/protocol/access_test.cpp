@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "net/access/gate.h"
-#include "net/ws/message_rules.h"
+#include "net/ws/rules/message_rules.h"
 #include "net/ws/session.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/message_rules.h"
+#include "net/ws/rules/message_rules.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include "case_files.h"
 #include "gltf_builder.h"
 #include "scene/contact/solid_shells.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/material/base_colour.h"
 #include "scene/material/specular_surface.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights that are placed, turned, shaped, coloured by temperature and grouped while a scene is
 // shown.
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 
 #include <gtest/gtest.h>
 

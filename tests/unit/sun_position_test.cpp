@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
+#include "scene/edit/light_edit.h"
 #include "scene/light/environment.h"
-#include "scene/light_edit.h"
 
 namespace raybundle::test {
 namespace {

@@ -7,13 +7,13 @@
 #include <glm/gtc/constants.hpp>
 
 #include "gltf_builder.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/material/brdf.h"
 #include "scene/material/normal_map.h"
 #include "scene/material/reflectance_grid.h"
 #include "scene/material/texture_mean.h"
 #include "scene/mesh/patch_colour.h"
 #include "scene/mesh/patch_mesh.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "net/ws/message_rules.h"
+#include "net/ws/rules/message_rules.h"
 
 namespace raybundle {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "net/clock.h"
-#include "net/ws/message_rules.h"
+#include "net/ws/rules/message_rules.h"
 
 namespace raybundle {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "net/ws/json_fields.h"
 #include "net/ws/json_scan.h"
-#include "net/ws/message_rules.h"
 #include "net/ws/protocol_version.h"
+#include "net/ws/rules/message_rules.h"
 
 namespace raybundle {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "scene/animation/key_track.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/scene.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle {
 

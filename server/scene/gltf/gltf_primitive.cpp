@@ -11,7 +11,7 @@
 
 #include "scene/gltf/file/gltf_accessor.h"
 #include "scene/gltf/file/gltf_draco.h"
-#include "scene/gltf/gltf_material.h"
+#include "scene/gltf/material/gltf_material.h"
 
 namespace raybundle {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
 #include "session/changes/change_expansion.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"

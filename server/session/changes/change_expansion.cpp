@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "scene/light_edit.h"
-#include "scene/luminaire_edit.h"
+#include "scene/edit/light_edit.h"
+#include "scene/edit/luminaire_edit.h"
 #include "scene/object_limits.h"
 #include "session/messages/addition_messages.h"
 #include "session/messages/light_messages.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/changes/changed_materials.h"
 
-#include "scene/surface_edit.h"
+#include "scene/edit/surface_edit.h"
 
 namespace raybundle {
 

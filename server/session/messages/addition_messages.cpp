@@ -5,8 +5,8 @@
 #include <set>
 
 #include "journal/change_sum.h"
-#include "scene/light_edit.h"
-#include "scene/luminaire_edit.h"
+#include "scene/edit/light_edit.h"
+#include "scene/edit/luminaire_edit.h"
 #include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
 #include "scene/light/sun_position.h"
 #include "session/messages/light_messages.h"
 

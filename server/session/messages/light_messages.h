@@ -5,7 +5,7 @@
 #include <string>
 
 #include "raybundle.pb.h"
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 #include "scene/scene.h"
 
 namespace raybundle {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "journal/change_sum.h"
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
 #include "scene/effects/effects_plan.h"
 #include "scene/object_kind.h"
 #include "scene/object_limits.h"

@@ -3,9 +3,9 @@
 
 #include "net/ws/client_event.h"
 #include "raybundle.pb.h"
+#include "scene/edit/surface_edit.h"
 #include "scene/effects/effects_plan.h"
 #include "scene/scene.h"
-#include "scene/surface_edit.h"
 
 namespace raybundle {
 

@@ -15,7 +15,7 @@
 #include "scene/gltf/gltf_air.h"
 #include "scene/gltf/gltf_daylight.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/gltf/gltf_max_phong.h"
+#include "scene/gltf/material/gltf_max_phong.h"
 
 namespace raybundle {
 namespace {

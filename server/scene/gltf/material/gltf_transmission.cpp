@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf/gltf_transmission.h"
+#include "scene/gltf/material/gltf_transmission.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/luminaire_edit.h"
+#include "scene/edit/luminaire_edit.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "scene/edit/light_edit.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/light/light_place.h"
-#include "scene/light_edit.h"
 #include "scene/object_limits.h"
 #include "scene/scene_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf/gltf_material.h"
+#include "scene/gltf/material/gltf_material.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "scene/gltf/file/gltf_image.h"
-#include "scene/gltf/gltf_clear_coat.h"
 #include "scene/gltf/gltf_loader.h"
-#include "scene/gltf/gltf_max_phong.h"
-#include "scene/gltf/gltf_transmission.h"
+#include "scene/gltf/material/gltf_clear_coat.h"
+#include "scene/gltf/material/gltf_max_phong.h"
+#include "scene/gltf/material/gltf_transmission.h"
 #include "scene/material/alpha_blend.h"
 
 namespace raybundle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/message_rules.h"
+#include "net/ws/rules/message_rules.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "net/http/scene_name.h"
-#include "net/ws/addition_rules.h"
-#include "net/ws/measure_rules.h"
-#include "net/ws/message_checker.h"
+#include "net/ws/rules/addition_rules.h"
+#include "net/ws/rules/measure_rules.h"
+#include "net/ws/rules/message_checker.h"
 
 namespace raybundle {
 namespace {

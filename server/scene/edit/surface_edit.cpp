@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/surface_edit.h"
+#include "scene/edit/surface_edit.h"
 
 #include <algorithm>
 #include <array>

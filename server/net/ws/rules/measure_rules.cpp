@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/measure_rules.h"
+#include "net/ws/rules/measure_rules.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/daylight_edit.h"
+#include "scene/edit/daylight_edit.h"
 
 #include <algorithm>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "net/ws/message_checker.h"
+#include "net/ws/rules/message_checker.h"
 
 namespace raybundle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <limits>
 #include <numeric>
 
+#include "scene/edit/luminaire_edit.h"
 #include "scene/light/environment.h"
 #include "scene/light/light_place.h"
-#include "scene/luminaire_edit.h"
 #include "scene/object_limits.h"
 
 namespace raybundle {

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "scene/light_edit.h"
+#include "scene/edit/light_edit.h"
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "net/ws/message_checker.h"
+#include "net/ws/rules/message_checker.h"
 
 namespace raybundle {
 

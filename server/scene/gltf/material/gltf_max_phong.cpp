@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf/gltf_max_phong.h"
+#include "scene/gltf/material/gltf_max_phong.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "net/ws/addition_rules.h"
+#include "net/ws/rules/addition_rules.h"
 
 #include <algorithm>
 #include <cmath>
