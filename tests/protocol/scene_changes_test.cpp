@@ -135,6 +135,35 @@ TEST(ChangeQueue, OneWayToSayItReplacesTheOther) {
     EXPECT_EQ(sum.aim().z(), 0.0F);
 }
 
+LogEntry recorded(std::uint32_t epoch) {
+    LogEntry entry;
+    entry.change = change_of(light(0, static_cast<float>(epoch)));
+    entry.change.set_epoch(epoch);
+    return entry;
+}
+
+TEST(ChangeQueue, ChangesOfOtherServersComeFirstInTheirOrder) {
+    ChangeQueue queue;
+    queue.add(move(1, 2, 1.0F));
+    queue.add_recorded(recorded(7));
+    queue.add_recorded(recorded(8));
+    queue.add(light(2, 100.0F));
+    queue.put_back({});  // nothing: what waits keeps its requests
+    ASSERT_EQ(queue.size(), 4U);
+    EXPECT_EQ(queue.take().change.epoch(), 7U);
+    PendingChange again = queue.take();
+    EXPECT_EQ(again.change.epoch(), 8U);
+    EXPECT_EQ(again.change.set_light().intensity(), 8.0F) << "nothing joins what is in the log";
+    const PendingChange moved = queue.take();
+    ASSERT_EQ(moved.requests.size(), 1U);
+    EXPECT_EQ(moved.requests[0].message.id(), 1U);
+    queue.add_recorded(recorded(9));
+    queue.put_back({moved});
+    EXPECT_EQ(queue.take().change.epoch(), 9U);
+    EXPECT_EQ(queue.take().requests.size(), 1U) << "what is put back comes before what waits";
+    EXPECT_EQ(queue.take().requests[0].message.id(), 2U);
+}
+
 TEST(ChangeQueue, AllRequestsAreHandedOutWhenTheServerStops) {
     ChangeQueue queue;
     for (std::uint32_t id = 1; id <= 200; ++id) {

@@ -96,6 +96,9 @@ void ChangeQueue::add_recorded(LogEntry entry) {
 }
 
 void ChangeQueue::put_back(std::vector<PendingChange> changes) {
+    if (changes.empty()) {
+        return;  // libstdc++'s deque moves elements onto themselves, which empties their requests
+    }
     pending_.insert(behind_recorded(), std::make_move_iterator(changes.begin()),
                     std::make_move_iterator(changes.end()));
 }
