@@ -180,35 +180,55 @@ std::string pin_section(const ReportData& data, const ReportWords& w) {
                       rows);
 }
 
+/// A blank and the name of the entry with that number; empty: there is none (any more).
+template <typename Entries>
+std::string named(const Entries& entries, std::uint32_t id) {
+    const auto found = std::find_if(entries.begin(), entries.end(),
+                                    [id](const auto& entry) { return entry.id() == id; });
+    return found == entries.end() ? "" : " " + escaped(found->name());
+}
+
+/// What a change has done, in words.
+std::string change_text(const v1::SceneChanged& change, const ReportData& data,
+                        const ReportWords& w) {
+    const v1::Scene& scene = data.scene;
+    switch (change.change_case()) {
+        case v1::SceneChanged::kMoveObject:
+            return w.of("object moved:", "Objekt bewegt:") +
+                   named(scene.objects(), change.move_object().object());
+        case v1::SceneChanged::kSetLight:
+            return w.of("light", "Licht") + named(scene.lights(), change.set_light().light());
+        case v1::SceneChanged::kSetMaterial:
+            return w.of("material", "Material") +
+                   named(scene.materials(), change.set_material().material());
+        case v1::SceneChanged::kSetDaylight:
+            return w.of("daylight: ", "Tageslicht: ") + daylight_text(change.set_daylight(), w);
+        case v1::SceneChanged::kAddObject:
+            return change.add_object().removed() ? w.of("object removed", "Objekt entfernt")
+                                                 : w.of("object added: ", "Objekt hinzugefügt: ") +
+                                                       escaped(change.add_object().name());
+        case v1::SceneChanged::kRemoveObject:
+            return w.of("object removed", "Objekt entfernt");
+        case v1::SceneChanged::kAddLuminaire:
+            return change.add_luminaire().removed()
+                       ? w.of("luminaire removed", "Leuchte entfernt")
+                       : w.of("luminaire added: ", "Leuchte hinzugefügt: ") +
+                             escaped(change.add_luminaire().name());
+        case v1::SceneChanged::kRemoveLight:
+            return w.of("luminaire removed", "Leuchte entfernt");
+        case v1::SceneChanged::CHANGE_NOT_SET:
+            break;
+    }
+    return w.of("change", "Änderung");
+}
+
 std::string change_section(const ReportData& data, const ReportWords& w) {
     std::vector<std::vector<std::string>> rows;
     for (const v1::SceneChanged& change : data.changes.changes()) {
         if (change.at_ms() < w.options().since_ms) {
             continue;
         }
-        std::string what;
-        switch (change.change_case()) {
-            case v1::SceneChanged::kMoveObject:
-                what = w.of("object moved", "Objekt bewegt");
-                break;
-            case v1::SceneChanged::kSetLight: {
-                const auto id = static_cast<int>(change.set_light().light());
-                what = w.of("light", "Licht");
-                if (id >= 1 && id <= data.scene.lights_size()) {
-                    what += " " + escaped(data.scene.lights(id - 1).name());
-                }
-                break;
-            }
-            case v1::SceneChanged::kSetMaterial:
-                what = w.of("material", "Material");
-                break;
-            case v1::SceneChanged::kSetDaylight:
-                what = w.of("daylight", "Tageslicht") +
-                       (": " + daylight_text(change.set_daylight(), w));
-                break;
-            default:
-                what = w.of("change", "Änderung");
-        }
+        const std::string what = change_text(change, data, w);
         rows.push_back({std::to_string(change.epoch()), ReportWords::time(change.at_ms()),
                         change.by_name().empty() ? "–" : escaped(change.by_name()), what});
     }

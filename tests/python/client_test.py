@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 import raybundle
-from raybundle import link, recording
+from raybundle import link, messages, recording
 from served import EXECUTABLE, ROOT, Daemon
 
 BOX = str(ROOT / "scenes/cornell_box.gltf")
@@ -96,6 +96,21 @@ class Requests(WithServer):
         self.assertAlmostEqual(now.translation.x, 2.0)
         self.assertEqual(now.translation.y, 0.0)
         self.assertEqual(now.scale.x, scale)
+
+    async def test_others_see_what_is_copied_and_removed(self):
+        one, other = await self.connect(name="one"), await self.connect(name="other")
+        box = one.state.object("short box")
+        addition = messages.AddObject(copy_of=box.id, name="second box")
+        addition.transform.CopyFrom(box.transform)
+        addition.transform.translation.x += 0.5
+        changed = (await one.request(add_object=addition)).scene_changed
+        await other.wait_for(lambda: other.epoch >= changed.epoch)
+        added = other.state.object("second box")
+        self.assertEqual(added.id, changed.add_object.object)
+        self.assertAlmostEqual(added.transform.translation.x, box.transform.translation.x + 0.5, places=5)
+        changed = (await one.request(remove_object=messages.RemoveObject(object=box.id))).scene_changed
+        await other.wait_for(lambda: other.epoch >= changed.epoch)
+        self.assertNotIn("short box", [thing.name for thing in other.scene.objects])
 
     async def test_others_see_changes_of_lights_groups_materials_and_pins(self):
         one, other = await self.connect(name="one"), await self.connect(name="other")

@@ -25,6 +25,20 @@ def find(entries: Iterable[Any], key: Key, kind: str) -> Any:
     raise KeyError(f"no {kind} {key!r}; there are {known}")
 
 
+def _put(entries: Any, news: Iterable[Any]) -> None:
+    """Takes in entries as they are now: in the place of those of their numbers, else at the end."""
+    for new in news:
+        known = [entry for entry in entries if entry.id == new.id]
+        (known[0] if known else entries.add()).CopyFrom(new)
+
+
+def _drop(entries: Any, number: int) -> None:
+    for place, entry in enumerate(entries):
+        if entry.id == number:
+            del entries[place]
+            return
+
+
 class SceneState:
     """Follows SceneChanged messages. `scene` is the message of the welcome, brought up to date."""
 
@@ -50,6 +64,15 @@ class SceneState:
         kind = changed.WhichOneof("change")
         if kind is not None and hasattr(self, f"_{kind}"):
             getattr(self, f"_{kind}")(getattr(changed, kind))
+        for name in ("objects", "lights", "materials"):
+            _put(getattr(self.scene, name), getattr(changed, name))
+
+    def _remove_object(self, removal: Any) -> None:
+        _drop(self.scene.objects, removal.object)
+
+    def _remove_light(self, removal: Any) -> None:
+        _drop(self.scene.lights, removal.light)
+        self._group_lights()
 
     def _move_object(self, move: Any) -> None:
         for entry in self.scene.objects:

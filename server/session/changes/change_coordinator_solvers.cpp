@@ -66,8 +66,10 @@ bool ChangeCoordinator::start_growth(std::vector<PendingChange>& changes) {
     }
     if (!problem.empty()) {
         undo();
+        const std::string field =
+            pending.change.add_object().library().empty() ? "addObject: " : "addObject.library: ";
         for (const ClientEvent& request : pending.requests) {
-            parts_.server.reply_error(request, code, "addObject: " + problem);
+            parts_.server.reply_error(request, code, field + problem);
         }
         return false;
     }

@@ -173,6 +173,13 @@ v1::SetLight resolved(const Scene& scene, const v1::SetLight& light) {
 }
 
 std::string problem_of(const Scene& scene, const v1::SetLight& light) {
+    if (const auto index = punctual_index(scene, light.light()); index && light.has_photometry()) {
+        const std::string wrong =
+            exchange_problem(scene, scene.punctual_lights[*index], light.photometry());
+        if (!wrong.empty()) {
+            return "photometry: " + wrong;
+        }
+    }
     const std::string problem = problem_of(scene, from_message(light));
     if (!problem.empty()) {
         return "light: " + problem;
