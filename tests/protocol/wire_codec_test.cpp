@@ -247,7 +247,8 @@ TEST(WireCodec, PrintsDefaultsButNotAbsentFields) {
     EXPECT_PRED_FORMAT2(SameJson, to_json(message),
                         R"({"pinChanged":{"pin":1,"by":0,"text":"glare here",)"
                         R"("illuminance":0,"epoch":0,"removed":false,)"
-                        R"("byName":"","setAtMs":0,"object":0}})");
+                        R"("byName":"","setAtMs":0,"object":0,)"
+                        R"("replies":[],"resolved":false,"assignedTo":"","guid":""}})");
 }
 
 TEST(WireCodec, PrintsWelcomeAsPublished) {
@@ -269,8 +270,8 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
         R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0,"photometry":"","added":false}],"cameras":[],)"
-        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[],"luminaires":[]},)"
-        R"("pins":[],"viewpoints":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
+        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[],"luminaires":[],"animations":[]},)"
+        R"("pins":[],"viewpoints":[],"zones":[],"requirements":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
 
 TEST(WireCodec, PrintsErrorsAndOneofChanges) {

@@ -50,7 +50,9 @@ void check_directions(const v1::Measure& measure, MessageChecker& check) {
     for (const v1::Measure::Point& point : measure.points()) {
         const bool faced =
             point.has_normal() ? faces(point.normal(), quantity) : measure.has_direction();
-        check.require(faced, "measure.points.normal", "is missing, zero, or vertical");
+        const bool none = is_glare(measure) && !point.has_normal();
+        check.require(faced, none ? "measure.direction" : "measure.points.normal",
+                      "is missing, zero, or vertical");
     }
 }
 
