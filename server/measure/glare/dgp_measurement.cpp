@@ -47,7 +47,8 @@ std::string words_for(const Interval& value) {
 }  // namespace
 
 glm::dvec3 Fisheye::direction(const Gaze& gaze, std::size_t pixel, const glm::dvec2& at) {
-    const double z = 1.0 - (static_cast<double>(pixel / columns) + at.x) / rows;
+    const std::size_t row = pixel / columns;
+    const double z = 1.0 - (static_cast<double>(row) + at.x) / rows;
     const double azimuth =
         2.0 * std::numbers::pi * (static_cast<double>(pixel % columns) + at.y) / columns;
     const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
@@ -202,8 +203,8 @@ double DgpMeasurement::illuminance(const Gaze& eye, const Picture& picture, std:
     double sum = 0.0;
     for (std::size_t pixel = 0; pixel < Fisheye::pixels; ++pixel) {
         // The mean cosine of a row is that of its middle.
-        const double z =
-            1.0 - (static_cast<double>(pixel / Fisheye::columns) + 0.5) / Fisheye::rows;
+        const std::size_t row = pixel / Fisheye::columns;
+        const double z = 1.0 - (static_cast<double>(row) + 0.5) / Fisheye::rows;
         sum += picture.luminance[pixel] * z * Fisheye::solid_angle;
     }
     for (const Source& source : seen_[point]) {

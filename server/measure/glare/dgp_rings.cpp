@@ -35,7 +35,8 @@ std::vector<double> DgpMeasurement::ring_luminances(const Gaze& eye, const Pictu
         solid[ring] = 2.0 * std::numbers::pi * (inner - outer);
         for (std::size_t pixel = 0; pixel < Fisheye::pixels; ++pixel) {
             // Rows and rings are zones of the same sphere: their heights say what they share.
-            const double top = 1.0 - static_cast<double>(pixel / Fisheye::columns) / Fisheye::rows;
+            const std::size_t row = pixel / Fisheye::columns;
+            const double top = 1.0 - static_cast<double>(row) / Fisheye::rows;
             const double low = std::max(outer, top - 1.0 / Fisheye::rows);
             const double share = std::max(std::min(inner, top) - low, 0.0) * Fisheye::rows;
             light[ring] += share * picture.luminance[pixel] * Fisheye::solid_angle;

@@ -41,9 +41,10 @@ std::vector<v1::AddLuminaire> field_of(const Scene& scene, const v1::AddLuminair
         }
         one.set_light(first + i);
         one.set_name(columns * rows > 1 ? name + " " + std::to_string(i + 1) : name);
+        const std::uint32_t row = i / columns;
         to_message(from_message(request.position()) +
                        static_cast<float>(i % columns) * from_message(request.column_step()) +
-                       static_cast<float>(i / columns) * from_message(request.row_step()),
+                       static_cast<float>(row) * from_message(request.row_step()),
                    one.mutable_position());
         to_message(from_message(request).aim, one.mutable_aim());
     }
