@@ -56,12 +56,14 @@ describe('work on a server that nobody has told to save it', () => {
     });
 
     it('is known to who comes later, by name', async () => {
+        // Notices go by themselves.
+        const noticed = ann.page.waitForSelector('.notice:has-text("Ben has joined.")');
         ben = await openClient(browser, `${daemon.url}#name=Ben`, OPTIONS);
         await frameWith(ben.page, {});
+        await noticed;
         await ben.page.click('#tab-review');
         await ben.page.waitForSelector('#changes li');
         assert.match((await history(ben.page))[0], /Ann dimmed .*: 100 → 50\s%/);
-        await ann.page.waitForSelector('.notice:has-text("Ben has joined.")');
     });
 
     it('is asked about before another scene replaces it, with who sees it', async () => {
