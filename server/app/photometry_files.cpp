@@ -56,8 +56,9 @@ class PhotometryUpload : public Upload {
         : folder_(std::move(folder)), name_(std::move(name)), submit_(std::move(submit)) {}
 
     bool write(std::string_view bytes) override {
+        constexpr std::size_t most_bytes = std::size_t{16} << 20U;  // as the parsers take
         bytes_ += bytes;
-        return true;
+        return bytes_.size() <= most_bytes;
     }
 
     void finish(std::function<void(UploadResult)> done) override {

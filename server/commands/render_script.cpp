@@ -138,6 +138,7 @@ class Sequence {
         std::vector<std::uint32_t> materials;
         std::vector<std::uint32_t> reflecting;
         bool lights = false;
+        const std::vector<float> cones = outer_cones(loaded_.scene);
         std::vector<LightEdit> light_edits = script_.lights_between(before, time);
         append(script_.playback().lights_between(loaded_.scene, before, time), light_edits);
         for (const LightEdit& edit : light_edits) {
@@ -147,7 +148,7 @@ class Sequence {
                 materials.push_back(material);
             }
         }
-        bool covered = true;
+        bool covered = same_cones(loaded_.scene, cones) && solver_->covers_lights(loaded_.scene);
         std::vector<MaterialEdit> material_edits = script_.materials_between(before, time);
         append(script_.playback().materials_between(loaded_.scene, before, time), material_edits);
         for (const MaterialEdit& edit : material_edits) {

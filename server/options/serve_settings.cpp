@@ -22,14 +22,20 @@ bool is_loopback(const std::string& host) {
 std::string content_of(const std::string& file) {
     constexpr std::size_t max_bytes = 65536;
     std::ifstream stream(file, std::ios::binary);
-    std::string text(max_bytes, '\0');
+    std::string text(max_bytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (!stream.is_open() || stream.bad()) {
         throw UsageError("jwt: " + file + ": cannot be read");
     }
+    if (text.size() > max_bytes) {
+        throw UsageError("jwt: " + file + ": has more than 65536 bytes");
+    }
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
         text.pop_back();
+    }
+    if (text.empty()) {
+        throw UsageError("jwt: " + file + ": is empty");
     }
     return text;
 }

@@ -66,6 +66,7 @@ class Playing : public testing::Test {
         std::vector<v1::SceneChanged> changes = player.step(watched);
         for (v1::SceneChanged& change : changes) {
             player.number(change, ++epoch);
+            player.note_recorded(change, epoch);
             apply(scene, change);
         }
         return changes;

@@ -166,6 +166,9 @@ LightEdit punctual_edit(const Scene& scene, std::size_t index, const Values& val
     const FileLight& file = scene.animations->file_lights[index];
     LightEdit edit;
     edit.light = number_of(scene, index);
+    if (light.removed || light.as_loaded) {  // exchanged: the file's candela are of another one
+        return edit;
+    }
     const auto intensity = find(values, AnimatedValue::intensity);
     const auto colour = find(values, AnimatedValue::colour);
     if (intensity || colour) {
@@ -245,7 +248,8 @@ std::vector<std::pair<std::uint32_t, Transform>> object_places(
     const Pose pose(all, places);
     std::vector<std::pair<std::uint32_t, Transform>> result;
     for (const CarriedByNode& carried : all.objects) {
-        if (!std::binary_search(animation.objects.begin(), animation.objects.end(), carried.item)) {
+        if (scene.objects[carried.item].removed ||
+            !std::binary_search(animation.objects.begin(), animation.objects.end(), carried.item)) {
             continue;
         }
         const Transform place = pose.place(scene.objects[carried.item], carried);
@@ -263,7 +267,8 @@ std::vector<LightEdit> light_edits(const Scene& scene, std::span<const Animation
     const Pose pose(all, places);
     for (const CarriedByNode& carried : all.lights) {
         const std::uint32_t number = number_of(scene, carried.item);
-        if (std::binary_search(animation.lights.begin(), animation.lights.end(), number)) {
+        if (!scene.punctual_lights[carried.item].removed &&
+            std::binary_search(animation.lights.begin(), animation.lights.end(), number)) {
             edits[number] = place_edit(scene, carried, pose);
         }
     }

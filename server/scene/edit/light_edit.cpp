@@ -276,4 +276,17 @@ std::uint32_t apply(Scene& scene, const LightEdit& edit) {
     return material;
 }
 
+std::vector<float> outer_cones(const Scene& scene) {
+    std::vector<float> cosines;
+    for (const PunctualLight& light : scene.punctual_lights) {
+        cosines.push_back(light.kind == PunctualKind::spot ? light.outer_cosine : 0.0F);
+    }
+    return cosines;
+}
+
+bool same_cones(const Scene& scene, const std::vector<float>& before) {
+    const std::vector<float> now = outer_cones(scene);
+    return before.size() <= now.size() && std::equal(before.begin(), before.end(), now.begin());
+}
+
 }  // namespace raybundle

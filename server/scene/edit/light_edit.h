@@ -68,6 +68,12 @@ double flux_per_intensity(const Scene& scene, std::uint32_t light);
 /// no_material.
 std::uint32_t apply(Scene& scene, const LightEdit& edit);
 
+/// Of each punctual light the cosine of its outer cone, 0 where it is no spot. A spot with another
+/// one may need another kind of shadow map.
+std::vector<float> outer_cones(const Scene& scene);
+/// Whether lights that were there before have the cones that they had.
+bool same_cones(const Scene& scene, const std::vector<float>& before);
+
 /// A light's intensity as it shines, from how it is set, dimmed, switched and whether it is there.
 void refresh_intensity(PunctualLight& light);
 

@@ -74,7 +74,7 @@ std::uint32_t next_luminaire(const Scene& scene) {
 std::size_t added_lights(const Scene& scene) {
     return static_cast<std::size_t>(
         std::count_if(scene.punctual_lights.begin(), scene.punctual_lights.end(),
-                      [](const PunctualLight& light) { return light.added && !light.removed; }));
+                      [](const PunctualLight& light) { return light.added != nullptr; }));
 }
 
 std::string removal_problem(const Scene& scene, std::uint32_t light) {

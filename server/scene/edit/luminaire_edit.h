@@ -20,7 +20,8 @@ std::string problem_of(const Scene& scene, const AddedLuminaire& luminaire);
 void add_luminaire(Scene& scene, const AddedLuminaire& luminaire);
 /// Number of the next luminaire that is added.
 std::uint32_t next_luminaire(const Scene& scene);
-/// How many have been added and not been removed.
+/// How many have been added, those among them that have been removed since: they keep their
+/// numbers.
 std::size_t added_lights(const Scene& scene);
 
 /// Why a light cannot be removed; empty where it can.

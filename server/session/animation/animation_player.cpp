@@ -29,9 +29,11 @@ bool concerns(const Animation& animation, const v1::SceneChanged& change) {
     const auto [kind, id] = subject_of(change);
     switch (kind) {
         case v1::SceneChanged::kMoveObject:
+        case v1::SceneChanged::kAddObject:  // comes or goes
             return id >= 1 &&
                    std::binary_search(animation.objects.begin(), animation.objects.end(), id - 1);
         case v1::SceneChanged::kSetLight:
+        case v1::SceneChanged::kAddLuminaire:
             return std::binary_search(animation.lights.begin(), animation.lights.end(), id);
         case v1::SceneChanged::kSetMaterial:
             return std::binary_search(animation.materials.begin(), animation.materials.end(), id);
@@ -262,7 +264,15 @@ std::vector<v1::SceneChanged> AnimationPlayer::step(bool watched) {
     return {};
 }
 
-void AnimationPlayer::number(v1::SceneChanged& change, std::uint32_t epoch) {
+void AnimationPlayer::number(v1::SceneChanged& change, std::uint32_t epoch) const {
+    const std::size_t index = find_animation(scene_, change.animation().animation());
+    if (index < states_.size()) {
+        const std::uint32_t first = states_[index].first_epoch;
+        change.mutable_animation()->set_first_epoch(first == 0 ? epoch : first);
+    }
+}
+
+void AnimationPlayer::note_recorded(const v1::SceneChanged& change, std::uint32_t epoch) {
     const std::size_t index = find_animation(scene_, change.animation().animation());
     if (index >= states_.size()) {
         return;
@@ -280,7 +290,6 @@ void AnimationPlayer::number(v1::SceneChanged& change, std::uint32_t epoch) {
         state.stands.back() = {epoch, seconds};
     }
     state.touched = clock_.now();
-    change.mutable_animation()->set_first_epoch(state.first_epoch);
 }
 
 v1::PlayAnimation AnimationPlayer::state_of(std::size_t index) const {

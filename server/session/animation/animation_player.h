@@ -49,7 +49,9 @@ class AnimationPlayer {
     std::vector<std::size_t> take_ended() { return std::exchange(ended_, {}); }
 
     /// A change of step() gets this number: notes in it to which run it belongs.
-    void number(v1::SceneChanged& change, std::uint32_t epoch);
+    void number(v1::SceneChanged& change, std::uint32_t epoch) const;
+    /// It is in the log under that number.
+    void note_recorded(const v1::SceneChanged& change, std::uint32_t epoch);
 
     /// All of the state of an animation.
     [[nodiscard]] v1::PlayAnimation state_of(std::size_t animation) const;

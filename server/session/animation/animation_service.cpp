@@ -51,6 +51,12 @@ void AnimationService::note_request(const ClientEvent& event, const v1::SceneCha
     tell(event.message.has_undo() ? player_.stop_all() : player_.make_way(change), event.viewer);
 }
 
+void AnimationService::note_foreign(const v1::SceneChanged& change) {
+    if (!change.has_animation()) {
+        tell(player_.make_way(change), 0);
+    }
+}
+
 void AnimationService::note_undo(std::uint32_t epoch) {
     player_.note_undo(epoch);
 }

@@ -30,7 +30,15 @@ class AnimationService {
     /// What is to be changed next; see AnimationPlayer::step().
     std::vector<v1::SceneChanged> step();
     /// A change of step() gets this number.
-    void number(v1::SceneChanged& change, std::uint32_t epoch) { player_.number(change, epoch); }
+    void number(v1::SceneChanged& change, std::uint32_t epoch) const {
+        player_.number(change, epoch);
+    }
+    /// It is in the log under that number.
+    void note_recorded(const v1::SceneChanged& change, std::uint32_t epoch) {
+        player_.note_recorded(change, epoch);
+    }
+    /// A change of another server is made next: what plays here gives way to hands there.
+    void note_foreign(const v1::SceneChanged& change);
     /// A viewer asks for a change, or for what stands for several.
     void note_request(const ClientEvent& event, const v1::SceneChanged& change);
     void note_undo(std::uint32_t epoch);

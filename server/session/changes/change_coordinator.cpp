@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/edit/daylight_edit.h"
+#include "scene/edit/light_edit.h"
 #include "session/changes/change_expansion.h"
 #include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
@@ -57,15 +58,6 @@ bool is_dragged(const PendingChange& pending) {
     return last.has_final() && !last.final();
 }
 
-/// Of all lights: a spot with another outer cone may need another kind of shadow map.
-std::vector<float> cones_of(const Scene& scene) {
-    std::vector<float> cosines;
-    for (const PunctualLight& light : scene.punctual_lights) {
-        cosines.push_back(light.kind == PunctualKind::spot ? light.outer_cosine : 0.0F);
-    }
-    return cosines;
-}
-
 }  // namespace
 
 HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const ClientEvent& event) {
@@ -106,6 +98,7 @@ void ChangeCoordinator::start_pending() {
         return;
     }
     PendingChange first = queue_.take();
+    recorder_.renumber(first);
     if (!recorder_.fits_scene(first)) {
         recorder_.refuse_unfit(first);
         return;
@@ -176,7 +169,7 @@ bool ChangeCoordinator::goes_on(const std::vector<PendingChange>& pending) const
 /// Keeps of `pending` what could be saved.
 bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     ChangedMaterials changed(parts_.scene.scene(), pending);
-    const std::vector<float> cones = cones_of(parts_.scene.scene());
+    const std::vector<float> cones = outer_cones(parts_.scene.scene());
     const bool held = goes_on(pending);
     queue_.put_back(recorder_.record(pending));
     if (pending.empty()) {
@@ -185,7 +178,7 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
     changed.look_again(parts_.scene.scene(), pending);
     LiveScene& live = parts_.scene;
     const bool covered =
-        cones_of(live.scene()) == cones && live.solver().covers_lights(live.scene()) &&
+        same_cones(live.scene(), cones) && live.solver().covers_lights(live.scene()) &&
         std::all_of(
             changed.reflecting().begin(), changed.reflecting().end(),
             [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });

@@ -63,14 +63,16 @@ bool ChangeCoordinator::start_growth(std::vector<PendingChange>& changes) {
         spdlog::error("an object cannot be added: {}", error.what());
         code = v1::Error::RESOURCE_EXHAUSTED;
         problem = "the server has no memory for it";
+    } catch (const std::exception& error) {  // Embree, or no memory
+        spdlog::error("an object cannot be added: {}", error.what());
+        code = v1::Error::RESOURCE_EXHAUSTED;
+        problem = "the server cannot hold it";
     }
     if (!problem.empty()) {
         undo();
         const std::string field =
             pending.change.add_object().library().empty() ? "addObject: " : "addObject.library: ";
-        for (const ClientEvent& request : pending.requests) {
-            parts_.server.reply_error(request, code, field + problem);
-        }
+        recorder_.refuse(pending, code, field + problem);
         return false;
     }
     queue_.put_back(recorder_.record(changes));

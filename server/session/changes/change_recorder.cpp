@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/edit/luminaire_edit.h"
 #include "session/messages/addition_messages.h"
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
@@ -67,6 +68,7 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
     }
     if (pending.recorded) {
         pending.change.set_by(0);  // numbers of viewers are each server's own
+        parts_.animations.note_foreign(pending.change);
     } else if (pending.change.has_set_light()) {
         *pending.change.mutable_set_light() = resolved(scene, pending.change.set_light());
     } else if (pending.change.has_add_object()) {
@@ -80,6 +82,9 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
     const Recorded recorded = number(pending, before);
     if (recorded != Recorded::yes) {
         return recorded;
+    }
+    if (pending.change.has_animation()) {
+        parts_.animations.note_recorded(pending.change, log.epoch());
     }
     apply(scene, pending.change);
     v1::SceneChanged after = state_of(scene, pending.change);
@@ -106,18 +111,49 @@ v1::Error ChangeRecorder::problem_now(const PendingChange& pending) const {
     } else if (pending.recorded || pending.again) {
         problem = problem_of(parts_.scene.scene(), pending.change);
     }
+    const bool addition =
+        (pending.change.has_add_object() && !pending.change.add_object().removed()) ||
+        (pending.change.has_add_luminaire() && !pending.change.add_luminaire().removed());
+    if (problem.code() == v1::Error::CODE_UNSPECIFIED && !pending.recorded &&
+        !pending.requests.empty() && !pending.stands_for_several() && !addition) {
+        problem = problem_of_presence(parts_.scene.scene(), pending.change);
+    }
     return problem;
 }
 
-void ChangeRecorder::refuse_unfit(const PendingChange& pending) const {
+void ChangeRecorder::refuse_unfit(const PendingChange& pending) {
     const v1::Error problem = problem_now(pending);
+    refuse(pending, problem.code(), problem.message());
+}
+
+void ChangeRecorder::refuse(const PendingChange& pending, v1::Error::Code code,
+                            const std::string& reason) {
     if (pending.recorded) {  // it keeps its number
         spdlog::error("change {} of another server does not fit the scene: {}",
-                      pending.change.epoch(), problem.message());
-        static_cast<void>(parts_.scene.log().accept(pending.change, {}, pending.keys));
+                      pending.change.epoch(), reason);
+        if (!parts_.scene.log().accept(pending.change, {}, pending.keys)) {
+            spdlog::error("change {} of another server is not the next one",
+                          pending.change.epoch());
+        }
+    } else if (pending.requests.empty()) {
+        some_failed_ = true;
     }
     for (const ClientEvent& request : pending.requests) {
-        parts_.server.reply_error(request, problem.code(), problem.message());
+        parts_.server.reply_error(request, code, reason);
+    }
+}
+
+void ChangeRecorder::renumber(PendingChange& pending) const {
+    if (pending.recorded || pending.requests.empty() || pending.stands_for_several()) {
+        return;
+    }
+    const Scene& scene = parts_.scene.scene();
+    const v1::ClientMessage& asked = pending.requests.front().message;
+    if (asked.has_add_object() && asked.add_object().object() == 0) {
+        pending.change.mutable_add_object()->set_object(
+            static_cast<std::uint32_t>(scene.objects.size()) + 1);
+    } else if (asked.has_add_luminaire() && asked.add_luminaire().light() == 0) {
+        pending.change.mutable_add_luminaire()->set_light(next_luminaire(scene));
     }
 }
 
@@ -158,7 +194,7 @@ bool ChangeRecorder::answer_made(const ClientEvent& request) const {
         return false;
     }
     v1::ServerMessage message;
-    *message.mutable_scene_changed() = *made;
+    *message.mutable_scene_changed() = announced(parts_.scene.scene(), *made);
     parts_.server.reply(request, message);
     return true;
 }

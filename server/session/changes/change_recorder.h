@@ -30,8 +30,12 @@ class ChangeRecorder {
     /// False where what other servers have done since a change was asked for stands against it, or
     /// where a change of theirs cannot be made here: it is to be refused.
     [[nodiscard]] bool fits_scene(const PendingChange& pending) const;
-    /// Answers the requests for one that does not fit; one of another server keeps its number.
-    void refuse_unfit(const PendingChange& pending) const;
+    /// Answers the requests for one that does not fit, or cannot be made; one of another server
+    /// keeps its number, and what stands for several has failed in part.
+    void refuse_unfit(const PendingChange& pending);
+    void refuse(const PendingChange& pending, v1::Error::Code code, const std::string& reason);
+    /// Another server may have given out the number of what is to be added.
+    void renumber(PendingChange& pending) const;
 
     /// Answers a request that has been carried out before, under its key. False: it has not.
     [[nodiscard]] bool answer_made(const ClientEvent& request) const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "session/messages/addition_messages.h"
+
 namespace raybundle {
 
 namespace {
@@ -88,6 +90,7 @@ void ChangeRecords::fill(v1::ChangeHistory* message) const {
         if (out->has_move_object()) {
             out->mutable_move_object()->clear_final();
         }
+        name_removal(*out);
     }
 }
 

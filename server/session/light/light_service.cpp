@@ -82,6 +82,8 @@ void LightService::look(const ViewerSession& session) {
 
 void LightService::step() {
     if (viewers_.empty()) {
+        values_.reset();  // of a solver that may be gone when somebody comes
+        read_of_ = nullptr;
         return;
     }
     follow_scene();
@@ -114,6 +116,9 @@ void LightService::follow_scene() {
 void LightService::make_geometry() {
     made_.reset();
     values_.reset();
+    if (making_.valid() && !is_ready(making_)) {
+        return;  // of an older scene; nothing waits for it, and this is asked for again
+    }
     size_ = size_of(parts_.scene);
     epoch_ = parts_.scene.epoch();
     last_change_ = parts_.clock.now();
@@ -139,6 +144,10 @@ void LightService::take_geometry() {
         made_ = making_.get();
     } catch (const std::exception& error) {
         spdlog::error("viewers that draw by themselves get no light: {}", error.what());
+        return;
+    }
+    if (size_of(parts_.scene) != size_) {
+        made_.reset();  // the scene has grown meanwhile
         return;
     }
     ++scenes_;
@@ -199,7 +208,13 @@ void LightService::follow_sky() {
 /// On a thread: its texels take long.
 void LightService::take_sky() {
     if (is_ready(making_sky_)) {
-        const MadeSky made = making_sky_.get();
+        MadeSky made;
+        try {
+            made = making_sky_.get();
+        } catch (const std::exception& error) {
+            spdlog::error("viewers that draw by themselves get no sky: {}", error.what());
+            return;
+        }
         v1::LightSky& out = *sky_message_.emplace().mutable_light_sky();
         to_message(made.sky.uniform, out.mutable_uniform());
         out.set_url(made.url);

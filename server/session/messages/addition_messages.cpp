@@ -211,15 +211,22 @@ void describe_one_light(const Scene& scene, std::uint32_t id, v1::SceneChanged& 
 
 }  // namespace
 
+void name_removal(v1::SceneChanged& change) {
+    if (change.has_add_luminaire() && change.add_luminaire().removed()) {
+        const std::uint32_t light = change.add_luminaire().light();
+        change.mutable_remove_light()->set_light(light);
+    } else if (change.has_add_object() && change.add_object().removed()) {
+        const std::uint32_t object = change.add_object().object();
+        change.mutable_remove_object()->set_object(object);
+    }
+}
+
 v1::SceneChanged announced(const Scene& scene, const v1::SceneChanged& change) {
     v1::SceneChanged result = change;
-    if (change.has_add_luminaire() && change.add_luminaire().removed()) {
-        result.mutable_remove_light()->set_light(change.add_luminaire().light());
-    } else if (change.has_add_object() && change.add_object().removed()) {
-        result.mutable_remove_object()->set_object(change.add_object().object());
-    } else if (change.has_add_object()) {
+    name_removal(result);
+    if (result.has_add_object()) {
         describe_one_object(scene, change.add_object().object(), result);
-    } else if (change.has_add_luminaire()) {
+    } else if (result.has_add_luminaire()) {
         describe_one_light(scene, change.add_luminaire().light(), result);
     } else if (change.has_set_light() && change.set_light().has_photometry()) {
         describe_one_light(scene, change.set_light().light(), result);

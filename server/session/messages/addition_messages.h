@@ -40,6 +40,9 @@ v1::Error problem_of_presence(const Scene& scene, const v1::SceneChanged& change
 /// A change as viewers hear of it: of what it has added or exchanged all that there is to know.
 v1::SceneChanged announced(const Scene& scene, const v1::SceneChanged& change);
 
+/// What has been removed is named so, and not as what was added once.
+void name_removal(v1::SceneChanged& change);
+
 /// What `welcome` says of the luminaires. message: has its lights.
 void describe_luminaires(v1::Scene* message);
 
