@@ -15,6 +15,10 @@ from .scene_state import Key, SceneState
 from .vectors import Numbers, optional_vec3, transform, vec3
 
 
+# Seconds without another picture, after which the last one is the best that there is.
+_PICTURE_PAUSE = 2.0
+
+
 class Requests:
     """Mixed into Client. Objects, lights and materials are named by their number or their name (KeyError where there
     is none). All methods raise RequestRefused where the server refuses, ConnectionClosed where the answer is lost."""
@@ -60,13 +64,20 @@ class Requests:
         await self.request(set_display=messages.SetDisplay(mode=value, **fields))
 
     async def picture(self, timeout: Optional[float] = None) -> Frame:
-        """The next picture that shows the present camera and all changes made so far."""
+        """The next picture that shows the present camera and all changes made so far; the last one where none
+        comes for two seconds, since a server that has nothing better sends none. Raises asyncio.TimeoutError."""
         known, epoch = self.frame, self.epoch
 
         def fits() -> Optional[Frame]:
             frame = self.frame
             return frame if frame is not None and frame is not known and frame.header.epoch >= epoch else None
-        frame: Frame = await self.wait_for(fits, timeout)
+        pause = _PICTURE_PAUSE if timeout is None else min(timeout, _PICTURE_PAUSE)
+        try:
+            frame: Frame = await self.wait_for(fits, pause)
+        except asyncio.TimeoutError:
+            if known is not None and known.header.epoch >= epoch:
+                return known
+            frame = await self.wait_for(fits, None if timeout is None else timeout - pause)
         return frame
 
     async def settled(self, relative_error: float = 0.05, timeout: Optional[float] = None) -> Any:
