@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 #include "daemon.h"
@@ -147,6 +148,39 @@ TEST_F(TwoServers, BothChangeAtATimeAndAgreeInTheEnd) {
         }
         EXPECT_NEAR(welcome.at("scene").at("lights").at(0).at("intensity"), 300.0 + rounds - 1,
                     1e-3);
+    }
+}
+
+/// Both give out the same number before they hear of each other.
+TEST_F(TwoServers, WhatBothAddAtATimeIsThereTwice) {
+    JsonViewer here(one.port());
+    here.join();
+    JsonViewer there(other.port());
+    there.join();
+    constexpr std::uint32_t rounds = 2;
+    std::set<std::uint32_t> added;
+    for (std::uint32_t i = 1; i <= rounds; ++i) {
+        const Json addition = {{"id", i}, {"addObject", {{"copyOf", kShortBox}, {"name", "copy"}}}};
+        here.send(addition);
+        there.send(addition);
+        for (JsonViewer* viewer : {&here, &there}) {
+            const Json answer = viewer->answer_to(i);
+            ASSERT_TRUE(answer.contains("sceneChanged")) << answer;
+            added.insert(
+                answer.at("sceneChanged").at("addObject").at("object").get<std::uint32_t>());
+        }
+    }
+    EXPECT_EQ(added.size(), 2 * rounds) << "no number is given twice";
+    for (Daemon* daemon : {&one, &other}) {
+        Json welcome;
+        do {  // who was second hears of the last one
+            JsonViewer late(daemon->port());
+            welcome = late.join().at("welcome");
+        } while (welcome.at("epoch") != 2 * rounds);
+        const Json& objects = welcome.at("scene").at("objects");
+        EXPECT_EQ(std::count_if(objects.begin(), objects.end(),
+                                [](const Json& object) { return object.at("added") == true; }),
+                  2 * rounds);
     }
 }
 
