@@ -100,11 +100,13 @@ export class TargetPanel {
     }
 
     /** @param {import('../net/protocol.js').Solution} solution */
-    #predict({secondsToTarget: seconds}) {
+    #predict({secondsToTarget: seconds, targetOutOfReach}) {
         if (this.#kind === 'none') {
             return;
         }
-        if (seconds === undefined) {
+        if (targetOutOfReach) {
+            showValue('prediction', 'As accurate as its pixels allow. The server rests until something changes.');
+        } else if (seconds === undefined) {
             showValue('prediction', 'No prediction yet.');
         } else if (seconds <= 0) {
             showValue('prediction', 'Reached. The server rests until something changes.');

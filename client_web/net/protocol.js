@@ -158,6 +158,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {boolean} [errorMeasured]  at some pixels, by path tracing
  * @property {number} [darkerThan]  cd/m²; next to no light arrives, relativeError is absent
  * @property {number} [secondsToTarget]
+ * @property {boolean} [targetOutOfReach]  it lies below what samples can reach; the server rests
  * @property {Saving} [saving]
  */
 

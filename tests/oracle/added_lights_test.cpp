@@ -94,7 +94,7 @@ TEST(AddedLuminaires, TwoHundredThatComeAndGoLeaveNoDrift) {
         room.remove_light(lights[i]);
     }
     EXPECT_LE(room.planned_anew, 2U);
-    EXPECT_EQ(added_lights(room.b.scene), 0U);
+    EXPECT_EQ(added_lights(room.b.scene), 200U);  // the removed keep their numbers
     const auto unit = room.solver->scene().radiance_unit();
     const auto after = room.solver->store().first_shot()->read_irradiance();
     double largest = 0.0;

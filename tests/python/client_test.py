@@ -3,13 +3,13 @@
 """The Python client against a real server; run by run_in_environment.py."""
 import asyncio
 import base64
+import faulthandler
 import hmac
 import io
 import json
 import os
 import signal
 import struct
-import subprocess
 import sys
 import tempfile
 import time
@@ -22,7 +22,7 @@ import numpy as np
 
 import raybundle
 from raybundle import link, messages, recording
-from served import EXECUTABLE, ROOT, Daemon
+from served import EXECUTABLE, LONGEST, ROOT, Daemon, run
 
 BOX = str(ROOT / "scenes/cornell_box.gltf")
 EXAMPLES = ROOT / "protocol/python/examples"
@@ -320,8 +320,7 @@ class LoginTokens(unittest.IsolatedAsyncioTestCase):
     def test_settings_that_are_wrong_end_the_server(self):
         for wrong, reason in (({"audience": ""}, "audience"), ({"secretFile": "/nowhere"}, "/nowhere"),
                               ({"isuer": "a"}, "did you mean 'issuer'"), ({"keyFiles": 3}, "keyFiles: must be")):
-            done = subprocess.run([EXECUTABLE, "serve", BOX, "--config", self.config(**wrong)], capture_output=True,
-                                  text=True)
+            done = run(EXECUTABLE, "serve", BOX, "--config", self.config(**wrong))
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(reason, done.stderr)
 
@@ -348,8 +347,7 @@ class ExrFiles(unittest.TestCase):
 
 class Shell(WithServer):
     def run_client(self, *arguments, status=0):
-        done = subprocess.run([os.environ["RAYBUNDLE_CLIENT"], "--server", self.daemon.address, "--size", "96x64",
-                               *arguments], capture_output=True, text=True)
+        done = run(os.environ["RAYBUNDLE_CLIENT"], "--server", self.daemon.address, "--size", "96x64", *arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         return json.loads(done.stdout) if done.stdout else done.stderr
 
@@ -370,14 +368,13 @@ class Shell(WithServer):
     def test_exit_status_and_reason(self):
         self.assertIn("no light 'x'", self.run_client("light", "x", "--dim", "0.5", status=2))
         self.assertIn("INVALID_ARGUMENT", self.run_client("light", "lamp", "--dim", "7", status=1))
-        done = subprocess.run([os.environ["RAYBUNDLE_CLIENT"], "--server", "127.0.0.1:1", "info"], capture_output=True,
-                              text=True)
+        done = run(os.environ["RAYBUNDLE_CLIENT"], "--server", "127.0.0.1:1", "info")
         self.assertEqual(done.returncode, 3, done.stderr)
 
 
 class Examples(WithServer):
     def run_example(self, name, *arguments):
-        return subprocess.run([sys.executable, EXAMPLES / name, *arguments], capture_output=True, text=True)
+        return run(sys.executable, EXAMPLES / name, *arguments)
 
     def test_lamp_positions_end_in_a_plot_and_leave_the_scene(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -412,5 +409,17 @@ class Examples(WithServer):
                 self.assertEqual(done.returncode, status, done.stdout + done.stderr)
 
 
+class WithinLimit(unittest.TextTestResult):
+    """Prints where all threads stand, and ends, when one test takes longer than LONGEST and what it may wait for."""
+
+    def startTest(self, test):
+        faulthandler.dump_traceback_later(2 * LONGEST, exit=True)
+        super().startTest(test)
+
+    def stopTest(self, test):
+        faulthandler.cancel_dump_traceback_later()
+        super().stopTest(test)
+
+
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(testRunner=unittest.TextTestRunner(resultclass=WithinLimit, verbosity=2))

@@ -25,7 +25,7 @@ def main() -> int:
                        check=True, env=environment, cwd=folder)
         environment |= {"RAYBUNDLE": executable, "RAYBUNDLE_ROOT": root,
                         "RAYBUNDLE_CLIENT": str(folder / "environment/bin/raybundle-client")}
-        return subprocess.run([python, here / "client_test.py", "-v", *arguments], env=environment,
+        return subprocess.run([python, here / "client_test.py", *arguments], env=environment,
                               cwd=folder).returncode
 
 

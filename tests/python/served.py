@@ -8,6 +8,7 @@ from pathlib import Path
 
 ROOT = Path(os.environ["RAYBUNDLE_ROOT"])
 EXECUTABLE = os.environ["RAYBUNDLE"]
+LONGEST = 240  # seconds that a command of a test may take; what hangs is a failure that says where
 
 
 class Daemon:
@@ -29,5 +30,16 @@ class Daemon:
 
     def end(self, number=signal.SIGTERM):
         self.process.send_signal(number)
-        self.process.wait()
-        self.process.stdout.close()
+        try:
+            self.process.wait(LONGEST)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+            raise
+        finally:
+            self.process.stdout.close()
+
+
+def run(*command):
+    """Runs a command to its end, and returns what it said."""
+    return subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)

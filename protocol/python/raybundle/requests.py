@@ -82,8 +82,9 @@ class Requests:
 
     async def settled(self, relative_error: float = 0.05, timeout: Optional[float] = None) -> Any:
         """Solves until the upper end of the 95 % interval of this viewer's picture is at most `relative_error`
-        (of 1), for the scene with all changes so far. Returns messages.Solution; where next to no light arrives
-        (darker_than) at once. Raises asyncio.TimeoutError."""
+        (of 1), for the scene with all changes so far. Returns messages.Solution; at once where next to no light arrives
+        (darker_than), and where more samples would bring nothing more (target_out_of_reach). Raises
+        asyncio.TimeoutError."""
         await self.request(set_target=messages.SetTarget(relative_error=relative_error))
         earlier, epoch = self.solution, self.epoch
 
@@ -91,9 +92,9 @@ class Requests:
             solution = self.solution
             if solution is None or solution is earlier or solution.epoch < epoch:
                 return None
-            met = solution.HasField("seconds_to_target") and solution.seconds_to_target == 0.0
             accurate = solution.HasField("error_high") and solution.error_high <= np.float32(relative_error)
-            return solution if met or accurate or solution.HasField("darker_than") else None
+            ends = accurate or solution.target_out_of_reach or solution.HasField("darker_than")
+            return solution if ends else None
         return await self.wait_for(reached, timeout)
 
     async def snapshot(self, width: int = 1920, height: int = 1080, relative_error: float = 0.02,

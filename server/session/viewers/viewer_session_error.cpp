@@ -68,6 +68,8 @@ void ViewerSession::fill_solution(v1::Solution* solution) {
         if (target_met()) {
             if (statistics.error_high <= target_.error) {
                 solution->set_seconds_to_target(0.0F);
+            } else {
+                solution->set_target_out_of_reach(true);
             }
         } else if (std::isfinite(more) && rate > 0.0) {
             solution->set_seconds_to_target(static_cast<float>(samples / rate));
