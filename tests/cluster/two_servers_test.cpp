@@ -23,6 +23,22 @@ Json box_at(double x) {
               {"transform", {{"translation", {{"x", x}, {"y", 0.825}, {"z", 1.7}}}}}}}};
 }
 
+Json pin_at_floor() {
+    return {{"addPin", {{"text", "glare"}, {"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}};
+}
+
+Json zone() {
+    const auto corner = [](double x, double z) { return Json{{"x", x}, {"y", 3.0}, {"z", z}}; };
+    return {{"measure",
+             {{"name", "desk"},
+              {"quantity", "HORIZONTAL"},
+              {"keep", true},
+              {"relativeError", 0.5},
+              {"columns", 2},
+              {"rows", 2},
+              {"outline", {corner(1, 1), corner(4, 1), corner(4, 4)}}}}};
+}
+
 std::uint32_t epoch_of(const Json& answer) {
     return answer.at("sceneChanged").at("epoch").get<std::uint32_t>();
 }
@@ -190,14 +206,24 @@ TEST_F(TwoServers, WithoutRedisLookingGoesOnAndChangesAreRefused) {
     JsonViewer there(other.port());
     there.join();
     ASSERT_EQ(epoch_of(here.request(light(500.0))), 1U);
+    const std::uint32_t pin =
+        here.request(pin_at_floor()).at("pinChanged").at("pin").get<std::uint32_t>();
+    const Json measured = here.request(zone());
+    ASSERT_TRUE(measured.contains("measured")) << measured;
+    const Json zone_number = measured.at("measured").at("measurement");
     redis.kill_it();
     for (const Json& request :
-         {light(600.0),
-          Json{{"addPin", {{"text", "glare"}, {"position", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}}}}}},
+         {light(600.0), zone(), Json{{"replyToPin", {{"pin", pin}, {"text", "since when?"}}}},
+          Json{{"setPin", {{"pin", pin}, {"resolved", true}}}}, Json{{"removePin", {{"pin", pin}}}},
+          Json{{"setZone", {{"measurement", zone_number}, {"name", "aisle"}}}},
+          Json{{"removeMeasurement", {{"measurement", zone_number}}}},
+          Json{{"setRequirement", {{"requirement", {{"name", "Lobby"}, {"mean", 200.0}}}}}},
+          Json{{"removeRequirement", {{"name", "Corridor"}}}},
+          Json{{"setTarget", {{"relativeError", 0.02}}}}, pin_at_floor(),
           Json{{"saveLightingScene", {{"name", "evening"}}}}, Json{{"undo", {{"epoch", 0}}}}}) {
         const Json answer = here.request(request);
-        ASSERT_TRUE(answer.contains("error")) << answer.dump();
-        EXPECT_EQ(answer.at("error").at("code"), "UNAVAILABLE");
+        ASSERT_TRUE(answer.contains("error")) << request << answer;
+        EXPECT_EQ(answer.at("error").at("code"), "UNAVAILABLE") << request;
         EXPECT_NE(answer.at("error").at("message").get<std::string>().find("ask again later"),
                   std::string::npos);
     }

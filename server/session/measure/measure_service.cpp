@@ -56,6 +56,12 @@ std::string MeasureService::problem_of(const ViewerSession& session, const v1::M
     return "";
 }
 
+/// The log has not stored what was asked for.
+void MeasureService::refuse_unsaved(const ClientEvent& event, const std::string& text) const {
+    const v1::Error error = parts_.scene.log().refusal(text);
+    parts_.server.reply_error(event, error.code(), error.message());
+}
+
 bool MeasureService::keep_zone(const v1::JournalZone& zone) {
     ++version_;
     return parts_.scene.log().keep_note(NoteKind::zone, zone.number(), zone.SerializeAsString());
@@ -72,7 +78,7 @@ HandlerResult MeasureService::measure(ViewerSession& session, const ClientEvent&
     const bool zone = !measure.name().empty();
     const std::optional<std::uint32_t> free = new_number(zone);
     if (!free) {
-        parts_.server.reply_error(event, v1::Error::INTERNAL, "the zone could not be saved");
+        refuse_unsaved(event, "the zone could not be saved");
         return HandlerResult::answered;
     }
     const std::uint32_t number = *free;
@@ -83,7 +89,7 @@ HandlerResult MeasureService::measure(ViewerSession& session, const ClientEvent&
         *added.zone.mutable_measure() = measure;
         added.zone.set_by_name(session.name());
         if (!keep_zone(added.zone)) {
-            parts_.server.reply_error(event, v1::Error::INTERNAL, "the zone could not be saved");
+            refuse_unsaved(event, "the zone could not be saved");
             return HandlerResult::answered;
         }
     }
@@ -118,8 +124,7 @@ HandlerResult MeasureService::remove(ViewerSession& session, const ClientEvent& 
         return HandlerResult::answered;
     }
     if (zone && !parts_.scene.log().keep_note(NoteKind::zone, number, {})) {
-        parts_.server.reply_error(event, v1::Error::INTERNAL,
-                                  "the zone's removal could not be saved");
+        refuse_unsaved(event, "the zone's removal could not be saved");
         return HandlerResult::answered;
     }
     drop(number);
@@ -149,7 +154,7 @@ HandlerResult MeasureService::set_zone(ViewerSession& /*session*/, const ClientE
         changed.mutable_measure()->set_requirement(wanted.requirement());
     }
     if (!keep_zone(changed)) {
-        parts_.server.reply_error(event, v1::Error::INTERNAL, "the zone could not be saved");
+        refuse_unsaved(event, "the zone could not be saved");
         return HandlerResult::answered;
     }
     zone->zone = std::move(changed);

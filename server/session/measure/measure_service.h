@@ -75,6 +75,7 @@ class MeasureService {
     [[nodiscard]] std::string problem_of(const ViewerSession& session, const v1::Measure& measure,
                                          const MeasureRequest& request,
                                          v1::Error::Code& code) const;
+    void refuse_unsaved(const ClientEvent& event, const std::string& text) const;
     [[nodiscard]] bool keep_zone(const v1::JournalZone& zone);
     [[nodiscard]] Measurement* find_zone(std::uint32_t number);
     void restore_zones();

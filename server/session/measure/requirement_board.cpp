@@ -76,7 +76,8 @@ bool RequirementBoard::keep(std::map<std::string, v1::Requirement> rows) {
         body = stored.SerializeAsString();
     }
     if (!log_.keep_note(NoteKind::requirements, the_note, body)) {
-        return refuse(v1::Error::INTERNAL, "the requirements could not be saved");
+        refusal_ = log_.refusal("the requirements could not be saved");
+        return false;
     }
     rows_ = std::move(rows);
     return true;

@@ -142,7 +142,7 @@ const Pin* ReviewBoard::change_pin(std::uint32_t number, const std::string& what
         return nullptr;
     }
     if (!log_.keep_note(NoteKind::pin, number, stored(changed))) {
-        refuse(v1::Error::INTERNAL, "the pin could not be saved");
+        refuse_unsaved("the pin could not be saved");
         return nullptr;
     }
     found->second = std::move(changed);

@@ -54,7 +54,8 @@ HandlerResult ViewService::set_hidden(ViewerSession& session, const ClientEvent&
 HandlerResult ViewService::set_target(ViewerSession& session, const ClientEvent& event) {
     const v1::SetTarget& target = event.message.set_target();
     if (!targets_.keep(session.name(), target)) {
-        parts_.server.reply_error(event, v1::Error::INTERNAL, "the target could not be saved");
+        const v1::Error error = parts_.scene.log().refusal("the target could not be saved");
+        parts_.server.reply_error(event, error.code(), error.message());
         return HandlerResult::answered;
     }
     session.set_target(target);
