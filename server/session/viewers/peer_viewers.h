@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 
 #include "raybundle.pb.h"
 #include "scheduling/clock.h"
@@ -26,15 +27,23 @@ class PeerViewers {
     [[nodiscard]] const v1::Viewer* find(ViewerId viewer) const;
     void describe(v1::Presence* presence) const;
 
-    /// Number here of a viewer of another server.
-    [[nodiscard]] static ViewerId number_here(std::uint32_t server, std::uint32_t viewer);
+    /// Number here of a viewer of another server: it keeps it as long as that server tells of it.
+    ViewerId number_here(std::uint32_t server, std::uint32_t viewer, TimePoint now);
+
+    /// This server's own viewers, which count up from 1, have numbers below.
+    static constexpr ViewerId first_number = 1U << 31U;
 
   private:
     struct Peer {
         TimePoint heard;
         v1::Presence presence;
+        std::map<std::uint32_t, ViewerId> numbers;  ///< here, by those there
     };
+    ViewerId number_in(Peer& peer, std::uint32_t viewer);
+
     std::map<std::uint32_t, Peer> peers_;
+    std::set<ViewerId> taken_;
+    ViewerId last_ = first_number - 1;
 };
 
 }  // namespace raybundle

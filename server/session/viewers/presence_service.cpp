@@ -104,7 +104,7 @@ void PresenceService::hear_peers() {
             changed |= peers_.note(news.server, message.presence(), now);
         } else if (message.has_pointed()) {
             message.mutable_pointed()->set_by(
-                PeerViewers::number_here(news.server, message.pointed().by()));
+                peers_.number_here(news.server, message.pointed().by(), now));
             parts_.server.broadcast(message);
         }
     }
