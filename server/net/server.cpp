@@ -150,6 +150,11 @@ void Server::send_light(ViewerId viewer, const v1::LightHeader& header, std::str
     }
 }
 
+bool Server::has_room_for_light(ViewerId viewer) const {
+    const auto link = impl_->state.viewers.find(viewer);
+    return link && link->has_room_for_light();
+}
+
 LightAcks& Server::light_acks() {
     return impl_->state.viewers.light_acks();
 }

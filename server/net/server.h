@@ -85,6 +85,8 @@ class Server {
     /// Sends a message of light: blocks as LightMessage has them. The caller sees to it that few
     /// bytes are not acknowledged.
     void send_light(ViewerId viewer, const v1::LightHeader& header, std::string_view blocks);
+    /// Whether light that is sent now is read soon; false also where there is no such viewer.
+    [[nodiscard]] bool has_room_for_light(ViewerId viewer) const;
 
     /// Which messages of light have been acknowledged.
     LightAcks& light_acks();

@@ -122,5 +122,26 @@ TEST(ViewerLink, BroadcastsReachOnlyTheWelcomed) {
     EXPECT_EQ(payload(*link.take(0)), "{}");
 }
 
+/// Acknowledgements alone do not make room: a client may send them and read nothing.
+TEST(ViewerLink, LightThatNobodyReadsIsBounded) {
+    constexpr std::size_t most_bytes = 1000;
+    ViewerLink link(1, most_bytes, {});
+    std::size_t sent = 0;
+    while (link.has_room_for_light()) {
+        ASSERT_LE(++sent, most_bytes / 100) << "by bytes";
+        link.send_light({}, std::string(100, 'x'));
+        link.on_light_ack(static_cast<std::uint32_t>(sent));
+    }
+    while (link.has_output()) {
+        link.take(0);
+    }
+    EXPECT_TRUE(link.has_room_for_light()) << "it has read all";
+    ViewerLink small(1, std::size_t{1} << 30U, {});
+    for (sent = 0; small.has_room_for_light(); ++sent) {
+        ASSERT_LT(sent, ViewerLink::max_light_messages) << "by number";
+        small.send_light({}, {});
+    }
+}
+
 }  // namespace
 }  // namespace raybundle

@@ -42,6 +42,7 @@ void ViewerLink::enqueue(std::string_view json) {
         messages_.clear();
         frame_.reset();
         light_.clear();
+        light_bytes_ = 0;
         close_ = CloseRequest{CloseCode::policy_violation, "messages are not read"};
         return;
     }
@@ -61,10 +62,16 @@ bool ViewerLink::send_frame(const v1::FrameHeader& header, const std::vector<std
     return replaced;
 }
 
+bool ViewerLink::has_room_for_light() const {
+    const std::lock_guard lock(mutex_);
+    return light_.size() < max_light_messages && light_bytes_ < max_queued_bytes_;
+}
+
 void ViewerLink::send_light(const v1::LightHeader& header, std::string_view blocks) {
     std::vector<std::uint8_t> bytes = light_message(header, blocks, Outgoing::kHeadroom);
     const std::lock_guard lock(mutex_);
     if (!close_) {
+        light_bytes_ += bytes.size();
         light_.push_back(std::move(bytes));
     }
 }
@@ -125,6 +132,7 @@ void ViewerLink::close(CloseCode code, std::string reason) {
     if (!close_) {
         frame_.reset();
         light_.clear();
+        light_bytes_ = 0;
         close_ = CloseRequest{code, std::move(reason)};
     }
 }
@@ -165,6 +173,7 @@ std::optional<Outgoing> ViewerLink::take(double now_ms) {
     if (!light_.empty()) {
         Outgoing message{Outgoing::Kind::light, std::move(light_.front())};
         light_.pop_front();
+        light_bytes_ -= message.bytes.size();
         return message;
     }
     return std::nullopt;

@@ -61,7 +61,14 @@ class ViewerLink {
     /// Makes this the frame that waits. True where it has replaced one.
     bool send_frame(const v1::FrameHeader& header, const std::vector<std::uint8_t>& image);
 
-    /// Queues a message of light; its sender sees to it that few bytes are not acknowledged.
+    /// Messages of light that may wait: more than any window lets through where they are read.
+    static constexpr std::size_t max_light_messages = 256;
+
+    /// Whether more light may be queued, whatever the viewer acknowledges: who acknowledges, or
+    /// not, and reads nothing makes nothing grow. False: later, the newest.
+    [[nodiscard]] bool has_room_for_light() const;
+    /// Queues a message of light; its sender asks has_room_for_light() before, and sees to it that
+    /// few bytes are not acknowledged.
     void send_light(const v1::LightHeader& header, std::string_view blocks);
     /// Tells who sends light what the viewer has taken in. acks must outlive the connection.
     void report_light_to(LightAcks* acks) { light_acks_ = acks; }
@@ -116,6 +123,7 @@ class ViewerLink {
     std::size_t queued_bytes_ = 0;
     std::optional<Frame> frame_;
     std::deque<std::vector<std::uint8_t>> light_;  ///< with headroom
+    std::size_t light_bytes_ = 0;
     LightAcks* light_acks_ = nullptr;
     CongestionWindow congestion_;
     std::uint32_t pings_ = 0;  ///< sent so far to measure; its number is a ping's payload

@@ -67,7 +67,7 @@ void LightBroadcaster::run(const std::stop_token& token) {
         const bool all = take_mail(std::move(mail));
         acknowledge(acknowledged);
         for (auto& [viewer, follower] : followers_) {
-            if (all || acknowledged.contains(viewer)) {
+            if (all || follower.waits || acknowledged.contains(viewer)) {
                 serve(viewer, follower);
             }
         }
@@ -111,8 +111,14 @@ void LightBroadcaster::serve(ViewerId viewer, Follower& follower) {
     if (!stream_) {
         return;
     }
-    while (const auto message =
-               follower.follower.next(*stream_, follower.view, follower.window.bytes())) {
+    for (;;) {
+        follower.waits = !server_.has_room_for_light(viewer);
+        const auto message = follower.waits ? std::nullopt
+                                            : follower.follower.next(*stream_, follower.view,
+                                                                     follower.window.bytes());
+        if (!message) {
+            return;
+        }
         v1::LightHeader header;
         header.set_light(message->number);
         header.set_scene(scene_);

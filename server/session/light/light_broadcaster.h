@@ -62,6 +62,7 @@ class LightBroadcaster {
         LightFollower follower;
         LightWindow window;
         LightView view;
+        bool waits = false;  ///< its queue is full: it gets the newest light once it is not
     };
 
     void run(const std::stop_token& token);
