@@ -20,6 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
 
+/// Bytes of files that one list reads, one file at least: it is made between other answers. A
+/// folder of a hundred usual files is read at once.
+constexpr std::uint64_t most_read_at_once = 4U << 20U;
+
 OrderedJson entry_of(const SceneFolder& folder, const std::string& name) {
     OrderedJson entry{{"name", name}};
     try {
@@ -81,7 +85,14 @@ class PhotometryUpload : public Upload {
 
 std::string photometry_json(const SceneFolder& folder) {
     OrderedJson list = OrderedJson::array();
+    std::uint64_t left = most_read_at_once;
     for (const std::string& name : folder.photometry_names()) {
+        const std::uint64_t bytes = folder.unread_bytes(name);
+        if (bytes > left && left < most_read_at_once) {
+            list.push_back({{"name", name}, {"problems", {"not read yet: ask again"}}});
+            continue;
+        }
+        left -= std::min(bytes, left);
         list.push_back(entry_of(folder, name));
     }
     return list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";

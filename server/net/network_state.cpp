@@ -54,8 +54,12 @@ void NetworkState::set_photometry_source(std::function<std::string()> source) {
 }
 
 std::optional<std::string> NetworkState::photometry() const {
-    const std::lock_guard lock(upload_mutex_);
-    return photometry_source_ ? std::optional(photometry_source_()) : std::nullopt;
+    std::function<std::string()> source;  // reads files, which may take a while
+    {
+        const std::lock_guard lock(upload_mutex_);
+        source = photometry_source_;
+    }
+    return source ? std::optional(source()) : std::nullopt;
 }
 
 void NetworkState::set_upload_factory(UploadFactory factory) {

@@ -57,22 +57,64 @@ std::vector<std::string> SceneFolder::photometry_names() const {
     return names;
 }
 
-std::shared_ptr<const IesProfile> SceneFolder::photometry(const std::string& name) const {
-    const std::lock_guard lock(mutex_);
-    if (const auto known = profiles_.find(name); known != profiles_.end()) {
-        return known->second;
+/// What has been read of a file, and still holds.
+std::optional<SceneFolder::Known> SceneFolder::known(const std::string& name) const {
+    Known found;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto entry = files_.find(name);
+        if (entry == files_.end()) {
+            return std::nullopt;
+        }
+        found = entry->second;
     }
+    std::error_code error;
     const fs::path path = photometry_folder() / name;
-    if (!is_photometry_name(name) || !is_file(path)) {
-        throw SceneError(name, "", "there is no such photometric file");
+    const bool stays = found.profile || (fs::file_size(path, error) == found.bytes &&
+                                         fs::last_write_time(path, error) == found.changed);
+    return stays ? std::optional(std::move(found)) : std::nullopt;
+}
+
+std::uint64_t SceneFolder::unread_bytes(const std::string& name) const {
+    const fs::path path = photometry_folder() / name;
+    std::error_code error;
+    const bool to_read = is_photometry_name(name) && is_file(path) && !known(name);
+    const std::uint64_t bytes = to_read ? fs::file_size(path, error) : 0;
+    return error ? 0 : bytes;
+}
+
+std::shared_ptr<const IesProfile> SceneFolder::photometry(const std::string& name) const {
+    std::optional<Known> file = known(name);
+    if (!file) {
+        const fs::path path = photometry_folder() / name;
+        if (!is_photometry_name(name) || !is_file(path)) {
+            throw SceneError(name, "", "there is no such photometric file");
+        }
+        std::error_code error;
+        file.emplace();
+        file->bytes = fs::file_size(path, error);
+        file->changed = fs::last_write_time(path, error);
+        try {
+            file->profile = std::make_shared<const IesProfile>(read_photometry(path.string()));
+        } catch (const SceneError& wrong) {
+            file->json_path = wrong.json_path();
+            file->reason = wrong.reason();
+        }
+        const std::lock_guard lock(mutex_);
+        if (files_.size() >= max_photometric_files && !files_.contains(name)) {
+            std::erase_if(files_, [](const auto& entry) { return !entry.second.profile; });
+        }
+        Known& kept = files_[name];
+        if (kept.profile) {  // another thread was quicker: there is one profile of a file
+            file = kept;
+        } else {
+            kept = *file;
+        }
     }
-    try {
-        const auto profile = std::make_shared<const IesProfile>(read_photometry(path.string()));
-        profiles_[name] = profile;
-        return profile;
-    } catch (const SceneError& error) {
-        throw SceneError(name, error.json_path(), error.reason());
+    if (!file->profile) {
+        throw SceneError(name, file->json_path, file->reason);
     }
+    return file->profile;
 }
 
 std::string SceneFolder::scene_file(const std::string& name) const {
