@@ -53,8 +53,8 @@ class PrintFolder {
 };
 
 /// Runs a program in a group of its own, without standard streams; false where it does not end
-/// well in time.
-bool run_program(const std::vector<std::string>& arguments) {
+/// well in time, or is to stop.
+bool run_program(const std::vector<std::string>& arguments, const std::stop_token& stop) {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) {
         pointers.push_back(const_cast<char*>(argument.c_str()));
@@ -83,7 +83,7 @@ bool run_program(const std::vector<std::string>& arguments) {
     const auto end = std::chrono::steady_clock::now() + longest_printing;
     int status = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > end) {
+        if (stop.stop_requested() || std::chrono::steady_clock::now() > end) {
             kill(-child, SIGKILL);
             waitpid(child, &status, 0);
             return false;
@@ -110,7 +110,8 @@ std::string find_browser() {
     return "";
 }
 
-std::optional<std::string> print_pdf(const std::string& html, std::string& reason) {
+std::optional<std::string> print_pdf(const std::string& html, std::string& reason,
+                                     const std::stop_token& stop) {
     const std::string browser = find_browser();
     if (browser.empty()) {
         reason = "Chromium is not installed on the server: open report.html and print that";
@@ -134,7 +135,7 @@ std::optional<std::string> print_pdf(const std::string& html, std::string& reaso
     if (geteuid() == 0) {  // its sandbox does not work for root; the document has no scripts
         command.insert(command.begin() + 2, "--no-sandbox");
     }
-    const bool printed = run_program(command);
+    const bool printed = run_program(command, stop);
     std::ifstream file(folder.file("report.pdf"), std::ios::binary);
     std::string pdf((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (!printed || !pdf.starts_with("%PDF-")) {

@@ -8,6 +8,8 @@
 namespace raybundle {
 namespace {
 
+constexpr const char* retry_after_s = "5";  // most documents take less
+
 HttpResponse document_response(DocumentResult result) {
     HttpResponse response;
     response.status = result.status;
@@ -17,6 +19,9 @@ HttpResponse document_response(DocumentResult result) {
     response.headers.emplace_back("content-security-policy:",
                                   "default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
                                   "base-uri 'none'; form-action 'none'; frame-ancestors 'self'");
+    if (result.status == 503) {
+        response.headers.emplace_back("retry-after:", retry_after_s);
+    }
     if (!result.file_name.empty()) {
         response.headers.emplace_back("content-disposition:",
                                       "inline; filename=\"" + result.file_name + "\"");

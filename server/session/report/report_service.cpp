@@ -34,7 +34,8 @@ double parse_since(const std::string& text) {
     return value >= 0.0 && value < 1e14 ? value : 0.0;
 }
 
-DocumentResult write_document(const ReportData& data, const DocumentRequest& request) {
+DocumentResult write_document(const ReportData& data, const DocumentRequest& request,
+                              const std::stop_token& stop) {
     const ReportOptions options = report_options(request.query);
     if (request.path == "/report.html") {
         return {200, "text/html; charset=utf-8", report_html(data, options), "report.html"};
@@ -50,7 +51,7 @@ DocumentResult write_document(const ReportData& data, const DocumentRequest& req
                 "pins.bcf"};
     }
     std::string reason;
-    auto pdf = print_pdf(report_html(data, options), reason);
+    auto pdf = print_pdf(report_html(data, options), reason, stop);
     return pdf ? DocumentResult{200, "application/pdf", std::move(*pdf), "report.pdf"}
                : DocumentResult{501, plain_text, "There is no PDF: " + reason + "\n", {}};
 }
@@ -89,6 +90,7 @@ ReportService::~ReportService() {
         inbox_->closed = true;
         left.swap(inbox_->waiting);
     }
+    printing_.request_stop();
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
@@ -99,6 +101,9 @@ ReportService::~ReportService() {
     }
     wake_.notify_one();
     thread_.join();
+    for (ReadPins& pins : read_pins_) {
+        left.emplace_back(DocumentRequest(), std::move(pins.done));
+    }
     for (auto& [request, done] : left) {
         done({503, plain_text, "Another scene is being opened; try again later\n", {}});
     }
@@ -108,37 +113,55 @@ ReportService::~ReportService() {
 void ReportService::step() {
     if (!registered_) {
         registered_ = true;
-        parts_.server.set_document_source(
-            this, [inbox = inbox_, &server = parts_.server](DocumentRequest request, Done done) {
-                {
-                    const std::lock_guard lock(inbox->mutex);
-                    if (!inbox->closed) {
-                        inbox->waiting.emplace_back(std::move(request), std::move(done));
-                        done = nullptr;
-                    }
-                }
-                if (done) {
-                    done({503, plain_text, "Another scene is being opened; try again later\n", {}});
+        parts_.server.set_document_source(this, [inbox = inbox_, &server = parts_.server](
+                                                    DocumentRequest request, Done done) {
+            const char* problem = nullptr;
+            {
+                const std::lock_guard lock(inbox->mutex);
+                if (inbox->closed) {
+                    problem = "Another scene is being opened; try again later\n";
+                } else if (inbox->unanswered >= max_documents) {
+                    problem = "Other documents are being made; try again later\n";
                 } else {
-                    server.inbox().interrupt();
+                    ++inbox->unanswered;
+                    inbox->waiting.emplace_back(
+                        std::move(request), [inbox, done = std::move(done)](DocumentResult result) {
+                            {
+                                const std::lock_guard answered(inbox->mutex);
+                                --inbox->unanswered;
+                            }
+                            done(std::move(result));
+                        });
                 }
-            });
+            }
+            if (problem != nullptr) {
+                done({503, plain_text, problem, {}});
+            } else {
+                server.inbox().interrupt();
+            }
+        });
     }
     std::deque<std::pair<DocumentRequest, Done>> asked;
     {
         const std::lock_guard lock(inbox_->mutex);
         asked.swap(inbox_->waiting);
     }
+    std::deque<ReadPins> read;
+    {
+        const std::lock_guard lock(mutex_);
+        read.swap(read_pins_);
+    }
+    for (ReadPins& pins : read) {
+        pins.done(parts_.review.import_pins(pins.topics));
+    }
     std::shared_ptr<const ReportData> data;
     for (auto& [request, done] : asked) {
-        if (request.put) {
-            done(parts_.review.import_bcf(request.body));
-            continue;
+        if (!request.put) {
+            data = data ? data : collect();
         }
-        data = data ? data : collect();
         {
             const std::lock_guard lock(mutex_);
-            jobs_.push_back({data, std::move(request), std::move(done)});
+            jobs_.push_back({request.put ? nullptr : data, std::move(request), std::move(done)});
         }
         wake_.notify_one();
     }
@@ -166,6 +189,28 @@ std::shared_ptr<const ReportData> ReportService::collect() const {
     return data;
 }
 
+/// Reads an archive of pins, or writes a document. On the service's thread.
+void ReportService::make(Job job) {
+    DocumentResult result{500, plain_text, "The document could not be made\n", {}};
+    try {
+        if (job.data) {
+            result = write_document(*job.data, job.request, printing_.get_token());
+        } else {
+            std::string reason;
+            if (auto topics = read_bcf(job.request.body, reason)) {
+                const std::lock_guard lock(mutex_);
+                read_pins_.push_back({std::move(*topics), std::move(job.done)});
+                parts_.server.inbox().interrupt();
+                return;
+            }
+            result = {400, plain_text, "The archive is refused: " + reason + "\n", {}};
+        }
+    } catch (const std::exception& error) {
+        spdlog::error("{} could not be made: {}", job.request.path, error.what());
+    }
+    job.done(std::move(result));
+}
+
 void ReportService::run() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -176,13 +221,7 @@ void ReportService::run() {
         Job job = std::move(jobs_.front());
         jobs_.pop_front();
         lock.unlock();
-        DocumentResult result{500, plain_text, "The document could not be made\n", {}};
-        try {
-            result = write_document(*job.data, job.request);
-        } catch (const std::exception& error) {
-            spdlog::error("{} could not be made: {}", job.request.path, error.what());
-        }
-        job.done(std::move(result));
+        make(std::move(job));
         lock.lock();
     }
 }

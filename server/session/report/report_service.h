@@ -6,8 +6,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "net/server.h"
 #include "report/report_data.h"
@@ -22,6 +24,10 @@ namespace raybundle {
 /// takes pins in. The render thread copies what is known, a thread of its own writes it.
 class ReportService {
   public:
+    /// Documents that are asked for and not made: with those whose askers have gone, which
+    /// HttpDocuments counts no more.
+    static constexpr std::size_t max_documents = 8;
+
     struct Parts {
         const LiveScene& scene;
         const MeasureService& measurements;
@@ -39,20 +45,27 @@ class ReportService {
 
   private:
     using Done = std::function<void(DocumentResult)>;
-    /// What both threads share with the network's: it may outlive the service.
+    /// What all threads share with the network's: it may outlive the service.
     struct Inbox {
         std::mutex mutex;
         std::deque<std::pair<DocumentRequest, Done>> waiting;
+        std::size_t unanswered = 0;  ///< of all that wait or are being made
         bool closed = false;
     };
+    /// Pins of an archive that has been read, for the render thread to take in.
+    struct ReadPins {
+        std::vector<v1::PinChanged> topics;
+        Done done;
+    };
     struct Job {
-        std::shared_ptr<const ReportData> data;
+        std::shared_ptr<const ReportData> data;  ///< null: pins are to be read
         DocumentRequest request;
         Done done;
     };
 
     [[nodiscard]] std::shared_ptr<const ReportData> collect() const;
     void run();
+    void make(Job job);
 
     Parts parts_;
     bool registered_ = false;
@@ -60,7 +73,9 @@ class ReportService {
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<Job> jobs_;
+    std::deque<ReadPins> read_pins_;
     bool stop_ = false;
+    std::stop_source printing_;
     std::thread thread_;
 };
 

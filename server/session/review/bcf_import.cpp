@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "gpu/egl_context.h"
 #include "report/bcf.h"
@@ -75,25 +76,20 @@ Pin ReviewService::placed(const v1::PinChanged& topic) {
     return pin;
 }
 
-DocumentResult ReviewService::import_bcf(const std::string& archive) {
-    std::string reason;
-    const auto topics = read_bcf(archive, reason);
-    if (!topics) {
-        return {400, text_type, "The archive is refused: " + reason + "\n", {}};
-    }
+DocumentResult ReviewService::import_pins(const std::vector<v1::PinChanged>& topics) {
     const std::string& project = parts_.scene.scene().name;
     std::map<std::string, std::uint32_t> known;
     for (const auto& [number, pin] : board_.pins()) {
         known[bcf_guid(pin.message, project)] = number;
     }
     const auto fresh = static_cast<std::size_t>(
-        std::count_if(topics->begin(), topics->end(), [&](const v1::PinChanged& topic) {
+        std::count_if(topics.begin(), topics.end(), [&](const v1::PinChanged& topic) {
             return topic.guid().empty() || !known.contains(topic.guid());
         }));
     if (board_.pins().size() + fresh > ReviewBoard::max_pins) {
         return {507, text_type, "The archive is refused: there would be more than 256 pins\n", {}};
     }
-    for (const v1::PinChanged& topic : *topics) {
+    for (const v1::PinChanged& topic : topics) {
         const auto own = topic.guid().empty() ? known.end() : known.find(topic.guid());
         const Pin* const pin =
             own == known.end()
@@ -111,7 +107,7 @@ DocumentResult ReviewService::import_bcf(const std::string& archive) {
     }
     return {200,
             text_type,
-            std::to_string(fresh) + " pins added, " + std::to_string(topics->size() - fresh) +
+            std::to_string(fresh) + " pins added, " + std::to_string(topics.size() - fresh) +
                 " brought up to date\n",
             {}};
 }

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
@@ -43,9 +44,9 @@ class ReviewService {
 
     /// A pin or viewpoint of another server of the project.
     void follow(const LogEntry& note);
-    /// Takes in the topics of a BCF archive: those that are pins of this scene bring replies and
-    /// states, the others become pins. Everybody hears of them. All or nothing.
-    DocumentResult import_bcf(const std::string& archive);
+    /// Takes in the topics of a BCF archive, see read_bcf(): those that are pins of this scene
+    /// bring replies and states, the others become pins. Everybody hears of them. All or nothing.
+    DocumentResult import_pins(const std::vector<v1::PinChanged>& topics);
 
     /// Looks at the light of one pin, and tells everybody where it has changed.
     void check_pin();
