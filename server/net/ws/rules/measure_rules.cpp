@@ -10,15 +10,9 @@
 namespace raybundle {
 namespace {
 
-constexpr double kMinEdge = 1e-6;  ///< of a direction or an edge
 constexpr std::uint64_t kMaxMeasuredPoints = 4096;
 constexpr int kMaxCorners = 64;
 constexpr float kMaxSurrounding = 100.0F;  ///< m
-constexpr std::size_t kMaxZoneName = 64;
-
-glm::dvec3 vector_of(const v1::Vec3& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
 
 bool is_glare(const v1::Measure& measure) {
     return measure.quantity() == v1::Measure::UGR || measure.quantity() == v1::Measure::DGP;
@@ -26,9 +20,9 @@ bool is_glare(const v1::Measure& measure) {
 
 /// Whether a direction says where a receiver faces: also across the vertical, if it is to stand.
 bool faces(const v1::Vec3& direction, v1::Measure::Quantity quantity) {
-    const glm::dvec3 v = vector_of(direction);
-    return quantity == v1::Measure::NORMAL ? glm::length(v) >= kMinEdge
-                                           : std::hypot(v.x, v.z) >= kMinEdge;
+    const glm::dvec3 v = to_vector(direction);
+    return quantity == v1::Measure::NORMAL ? glm::length(v) >= kMinLength
+                                           : std::hypot(v.x, v.z) >= kMinLength;
 }
 
 void check_directions(const v1::Measure& measure, MessageChecker& check) {
@@ -65,17 +59,17 @@ void check_grid(const v1::Measure& measure, MessageChecker& check) {
 }
 
 void check_area(const v1::Measure& measure, MessageChecker& check) {
-    const glm::dvec3 u = vector_of(measure.area().u());
-    const glm::dvec3 v = vector_of(measure.area().v());
+    const glm::dvec3 u = to_vector(measure.area().u());
+    const glm::dvec3 v = to_vector(measure.area().v());
     check.require(measure.area().has_origin(), "measure.area.origin", "is missing");
-    check.require(glm::length(u) >= kMinEdge, "measure.area.u", "must not be zero");
-    check.require(glm::length(v) >= kMinEdge, "measure.area.v", "must not be zero");
+    check.require(glm::length(u) >= kMinLength, "measure.area.u", "must not be zero");
+    check.require(glm::length(v) >= kMinLength, "measure.area.v", "must not be zero");
     const double sine = glm::length(glm::cross(glm::normalize(u), glm::normalize(v)));
-    check.require(sine >= kMinEdge, "measure.area.v", "must not lie along u");
+    check.require(sine >= kMinLength, "measure.area.v", "must not lie along u");
     const double margin = static_cast<double>(measure.margin());
     check.require(margin >= 0.0 && 2.0 * margin < std::min(glm::length(u), glm::length(v)),
                   "measure.margin", "must not be negative, and must leave some of the area");
-    const bool level = std::abs(u.y) < kMinEdge && std::abs(v.y) < kMinEdge;
+    const bool level = std::abs(u.y) < kMinLength && std::abs(v.y) < kMinLength;
     check.require(measure.surrounding() == 0.0F || level, "measure.surrounding",
                   "needs a level area");
     check_grid(measure, check);
@@ -113,9 +107,9 @@ void check_place(const v1::Measure& measure, MessageChecker& check) {
 
 void check_name(const v1::Measure& measure, MessageChecker& check) {
     check.require(measure.name().empty() || measure.keep(), "measure.name", "needs keep");
-    check.require(characters(measure.name()) <= kMaxZoneName, "measure.name",
+    check.require(characters(measure.name()) <= kMaxName, "measure.name",
                   "must be at most 64 characters");
-    check.require(characters(measure.requirement()) <= kMaxZoneName, "measure.requirement",
+    check.require(characters(measure.requirement()) <= kMaxName, "measure.requirement",
                   "must be at most 64 characters");
     check.require(
         measure.directions() == 0 || measure.directions() == 4 || measure.directions() == 8,
@@ -126,15 +120,15 @@ void check_name(const v1::Measure& measure, MessageChecker& check) {
 
 void check_zone(const v1::SetZone& zone, MessageChecker& check) {
     const std::size_t length = characters(zone.name());
-    check.require(!zone.has_name() || (length >= 1 && length <= kMaxZoneName), "setZone.name",
+    check.require(!zone.has_name() || (length >= 1 && length <= kMaxName), "setZone.name",
                   "must be 1..64 characters");
-    check.require(characters(zone.requirement()) <= kMaxZoneName, "setZone.requirement",
+    check.require(characters(zone.requirement()) <= kMaxName, "setZone.requirement",
                   "must be at most 64 characters");
 }
 
 void check_requirement(const v1::SetRequirement& set, MessageChecker& check) {
     const v1::Requirement& row = set.requirement();
-    check.require(!row.name().empty() && characters(row.name()) <= kMaxZoneName,
+    check.require(!row.name().empty() && characters(row.name()) <= kMaxName,
                   "setRequirement.requirement.name", "must be 1..64 characters");
     const auto within = [&](bool given, float value, float most, const std::string& field) {
         check.require(!given || (value >= 0.0F && value <= most),
