@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two servers of one project share its changes and what reviewers leave.
+#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "daemon.h"
+#include "journal/redis/redis_log.h"
+#include "journal/session_journal.h"
 #include "json_viewer.h"
 #include "redis_server.h"
 
@@ -319,6 +322,36 @@ TEST(ClusterStart, ASecretInTheFileIsNotPrinted) {
                   {"--config", folder.path("a.json"), "--print-config"});
     EXPECT_EQ(daemon.wait(), 0);
     EXPECT_EQ(daemon.output().find("sesame"), std::string::npos) << daemon.output();
+}
+
+/// One that was recorded alone, as by an earlier version: its sky comes undimmed, and nobody adds
+/// changes to the log for that.
+TEST_F(TwoServers, DaylightOfAnotherServerIsNoReasonForFurtherChanges) {
+    JsonViewer here(one.port());
+    here.join();
+    const Json day = here.request({{"setDaylight", {{"sky", "clear"}, {"sunElevation", 40.0}}}});
+    ASSERT_EQ(epoch_of(day), 1U);
+    Json told = day.at("sceneChanged").at("setDaylight");
+    const Json sky = told.at("lights").at(0).at("id");
+    ASSERT_EQ(epoch_of(here.request({{"setLight", {{"light", sky}, {"on", false}}}})), 2U);
+
+    RedisLogSettings settings;
+    settings.address = redis.address();
+    settings.project = "box";
+    settings.scene_digest = *file_digest(scene_file("cornell_box.gltf"));
+    RedisLog log(settings);
+    v1::SceneChanged recorded;
+    recorded.set_epoch(3);
+    told.erase("lights");
+    ASSERT_TRUE(
+        google::protobuf::util::JsonStringToMessage(told.dump(), recorded.mutable_set_daylight())
+            .ok());
+    ASSERT_EQ(log.append(recorded, {}, {}), Appended::yes);
+    const auto shows_it = [](const Json& m) {
+        return m.contains("sceneChanged") && m.at("sceneChanged").at("epoch") == 3;
+    };
+    EXPECT_TRUE(here.next(shows_it).at("sceneChanged").contains("setDaylight"));
+    EXPECT_EQ(epoch_of(here.request(light(500.0))), 4U) << "nothing came between";
 }
 
 }  // namespace

@@ -110,7 +110,8 @@ void ChangeCoordinator::start_pending() {
     const TimePoint begun = parts_.policy.clock().now();
     std::vector<PendingChange> pending;
     pending.push_back(std::move(first));
-    if (pending.front().change.has_set_daylight()) {
+    // One that another server has made comes behind what that one has recorded of its lights.
+    if (pending.front().change.has_set_daylight() && !pending.front().recorded) {
         undim_sky(pending);
     }
     while (!queue_.empty() && fits(queue_.front(), pending, parts_.scene.scene()) &&
