@@ -3,6 +3,12 @@
 // wire; the documents that are made of it.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
 #include "daemon.h"
 #include "json_viewer.h"
 #include "net/access/access_tokens.h"
@@ -251,6 +257,35 @@ TEST(Documents, PdfOrWords) {
         EXPECT_EQ(pdf.status, 501);
         EXPECT_TRUE(has(pdf.body, "report.html"));
     }
+}
+
+/// A Chromium that hangs: whose askers have gone keep it busy, and the end of the server ends it.
+TEST(Documents, ThatNobodyWaitsForAreBoundedAndEndWithTheServer) {
+    const TestFolder folder;
+    const std::string program = folder.path("chromium");
+    std::ofstream(program) << "#!/bin/sh\nsleep 50\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (std::filesystem::path(program).parent_path().string() + ":" + path).c_str(), 1);
+    Daemon daemon(scene_file("cornell_box.gltf"));
+    setenv("PATH", path.c_str(), 1);
+    ASSERT_TRUE(daemon.says("is ready")) << daemon.output();
+    Http last;
+    for (int i = 0; i < 100 && last.status != 503; ++i) {
+        {
+            RawClient client(daemon.port());
+            client.send("GET /report.pdf HTTP/1.1\r\nHost: x\r\n\r\n");
+            std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        }
+        if (i >= 8) {
+            last = http(daemon.port(), "GET /report.csv");
+        }
+    }
+    EXPECT_EQ(last.status, 503);
+    EXPECT_NE(last.head.find("retry-after: "), std::string::npos) << last.head;
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(daemon.end(), 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
 
 }  // namespace
