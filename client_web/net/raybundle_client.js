@@ -24,11 +24,10 @@ const SILENCE_LIMIT_MS = 20000;
 /** Before the welcome, since a server may compile its shaders first. */
 const WELCOME_LIMIT_MS = 120000;
 const PREPARING = 'The server is preparing the scene';
-/** Requests that change what is saved. */
+/** Requests that change the scene. Pins, viewpoints, zones, requirements and names of lighting scenes are none of it. */
 const CHANGES = [
-    'moveObject', 'setLight', 'setMaterial', 'setGroup', 'setDaylight', 'saveLightingScene', 'applyLightingScene',
-    'addObject', 'removeObject', 'addLuminaire', 'removeLight',
-    'removeLightingScene', 'playAnimation', 'undo', 'addPin', 'removePin', 'saveViewpoint', 'removeViewpoint',
+    'moveObject', 'setLight', 'setMaterial', 'setGroup', 'setDaylight', 'applyLightingScene',
+    'addObject', 'removeObject', 'addLuminaire', 'removeLight', 'playAnimation', 'undo',
 ];
 const PING_INTERVAL_MS = 2000;
 const FIRST_RETRY_MS = 500;
@@ -170,7 +169,13 @@ export class RaybundleClient extends EventTarget {
         return {id, answer};
     }
 
-    /** Whether a change that this page has asked for waits for its answer. */
+    /** What HTTP requests to the server show its token by. @returns {Record<string, string>} */
+    get httpHeaders() {
+        const {token} = this.settings;
+        return token ? {Authorization: `Bearer ${token}`} : {};
+    }
+
+    /** Whether a change of the scene that this page has asked for waits for its answer. */
     get changing() {
         return [...this.#waiting.values()].some(({changes}) => changes);
     }

@@ -29,12 +29,6 @@ export class Documents {
         });
     }
 
-    /** @returns {Record<string, string>} headers of a request */
-    #headers() {
-        const {token} = this.app.client.settings;
-        return token ? {Authorization: `Bearer ${token}`} : {};
-    }
-
     /** @param {string} text */
     #say(text) {
         this.#state.textContent = text;
@@ -54,7 +48,7 @@ export class Documents {
         button.disabled = true;
         this.#say('Being written …');
         try {
-            const answer = await fetch(new URL(`${name}?${query}`, location.href), {headers: this.#headers()});
+            const answer = await fetch(new URL(`${name}?${query}`, location.href), {headers: this.app.client.httpHeaders});
             if (answer.ok) {
                 saveFile(await answer.blob(), `${fileName(this.app.scene?.title ?? '')}_${name}`);
                 this.#say('');
@@ -75,7 +69,7 @@ export class Documents {
             return;
         }
         try {
-            const answer = await fetch(new URL('pins.bcf', location.href), {method: 'PUT', body: file, headers: this.#headers()});
+            const answer = await fetch(new URL('pins.bcf', location.href), {method: 'PUT', body: file, headers: this.app.client.httpHeaders});
             this.#say((await answer.text()).trim());
         } catch {
             this.#say('The connection was lost.');

@@ -74,12 +74,6 @@ export class Luminaires extends EventTarget {
         });
     }
 
-    /** @returns {Record<string, string>} */
-    get #headers() {
-        const {token} = this.app.client.settings;
-        return token ? {Authorization: `Bearer ${token}`} : {};
-    }
-
     async #welcomed() {
         const may = this.app.mayEdit && this.app.client.welcome?.canOpenScenes === true;
         this.#section.hidden = !may;
@@ -103,7 +97,7 @@ export class Luminaires extends EventTarget {
     /** @param {string} [chosen]  file that is chosen then */
     async #load(chosen = this.#file.value) {
         try {
-            const answer = await fetch(new URL('photometry', location.href), {headers: this.#headers});
+            const answer = await fetch(new URL('photometry', location.href), {headers: this.app.client.httpHeaders});
             this.files = answer.ok ? await answer.json() : [];
         } catch {
             this.files = [];
@@ -151,7 +145,7 @@ export class Luminaires extends EventTarget {
         fieldNote(this.#note, `Sending ${file.name}.`);
         try {
             const address = new URL(`photometry/${encodeURIComponent(file.name)}`, location.href);
-            const answer = await fetch(address, {method: 'PUT', headers: this.#headers, body: file});
+            const answer = await fetch(address, {method: 'PUT', headers: this.app.client.httpHeaders, body: file});
             fieldNote(this.#note, (await answer.text()).trim());
             await this.#load(answer.ok ? file.name : undefined);
         } catch {

@@ -311,9 +311,8 @@ export class SceneFiles {
         const name = file.name.replace(/\.glb$/i, '.glb');
         const request = new XMLHttpRequest();
         request.open('PUT', new URL(`scenes/${encodeURIComponent(name)}`, location.href));
-        const {token} = this.app.client.settings;
-        if (token) {
-            request.setRequestHeader('Authorization', `Bearer ${token}`);
+        for (const [header, value] of Object.entries(this.app.client.httpHeaders)) {
+            request.setRequestHeader(header, value);
         }
         request.upload.onprogress = ({loaded, total}) => {
             this.#progress.value = loaded / Math.max(total, 1);
