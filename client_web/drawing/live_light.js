@@ -19,12 +19,17 @@ const triple = (v) => [v?.x ?? 0, v?.y ?? 0, v?.z ?? 0];
 /** Where the server has a file, also behind a proxy that puts it into a folder. @param {string} path */
 const beside = (path) => new URL(path.replace(/^\//, ''), location.href).href;
 
-/** Events: `complete`, all light is there for the first time; `changed`, another picture is to be drawn. */
+/**
+ * Events: `complete`, all light is there for the first time; `changed`, another picture is to be drawn; `forgotten`, what was
+ * drawn is not there any more.
+ */
 export class LiveLight extends EventTarget {
     /** @type {Renderer | null} */
     renderer = null;
     /** Number and address of the geometry that is drawn, or loaded. @type {LightScene | null} */
     #scene = null;
+    /** The server has said that this is the geometry of its scene. */
+    #confirmed = false;
     /** What comes is taken in one after the other. */
     #queue = Promise.resolve();
     /** Blocks that have come. @type {Set<number>} */
@@ -55,7 +60,7 @@ export class LiveLight extends EventTarget {
 
     /** Whether all of the scene and of its light is there. */
     get complete() {
-        return this.renderer !== null && this.#scene !== null && this.#blocks.size >= this.#blockCount;
+        return this.#confirmed && this.renderer !== null && this.#scene !== null && this.#blocks.size >= this.#blockCount;
     }
 
     get #blockCount() {
@@ -66,8 +71,22 @@ export class LiveLight extends EventTarget {
     /** Another scene is there, or none. */
     forget() {
         this.#scene = null;
+        this.#dropGeometry();
+    }
+
+    /** What is there is drawn again once the server says that it is of the scene that it has now. */
+    doubt() {
+        this.#confirmed = false;
+    }
+
+    #dropGeometry() {
+        const {renderer} = this;
         this.renderer = null;
         this.#blocks.clear();
+        if (renderer) {
+            renderer.dispose();
+            this.dispatchEvent(new Event('forgotten'));
+        }
     }
 
     /** @param {() => Promise<void>} work */
@@ -94,17 +113,25 @@ export class LiveLight extends EventTarget {
     /** Loads another geometry; the same one stays, with its light until there is newer. @param {LightScene} scene */
     async #open(scene) {
         const same = this.renderer !== null && this.#scene?.url === scene.url;
+        const wasComplete = this.complete;
         this.#scene = scene;
-        if (same || this.ignored) {
+        this.#confirmed = true;
+        if (same) {
+            if (!wasComplete && this.complete) {
+                this.dispatchEvent(new Event('complete'));
+            }
             return;
         }
-        this.renderer = null;
-        this.#blocks.clear();
+        this.#dropGeometry();
+        if (this.ignored) {
+            return;
+        }
         const data = await loadScene(() => {}, beside(scene.url));
         if (4 * scene.values !== data.manifest.light.bytes) {
             throw new Error('light: there are not as many values as scene.json says');
         }
-        if (!this.gl.isContextLost()) {
+        // It may have been forgotten while it was loaded.
+        if (this.#scene === scene && !this.gl.isContextLost()) {
             this.renderer = new Renderer(this.gl, data);
             this.problem = '';
         }
@@ -112,7 +139,8 @@ export class LiveLight extends EventTarget {
 
     /** @param {LightSky} sky */
     async #setSky({uniform, url, width, height, unit, sun}) {
-        if (!this.renderer) {
+        const {renderer} = this;
+        if (!renderer) {
             return;
         }
         const texels = url ? new Uint32Array(await (await fetch(beside(url))).arrayBuffer()) : null;
@@ -120,7 +148,10 @@ export class LiveLight extends EventTarget {
             throw new Error('light: the sky has not as many texels as it says');
         }
         const disc = sun ? {direction: triple(sun.direction), cosine: sun.cosine, radiance: triple(sun.radiance)} : null;
-        this.renderer?.setSky({uniform: triple(uniform), texels: null, width, height, sun: disc}, unit, texels);
+        if (this.renderer !== renderer) {
+            return;
+        }
+        renderer.setSky({uniform: triple(uniform), texels: null, width, height, sun: disc}, unit, texels);
         this.#changed();
     }
 
@@ -133,11 +164,14 @@ export class LiveLight extends EventTarget {
             return;
         }
         const scene = this.#scene;
-        if (scene && scene.scene === header.scene && this.renderer) {
+        const {renderer} = this;
+        const ours = scene && scene.scene === header.scene && renderer;
+        const blocks = ours ? await readBlocks(body, scene) : [];
+        if (ours && this.renderer === renderer) {
             const wasComplete = this.complete;
             this.bytes += body.length;
-            for (const {first, words} of await readBlocks(body, scene)) {
-                this.renderer.setLight(first, words);
+            for (const {first, words} of blocks) {
+                renderer.setLight(first, words);
                 this.#blocks.add(first);
             }
             this.epoch = header.epoch;

@@ -7,7 +7,7 @@ import {Samples} from '../measure/meters.js';
 import {FrameThrottle} from '../picture/frame_throttle.js';
 import {DrawnExposure} from './drawn_exposure.js';
 import {LiveLight} from './live_light.js';
-import {placeOf} from './object_places.js';
+import {placeObjects} from './object_places.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -140,6 +140,10 @@ export class LocalDrawing extends EventTarget {
                 this.#throttle.run();
             }
         });
+        light.addEventListener('forgotten', () => {
+            this.#like = null;
+            this.#decide();
+        });
         app.on('welcome', () => {
             this.#told = false;
             this.#epoch = app.scene?.epoch ?? 0;
@@ -151,8 +155,9 @@ export class LocalDrawing extends EventTarget {
         app.on('anew', (/** @type {{otherScene: boolean}} */ {otherScene}) => {
             if (otherScene) {
                 light.forget();
-                this.#hide();
             }
+            light.doubt();  // another file may have the same name
+            this.#hide();
         });
         app.on('view', () => this.#moved());
         app.on('moved', () => {
@@ -201,13 +206,7 @@ export class LocalDrawing extends EventTarget {
         if (!renderer || !scene) {
             return;
         }
-        renderer.manifest.objects?.forEach(({worldFromObject}, i) => {
-            const object = scene.object(i + 1);
-            if (object) {
-                renderer.setPlace(i, placeOf(object, worldFromObject));
-            }
-        });
-        renderer.hidden = new Set([...this.hidden].map((id) => id - 1));
+        placeObjects(renderer, scene, this.hidden);
         if (this.#visible) {
             this.#throttle.run();
         }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where objects have gone since their vertices were written down.
 
-import {completeTransform} from '../ui/vector.js';
+import {IDENTITY, completeTransform} from '../ui/vector.js';
 
 /** @typedef {import('../scene/scene_model.js').PlacedObject} PlacedObject */
+
+/** Single precision, in which the server sends transforms: their products differ by a few of its steps. */
+const SAME = 8 * 2 ** -24;
 
 /**
  * Product of affine 4x4 matrices, column by column.
@@ -20,8 +23,8 @@ export function product(a, b) {
 }
 
 /**
- * @param {ArrayLike<number>} m  affine 4x4 matrix, column by column, that can be inverted
- * @returns {number[]}
+ * @param {ArrayLike<number>} m  affine 4x4 matrix, column by column
+ * @returns {number[] | null}  null: it cannot be inverted
  */
 export function inverse(m) {
     const minor = (/** @type {number} */ row, /** @type {number} */ column) => {
@@ -32,6 +35,9 @@ export function inverse(m) {
     };
     const determinant = [0, 1, 2].reduce((sum, column) => sum + m[4 * column] * minor(0, column), 0);
     const turned = Array.from({length: 9}, (_, i) => minor(Math.floor(i / 3), i % 3) / determinant);
+    if (!turned.every(Number.isFinite)) {
+        return null;
+    }
     const shift = [0, 1, 2].map((row) =>
         -[0, 1, 2].reduce((sum, column) => sum + turned[3 * column + row] * m[12 + column], 0));
     return [
@@ -62,8 +68,47 @@ export function matrixOf(transform) {
  *
  * @param {PlacedObject} object
  * @param {number[]} worldFromObject  that its vertices were placed by
+ * @returns {Float32Array | null}  null: there is nothing to draw, or its vertices, which were all in one plane, do not tell
+ *     what it looks like there
  */
 export function placeOf(object, worldFromObject) {
     const now = product(object.worldFromParent, matrixOf(object.transform));
-    return new Float32Array(product(now, inverse(worldFromObject)));
+    if (!now.every(Number.isFinite)) {
+        return null;
+    }
+    const back = inverse(worldFromObject);
+    if (back) {
+        return new Float32Array(product(now, back));
+    }
+    const turned = (/** @type {number} */ i) => i % 4 < 3 && i < 12;
+    const largest = Math.max(...worldFromObject.filter((_, i) => turned(i)).map(Math.abs));
+    if (now.some((value, i) => turned(i) && Math.abs(value - worldFromObject[i]) > SAME * largest)) {
+        return null;
+    }
+    const place = new Float32Array(IDENTITY);
+    for (const i of [12, 13, 14]) {
+        place[i] = now[i] - worldFromObject[i];
+    }
+    return place;
+}
+
+/**
+ * Places all objects of a drawing, and hides those that have been removed.
+ *
+ * @param {Pick<import('../walkthrough/renderer.js').Renderer, 'manifest' | 'setPlace' | 'hidden'>} renderer
+ * @param {import('../scene/scene_model.js').SceneModel} scene
+ * @param {Iterable<number>} hidden  ids of objects that are not shown
+ */
+export function placeObjects(renderer, scene, hidden) {
+    const absent = new Set([...hidden].map((id) => id - 1));
+    renderer.manifest.objects?.forEach(({worldFromObject}, i) => {
+        const object = scene.object(i + 1);
+        const place = object && placeOf(object, worldFromObject);
+        if (place) {
+            renderer.setPlace(i, place);
+        } else {
+            absent.add(i);
+        }
+    });
+    renderer.hidden = absent;
 }

@@ -40,6 +40,7 @@ export function linkProgram(gl, vertex, fragment) {
         const words = [...shaders.map((shader) => gl.getShaderInfoLog(shader)), gl.getProgramInfoLog(program)];
         throw new Error(`shaders cannot be used: ${words.join(' ')}`);
     }
+    shaders.forEach((shader) => gl.deleteShader(shader));  // it goes with the program
     /** @type {Map<string, WebGLUniformLocation | null>} */
     const places = new Map();
     const at = (/** @type {string} */ name) => {

@@ -84,6 +84,21 @@ export class Renderer {
         gl.depthFunc(gl.LEQUAL);
     }
 
+    /** Lets go of all that it has on the GPU; nothing can be drawn afterwards. */
+    dispose() {
+        const {gl} = this;
+        for (const {vertexArray, buffers} of Object.values(this.#chunks).flat()) {
+            gl.deleteVertexArray(vertexArray);
+            buffers.forEach((buffer) => gl.deleteBuffer(buffer));
+        }
+        this.#chunks = {oneSided: [], twoSided: [], glass: []};
+        this.#lamps.clear();
+        gl.deleteBuffer(this.light);
+        [...this.textures, this.albedos.texture, this.skyTexture].forEach((texture) => gl.deleteTexture(texture));
+        gl.deleteProgram(this.surface.program);
+        gl.deleteProgram(this.sky.program);
+    }
+
     /**
      * Takes in light that has come.
      *

@@ -10,6 +10,7 @@ import {ALBEDO_NODES, ATTRIBUTES} from './shaders.js';
  * @typedef {object} DrawnChunk
  * @property {Chunk} chunk
  * @property {WebGLVertexArrayObject} vertexArray
+ * @property {WebGLBuffer[]} buffers  of its own
  */
 
 /**
@@ -18,10 +19,13 @@ import {ALBEDO_NODES, ATTRIBUTES} from './shaders.js';
  * @param {ArrayBuffer} file
  * @param {number} at
  * @param {number} bytes
+ * @returns {WebGLBuffer}  bound
  */
 function bufferOf(gl, target, file, at, bytes) {
-    gl.bindBuffer(target, gl.createBuffer());
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(target, buffer);
     gl.bufferData(target, new Uint8Array(file, at, bytes), gl.STATIC_DRAW);
+    return buffer;
 }
 
 /**
@@ -35,8 +39,10 @@ function upload(gl, {geometry}, light, chunk) {
     const count = chunk.vertexCount;
     const vertexArray = gl.createVertexArray();
     gl.bindVertexArray(vertexArray);
-    bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, geometry, chunk.indices, 2 * chunk.indexCount);
-    bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.vertices, 12 * count);
+    const buffers = [
+        bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, geometry, chunk.indices, 2 * chunk.indexCount),
+        bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.vertices, 12 * count),
+    ];
     gl.enableVertexAttribArray(ATTRIBUTES.vertex);
     gl.vertexAttribIPointer(ATTRIBUTES.vertex, 3, gl.UNSIGNED_INT, 0, 0);
     const places = {front: chunk.front, back: chunk.back, emission: chunk.emissions};
@@ -49,17 +55,17 @@ function upload(gl, {geometry}, light, chunk) {
         }
     }
     if (chunk.uvs !== null) {
-        bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.uvs, 8 * count);
+        buffers.push(bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.uvs, 8 * count));
         gl.enableVertexAttribArray(ATTRIBUTES.uv);
         gl.vertexAttribPointer(ATTRIBUTES.uv, 2, gl.FLOAT, false, 0, 0);
     }
     if (chunk.colours !== null) {
-        bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.colours, 4 * count);
+        buffers.push(bufferOf(gl, gl.ARRAY_BUFFER, geometry, chunk.colours, 4 * count));
         gl.enableVertexAttribArray(ATTRIBUTES.colour);
         gl.vertexAttribPointer(ATTRIBUTES.colour, 4, gl.UNSIGNED_BYTE, true, 0, 0);
     }
     gl.bindVertexArray(null);
-    return {chunk, vertexArray};
+    return {chunk, vertexArray, buffers};
 }
 
 /**
