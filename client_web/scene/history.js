@@ -9,7 +9,7 @@ import {deedOf} from './placement.js';
  * @typedef {import('../net/protocol.js').Transform} Transform
  * @typedef {object} Step
  * @property {string} label  what was done, e.g. "move short box"
- * @property {string} [subject]  what it was done to, of subjectOf()
+ * @property {string | string[]} [subject]  what it was done to, of subjectOf()
  * @property {string} [changedBy]  who has changed that since; empty: nobody else
  * @property {() => Promise<unknown>} undo
  * @property {() => Promise<unknown>} redo
@@ -81,7 +81,7 @@ export class History extends EventTarget {
      */
     noteOther(subject, by) {
         for (const step of [...this.#done, ...this.#undone]) {
-            if (step.subject === subject) {
+            if ([step.subject].flat().includes(subject)) {
                 step.changedBy = by;
             }
         }

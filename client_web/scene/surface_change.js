@@ -2,6 +2,7 @@
 // Changes to a light or a material: while a slider moves, one is on its way, and the newest follows it.
 
 import {subjectOf} from './history.js';
+import {withOwnChanges} from './own_changes.js';
 
 /**
  * @typedef {import('./history.js').History} History
@@ -74,12 +75,15 @@ export class SurfaceChange {
     async done(values, refused) {
         const from = this.#before ?? this.state();
         this.#before = null;
-        if (await this.#send(values, refused)) {
+        const {result: sent, changes} = await withOwnChanges(this.page.client, () => this.#send(values, refused));
+        if (sent && 'photometry' in values) {
+            this.#addExchange(values, changes);
+        } else if (sent) {
             // Of the rest the server may refuse what it has.
             const touched = Object.keys(values).map((key) => [key, from[key]]);
             this.page.history.add({
                 label: `set ${this.name}`,
-                subject: subjectOf({[this.kind]: this.subjects[0]}),
+                subject: this.subjects.map((one) => subjectOf({[this.kind]: one})),
                 undo: () => this.#send(Object.fromEntries(touched)),
                 redo: () => this.#send(values),
             });
@@ -87,14 +91,43 @@ export class SurfaceChange {
     }
 
     /**
+     * Lights shine by another file, with its flux. They get back what each had before; also where that was the scene's own
+     * file, which the server has under no name.
+     *
+     * @param {object} values
+     * @param {import('../net/protocol.js').SceneChanged[]} changes
+     */
+    #addExchange(values, changes) {
+        const before = changes.flatMap(({setLight, lightBefore}) =>
+            setLight?.photometry !== undefined && lightBefore
+                ? [{light: setLight.light, photometry: lightBefore.photometry ?? '', intensity: lightBefore.intensity}]
+                : []);
+        this.page.history.add({
+            label: `set ${this.name}`,
+            subject: before.map(({light}) => subjectOf({setLight: {light}})),
+            undo: () => this.#request(before),
+            redo: () => this.#send(values),
+        });
+    }
+
+    /**
      * @param {object} values
      * @param {Refused} [refused]
      * @returns {Promise<boolean>} whether it has been changed
      */
-    async #send(values, refused) {
+    #send(values, refused) {
+        return this.#request(this.subjects.map((one) => ({...one, ...values})), refused);
+    }
+
+    /**
+     * @param {object[]} bodies
+     * @param {Refused} [refused]
+     * @returns {Promise<boolean>}
+     */
+    async #request(bodies, refused) {
         try {
             const {client} = this.page;
-            const sent = this.subjects.map((one) => client.request({[this.kind]: {...one, ...values}}).answer);
+            const sent = bodies.map((body) => client.request({[this.kind]: body}).answer);
             await Promise.all(sent);
             return true;
         } catch (error) {

@@ -3,6 +3,7 @@
 
 import {byId} from '../ui/elements.js';
 import {subjectOf} from './history.js';
+import {withOwnChanges} from './own_changes.js';
 import {shifted} from './scene_model.js';
 
 /**
@@ -84,16 +85,17 @@ export class Things {
      * @returns {Promise<boolean>} whether they are there
      */
     async addLuminaires(addLuminaire, name) {
-        const before = new Set(this.app.scene?.lights.map(({id}) => id));
-        if (!(await this.app.ask({addLuminaire}))) {
+        // Others may add some meanwhile: only this viewer's own are taken back.
+        const {result, changes} = await withOwnChanges(this.app.client, () => this.app.ask({addLuminaire}));
+        if (!result) {
             return false;
         }
-        const ids = (this.app.scene?.lights ?? []).filter(({id, added}) => added && !before.has(id)).map(({id}) => id);
+        const ids = changes.flatMap((change) => (change.addLuminaire ? [change.addLuminaire.light] : []));
         const each = (/** @type {(id: number) => object} */ body) => () =>
             Promise.all(ids.map((id) => this.app.ask(body(id))));
         this.history.add({
             label: `add ${name}`,
-            subject: subjectOf({addLuminaire: {light: ids[0]}}),
+            subject: ids.flatMap((light) => [subjectOf({addLuminaire: {light}}), subjectOf({setLight: {light}})]),
             undo: each((light) => ({removeLight: {light}})),
             redo: each((light) => ({addLuminaire: {light}})),
         });
@@ -120,13 +122,13 @@ export class Things {
 
     /**
      * @param {string} label
-     * @param {object} redo
+     * @param {import('./history.js').Subject} redo
      * @param {object} undo
      */
     #note(label, redo, undo) {
         this.history.add({
             label,
-            subject: subjectOf(redo),
+            subject: redo.addObject ? [subjectOf(redo), subjectOf({moveObject: {object: redo.addObject.object ?? 0}})] : subjectOf(redo),
             undo: () => this.app.ask(undo),
             redo: () => this.app.ask(redo),
         });
