@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/interval.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace raybundle {
 namespace {
@@ -36,6 +38,31 @@ double student_quantile(double probability, std::size_t degrees_of_freedom) {
         (two_sided(middle, degrees_of_freedom) < wanted ? low : high) = middle;
     }
     return 0.5 * (low + high);
+}
+
+Interval interval_of_largest(std::span<const BatchEstimate> estimates, double beyond,
+                             std::size_t degrees_of_freedom) {
+    const double one = student_quantile(1.0 - beyond, degrees_of_freedom);
+    const double all =
+        student_quantile(1.0 - beyond / static_cast<double>(estimates.size()), degrees_of_freedom);
+    const BatchEstimate& first = estimates.front();
+    Interval largest{first.value, first.value - all * first.error, first.value + one * first.error};
+    for (const BatchEstimate& estimate : estimates) {
+        largest.value = std::max(largest.value, estimate.value);
+        largest.low = std::max(largest.low, estimate.value - all * estimate.error);
+        largest.high = std::max(largest.high, estimate.value + one * estimate.error);
+    }
+    return largest;
+}
+
+Interval interval_of_smallest(std::span<const BatchEstimate> estimates, double beyond,
+                              std::size_t degrees_of_freedom) {
+    std::vector<BatchEstimate> negative(estimates.begin(), estimates.end());
+    for (BatchEstimate& estimate : negative) {
+        estimate.value = -estimate.value;
+    }
+    const Interval largest = interval_of_largest(negative, beyond, degrees_of_freedom);
+    return {-largest.value, -largest.high, -largest.low};
 }
 
 }  // namespace raybundle

@@ -163,28 +163,21 @@ std::vector<Interval> PointMeasurement::values() const {
 }
 
 PointMeasurement::Extremes PointMeasurement::extremes(double beyond) const {
-    const double one = student_quantile(1.0 - beyond, degrees);
-    const double all = student_quantile(1.0 - beyond / static_cast<double>(measured_), degrees);
-    constexpr double most = std::numeric_limits<double>::max();
-    Extremes result{{}, {most, most, most}, {}};
+    std::vector<BatchEstimate> estimates;
     const std::vector<Scatter> all_points = scatters();
     for (std::size_t point = 0; point < points_.size(); ++point) {
-        if (inside(point)) {
-            continue;
+        if (!inside(point)) {
+            estimates.push_back({all_points[point].mean, all_points[point].error()});
         }
-        const Scatter& found = all_points[point];
-        Interval& low = result.minimum;
-        low.value = std::min(low.value, found.mean);
-        low.low = std::min(low.low, std::max(found.mean - one * found.error(), 0.0));
-        low.high = std::min(low.high, found.mean + all * found.error());
-        Interval& high = result.maximum;
-        high.value = std::max(high.value, found.mean);
-        high.low = std::max(high.low, found.mean - all * found.error());
-        high.high = std::max(high.high, found.mean + one * found.error());
     }
+    const auto not_negative = [](Interval found) {
+        found.low = std::max(found.low, 0.0);
+        return found;
+    };
     const Scatter mean = scatter_of_mean();
-    result.mean = around(mean.mean, one * mean.error());
-    return result;
+    return {around(mean.mean, student_quantile(1.0 - beyond, degrees) * mean.error()),
+            not_negative(interval_of_smallest(estimates, beyond, degrees)),
+            not_negative(interval_of_largest(estimates, beyond, degrees))};
 }
 
 MeasurementSummary PointMeasurement::summary() const {

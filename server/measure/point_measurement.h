@@ -55,10 +55,8 @@ class PointMeasurement : public Measurement {
     [[nodiscard]] std::vector<Interval> values() const override;
     /// Of all that are measured: there is one at least, and a round.
     ///
-    /// The true minimum lies with 97.5 % above the smallest of the points' one-sided 97.5 % lower
-    /// bounds, since the bound of the darkest point holds so often. Below the smallest upper bound
-    /// it lies so often only where all of them hold, so each has 1 - 2.5 %/n (Bonferroni). The
-    /// maximum is alike. Ratios take the ends of both intervals, each with half of the 5 %.
+    /// Minimum and maximum by interval_of_smallest() and interval_of_largest(). Ratios take the
+    /// ends of two intervals, each with half of the 5 %.
     [[nodiscard]] MeasurementSummary summary() const;
     [[nodiscard]] std::optional<MeasurementSummary> all() const override {
         return measured_ > 0 ? std::optional(summary()) : std::nullopt;
