@@ -11,7 +11,7 @@ import {valueText} from './work_plane.js';
 
 /** Signs that do without colour. */
 const SIGNS = {MET: '✓', MISSED: '✗', NOT_YET_KNOWN: '?', VERDICT_UNSPECIFIED: ''};
-const WORDS = {MET: 'met', MISSED: 'missed', NOT_YET_KNOWN: 'not yet known', VERDICT_UNSPECIFIED: 'nothing required'};
+const WORDS = {MET: 'met', MISSED: 'missed', NOT_YET_KNOWN: 'not yet known', VERDICT_UNSPECIFIED: 'not checked: nothing is required of this quantity'};
 /** Those whose worst place counts. */
 const RATINGS = new Set(['UGR', 'DGP']);
 const ILLUMINANCES = new Set(['Em', 'Ez', 'Ev', 'Esz']);

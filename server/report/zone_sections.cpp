@@ -24,7 +24,11 @@ std::string ratio(double value, double low, double high) {
 
 std::string check_text(const v1::Measured& zone, const ReportWords& w) {
     if (zone.checks().empty()) {
-        return zone.requirement().empty() ? "–" : escaped(zone.requirement());
+        return zone.requirement().empty()
+                   ? "–"
+                   : escaped(zone.requirement()) + ": " +
+                         w.of("asks nothing of this quantity, not checked",
+                              "verlangt nichts von dieser Größe, nicht geprüft");
     }
     std::string text = escaped(zone.requirement()) + ": ";
     for (const v1::Check& check : zone.checks()) {
@@ -175,7 +179,10 @@ std::string overview_section(const ReportData& data, const ReportWords& w) {
                         found.has_uniformity() ? ratio(found.uniformity(), found.uniformity_low(),
                                                        found.uniformity_high())
                                                : "–",
-                        escaped(found.requirement()), w.verdict(found.verdict())});
+                        escaped(found.requirement()),
+                        found.checks().empty() && !found.requirement().empty()
+                            ? w.of("not checked", "nicht geprüft")
+                            : w.verdict(found.verdict())});
     }
     return std::string("<h2>") + w.of("Zones at a glance", "Zonen auf einen Blick") + "</h2>\n" +
            html_table({w.of("Zone", "Zone"), w.of("Quantity", "Größe"),

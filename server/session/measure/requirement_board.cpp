@@ -118,8 +118,9 @@ Requirement RequirementBoard::required(const std::string& name, Quantity quantit
             take(r.has_vertical(), r.vertical(), required.mean);
             break;
         case Quantity::cylindrical:
-        case Quantity::semicylindrical:
             take(r.has_cylindrical(), r.cylindrical(), required.mean);
+            break;
+        case Quantity::semicylindrical:  // a row has Ez, which is another quantity
             break;
         case Quantity::daylight_factor:
             take(r.has_daylight_factor(), r.daylight_factor(), required.mean);
