@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct ReportData {
     std::vector<v1::Requirement> requirements;
     std::vector<v1::PinChanged> pins;
     v1::ChangeHistory changes;
+    std::map<std::uint32_t, std::string> objects;  ///< names by number, of removed ones too
 };
 
 struct ReportOptions {

@@ -58,6 +58,7 @@ ReportPower power_of(const ReportData& data) {
             power.watts +=
                 light.has_watts() ? share_of(light) * static_cast<double>(light.watts()) : 0.0;
             power.unknown += light.has_watts() ? 0 : 1;
+            power.stated = power.stated || light.has_watts();
         }
     }
     return power;
@@ -131,8 +132,10 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
     html += fmt::format(
         "<p>{}: {:.0f} lm",
         w.of("All together, as they are switched", "Zusammen, wie sie geschaltet sind"), flux);
-    html += power.watts > 0.0 ? fmt::format(", {:.0f} W", power.watts) : "";
-    if (area > 0.0 && power.watts > 0.0) {
+    html += power.stated ? fmt::format(", {:.0f} W", power.watts)
+                         : w.of("; – W, W/m² and LENI: no file states a power",
+                                "; – W, W/m² und LENI: keine Datei nennt eine Leistung");
+    if (area > 0.0 && power.stated) {
         html += fmt::format(
             fmt::runtime(w.of(
                 "; {:.2f} W/m² and LENI {:.1f} kWh/(m² a) with {:.0f} h a year, of {:.1f} m² of "
@@ -143,7 +146,7 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
             area);
     }
     html += ".</p>\n";
-    if (power.unknown > 0) {
+    if (power.stated && power.unknown > 0) {
         html +=
             fmt::format("<p class=\"quiet\">{} {}.</p>\n",
                         w.of("Lamps without a stated power, which are not in W, W/m² and LENI:",
@@ -188,14 +191,26 @@ std::string named(const Entries& entries, std::uint32_t id) {
     return found == entries.end() ? "" : " " + escaped(found->name());
 }
 
+std::uint32_t object_of(const v1::SceneChanged& change) {
+    return change.has_move_object()     ? change.move_object().object()
+           : change.has_remove_object() ? change.remove_object().object()
+                                        : 0;
+}
+
+/// A colon and the name of the object that a change is about.
+std::string named_object(const v1::SceneChanged& change, const ReportData& data) {
+    const auto found = data.objects.find(object_of(change));
+    return found == data.objects.end() || found->second.empty() ? ""
+                                                                : ": " + escaped(found->second);
+}
+
 /// What a change has done, in words.
 std::string change_text(const v1::SceneChanged& change, const ReportData& data,
                         const ReportWords& w) {
     const v1::Scene& scene = data.scene;
     switch (change.change_case()) {
         case v1::SceneChanged::kMoveObject:
-            return w.of("object moved:", "Objekt bewegt:") +
-                   named(scene.objects(), change.move_object().object());
+            return w.of("object moved", "Objekt bewegt") + named_object(change, data);
         case v1::SceneChanged::kSetLight:
             return w.of("light", "Licht") + named(scene.lights(), change.set_light().light());
         case v1::SceneChanged::kSetMaterial:
@@ -204,11 +219,12 @@ std::string change_text(const v1::SceneChanged& change, const ReportData& data,
         case v1::SceneChanged::kSetDaylight:
             return w.of("daylight: ", "Tageslicht: ") + daylight_text(change.set_daylight(), w);
         case v1::SceneChanged::kAddObject:
-            return change.add_object().removed() ? w.of("object removed", "Objekt entfernt")
-                                                 : w.of("object added: ", "Objekt hinzugefügt: ") +
-                                                       escaped(change.add_object().name());
+            return (change.add_object().removed()
+                        ? w.of("object removed: ", "Objekt entfernt: ")
+                        : w.of("object added: ", "Objekt hinzugefügt: ")) +
+                   escaped(change.add_object().name());
         case v1::SceneChanged::kRemoveObject:
-            return w.of("object removed", "Objekt entfernt");
+            return w.of("object removed", "Objekt entfernt") + named_object(change, data);
         case v1::SceneChanged::kAddLuminaire:
             return change.add_luminaire().removed()
                        ? w.of("luminaire removed", "Leuchte entfernt")

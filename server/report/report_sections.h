@@ -16,11 +16,15 @@ std::string pin_section(const ReportData& data, const ReportWords& words);
 std::string change_section(const ReportData& data, const ReportWords& words);
 std::string method_section(const ReportData& data, const ReportWords& words);
 
+/// Number of the object that a change moves or removes; 0: it does neither.
+std::uint32_t object_of(const v1::SceneChanged& change);
+
 /// Electrical power of all lamps as they are switched and dimmed, W; unknown: lamps whose file
 /// does not state it.
 struct ReportPower {
     double watts = 0.0;
     std::size_t unknown = 0;
+    bool stated = false;  ///< by one lamp at least: else the sum means nothing
 };
 ReportPower power_of(const ReportData& data);
 /// Of all zones of horizontal illuminance that are not strips around others, m².

@@ -52,10 +52,10 @@ Json list_of(const Messages& messages) {
 std::string report_csv(const ReportData& data, const ReportOptions& options) {
     const ReportWords words(options);
     std::string csv = "zone,quantity,x (m),y (m),z (m),value,95 % from,95 % to,unit,note\r\n";
-    constexpr double feet = 10.763910416709722;
     for (const ReportZone& zone : data.zones) {
         const auto q = zone.found.quantity();
-        const double divisor = options.foot_candles && is_illuminance(q) ? feet : 1.0;
+        const double divisor =
+            options.foot_candles && is_illuminance(q) ? lux_per_foot_candle : 1.0;
         const auto number = [divisor](bool given, float value) {
             return given ? fmt::format("{:.6g}", static_cast<double>(value) / divisor) : "";
         };
@@ -79,8 +79,11 @@ std::string report_json(const ReportData& data, const ReportOptions& options) {
                  {"epoch", data.epoch},
                  {"madeAtMs", data.made_at_ms},
                  {"scene", json_of(data.scene)},
-                 {"power", {{"watts", power.watts}, {"lampsWithoutPower", power.unknown}}}};
-    if (area > 0.0) {
+                 {"power", {{"watts", nullptr}, {"lampsWithoutPower", power.unknown}}}};
+    if (power.stated) {
+        json["power"]["watts"] = power.watts;
+    }
+    if (area > 0.0 && power.stated) {
         json["power"]["area"] = area;
         json["power"]["wattsPerSquareMetre"] = power.watts / area;
         json["power"]["leni"] = power.watts * options.hours / 1000.0 / area;
@@ -98,7 +101,12 @@ std::string report_json(const ReportData& data, const ReportOptions& options) {
     json["changes"] = Json::array();
     for (const v1::SceneChanged& change : data.changes.changes()) {
         if (change.at_ms() >= options.since_ms) {
-            json["changes"].push_back(json_of(change));
+            Json one = json_of(change);
+            if (const auto object = data.objects.find(object_of(change));
+                object != data.objects.end()) {
+                one["objectName"] = object->second;
+            }
+            json["changes"].push_back(std::move(one));
         }
     }
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -9,12 +9,6 @@
 #include "report/html_text.h"
 
 namespace raybundle {
-namespace {
-
-constexpr double lux_per_foot_candle = 10.763910416709722;  // square feet in a square metre
-
-}  // namespace
-
 double area_of(const std::vector<glm::dvec3>& outline) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 2; i < outline.size(); ++i) {

@@ -7,6 +7,8 @@
 
 namespace raybundle {
 
+constexpr double lux_per_foot_candle = 10.763910416709722;  // square feet in a square metre
+
 /// Words of a report, in its language.
 class ReportWords {
   public:

@@ -149,7 +149,7 @@ std::string contour_lines(const ReportZone& zone, const Sheet& sheet, const Fiel
     const auto quantity = zone.found.quantity();
     // Levels are round in the unit that the report has.
     const bool feet = words.options().foot_candles && is_illuminance(quantity);
-    const double unit = feet ? 10.763910416709722 : 1.0;
+    const double unit = feet ? lux_per_foot_candle : 1.0;
     for (const double round : round_levels(field.least / unit, field.largest / unit)) {
         const auto pieces =
             contour(field.values, zone.lattice_size.columns, zone.lattice_size.rows, round * unit);

@@ -152,6 +152,45 @@ TEST(Report, AddsUpPower) {
     EXPECT_EQ(json["changes"].size(), 1U);
 }
 
+/// A file without a power: a dash and words, no 0; half of the lamps with one: its sum, and a note.
+TEST(Report, LeavesOutPowerThatNoFileStates) {
+    ReportData data = data_of();
+    data.scene.mutable_lights(0)->clear_watts();
+    const std::string html = report_html(data, {});
+    EXPECT_NE(html.find("– W, W/m² and LENI: no file states a power"), std::string::npos);
+    EXPECT_EQ(html.find(" 0 W"), std::string::npos);
+    const auto power = nlohmann::json::parse(report_json(data, {}))["power"];
+    EXPECT_TRUE(power["watts"].is_null()) << power;
+    EXPECT_FALSE(power.contains("wattsPerSquareMetre")) << power;
+    EXPECT_FALSE(power.contains("leni")) << power;
+    EXPECT_EQ(power["lampsWithoutPower"], 1);
+    *data.scene.add_lights() = data.scene.lights(0);
+    data.scene.mutable_lights(1)->set_watts(20.0F);
+    EXPECT_NE(report_html(data, {}).find("Lamps without a stated power"), std::string::npos);
+    EXPECT_NEAR(nlohmann::json::parse(report_json(data, {}))["power"]["watts"], 10.0, 1e-6);
+}
+
+TEST(Report, ChangesNameTheObject) {
+    ReportData data = data_of();
+    data.objects[7] = "desk <lamp>";
+    data.changes.add_changes()->mutable_move_object()->set_object(7);
+    data.changes.add_changes()->mutable_remove_object()->set_object(7);
+    const std::string html = report_html(data, {});
+    EXPECT_NE(html.find("object moved: desk &lt;lamp&gt;"), std::string::npos);
+    EXPECT_NE(html.find("object removed: desk &lt;lamp&gt;"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(report_json(data, {}))["changes"][1]["objectName"],
+              "desk <lamp>");
+}
+
+TEST(Report, SaysWhereARequirementAsksNothingOfAQuantity) {
+    ReportData data = data_of();
+    data.zones[0].found.clear_checks();
+    data.zones[0].found.clear_verdict();
+    const std::string html = report_html(data, {});
+    EXPECT_NE(html.find("Office: asks nothing of this quantity, not checked"), std::string::npos);
+    EXPECT_NE(html.find("<td>not checked</td>"), std::string::npos);
+}
+
 TEST(Report, TablesAreQuotedAndHoldNoFormulas) {
     const std::string csv = report_csv(data_of(), {});
     EXPECT_NE(csv.find("\"'=desk, \"\"A\"\"\",HORIZONTAL,0.5000,0.7500,0.5000,100,95,105,lx,"),

@@ -172,6 +172,9 @@ std::shared_ptr<const ReportData> ReportService::collect() const {
     data->server = "raybundle " RAYBUNDLE_VERSION;
     describe_scene(parts_.scene.scene(), &data->scene);
     data->scene.clear_objects();
+    for (const Object& object : parts_.scene.scene().objects) {
+        data->objects[object.id] = object.name;
+    }
     parts_.lighting.describe(&data->scene);
     data->epoch = parts_.scene.epoch();
     data->made_at_ms = unix_ms();
