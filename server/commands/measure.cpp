@@ -222,7 +222,8 @@ double gather(const Options& options, const MeasureTask& task, Measurement& poin
         }
         next += std::max<std::uint64_t>(points.rounds() / looks, 1);
         const double error = points.relative_error();
-        if (!timed && error <= wanted && decided(task, points)) {
+        // An error of 0 stays: more samples decide nothing, as of glare in air.
+        if (!timed && error <= wanted && (error == 0.0 || decided(task, points))) {
             break;
         }
         if (bar.due()) {

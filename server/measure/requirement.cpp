@@ -14,12 +14,13 @@ Verdict at_least(const Interval& found, double least) {
 }
 
 Verdict at_most(std::span<const GlareRating> ratings, double most) {
+    const std::optional<GlareRange> range = range_of(ratings);
+    if (range && range->maximum.low > most) {
+        return Verdict::missed;
+    }
     Verdict verdict = ratings.empty() ? Verdict::unknown : Verdict::met;
     for (const GlareRating& rating : ratings) {
         const bool rated = rating.state == GlareRating::State::rated;
-        if (rated && rating.value.low > most) {
-            return Verdict::missed;
-        }
         const bool holds =
             rated ? rating.value.high <= most : rating.state == GlareRating::State::no_source;
         verdict = holds ? verdict : Verdict::unknown;

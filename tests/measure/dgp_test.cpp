@@ -116,6 +116,54 @@ TEST(Dgp, PixelsOfBrightSurfacesGlare) {
     EXPECT_NEAR(rating.value.value, exact, 0.02);
 }
 
+/// Lights without size have an illuminance, and no luminance: I cos/d² and E cos in Ev alone.
+TEST(Dgp, LightsWithoutSizeAreInTheIlluminance) {
+    SceneBuilder builder = bright_space(500.0F);
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, {0, 1, -1}, {0, -1, 0},
+                       glm::vec3(3000.0F));
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::spot, {0, 0, -2}, {0, 0, 1},
+                       glm::vec3(2000.0F));
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, {0, 1, 1}, {0, -1, 0},
+                       glm::vec3(9000.0F));  // behind the eye
+    IesProfile::Data data;
+    data.vertical = {0.0, 180.0};
+    data.horizontal = {0.0};
+    data.candela = {400.0, 400.0};
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, {1, 0, -1}, {0, -1, 0},
+                       glm::vec3(1.0F));
+    builder.scene.punctual_lights.back().profile = std::make_shared<const IesProfile>(data);
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::directional, {},
+                       glm::normalize(glm::vec3(0, -1, 1)), glm::vec3(800.0F));
+    const double slant = std::sqrt(0.5);
+    const double ev =
+        pi * 500.0 + 3000.0 * slant / 2.0 + 2000.0 / 4.0 + 400.0 * slant / 2.0 + 800.0 * slant;
+    const GlareRating rating = probability(builder);
+    // Every path of the sphere is exact; the lights' intensities are single precision.
+    EXPECT_NEAR(rating.background, ev, 1e-5 * ev);
+    EXPECT_NEAR(rating.value.value, 5.87e-5 * ev + 0.16, 1e-5);
+    EXPECT_EQ(rating.small, 4U);
+    EXPECT_NE(rating.words.find("without size"), std::string::npos);
+    EXPECT_EQ(rating.sources, 0U);
+    EXPECT_NEAR(rating.ratios[0], 500.0, 1e-3);
+}
+
+TEST(Dgp, IsNotRatedInAir) {
+    SceneBuilder builder = enclosure(0.5F);
+    builder.scene.medium = Medium{0.1, glm::vec3(1.0F), 0.0};
+    const auto scene = std::make_shared<const MeasuredScene>(builder.scene, builder.mesh);
+    DgpSettings settings;
+    settings.views = {{0, 0, -1}, {1, 0, 0}};
+    const glm::dvec3 eye = odd_rotation() * glm::vec4(0.6F, 1.2F, 1.0F, 1.0F);
+    DgpMeasurement points(scene, {{eye, line_of_sight}}, settings);
+    for (std::size_t i = 0; i < DgpMeasurement::pass; ++i) {
+        points.add_round();
+    }
+    EXPECT_EQ(points.glare()[0].state, GlareRating::State::outside);
+    EXPECT_NE(points.glare()[0].words.find("DGP is not defined"), std::string::npos);
+    EXPECT_FALSE(points.all());
+    EXPECT_EQ(points.relative_error(), 0.0);  // nobody waits for a number
+}
+
 /// The sun's disc in sight: L = E/(pi sin² r).
 TEST(Dgp, TheSunIsASourceOfItsOwn) {
     SceneBuilder builder = bright_space(2000.0F);

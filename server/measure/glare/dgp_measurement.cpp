@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/glare/dgp_measurement.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,7 +20,6 @@ namespace raybundle {
 namespace {
 
 constexpr double glaring_from = 5.0;  // times the mean luminance
-constexpr double dgp_outside = 0.025;
 
 double dgp_of(double illuminance, double glaring) {
     return 5.87e-5 * illuminance +
@@ -37,11 +37,19 @@ glm::dvec3 direction_of(const SeenSource& seen, std::size_t without) {
     return without < SeenSource::batches ? seen.direction_without(without) : seen.direction;
 }
 
-std::string words_for(const Interval& value) {
-    if (value.value < 0.2) {
-        return "below 0.2, where DGP has not been tested";
+std::string words_for(const GlareRating& rating) {
+    std::string words;
+    if (rating.small > 0) {
+        words = fmt::format(
+            "{} in the illuminance at the eye alone",
+            rating.small == 1 ? "a source without size counts" : "sources without size count");
     }
-    return value.value > 0.8 ? "above 0.8, where DGP has not been tested" : "";
+    const double value = rating.value.value;
+    if (value < 0.2 || value > 0.8) {
+        words += fmt::format("{}{}, where DGP has not been tested", words.empty() ? "" : "; ",
+                             value < 0.2 ? "below 0.2" : "above 0.8");
+    }
+    return words;
 }
 
 }  // namespace
@@ -88,7 +96,7 @@ void DgpMeasurement::add_samples(std::size_t count) {
     for (; steps_ < first + count; ++steps_) {
         const std::size_t point = steps_ % points_.size();
         const std::uint64_t round = steps_ / points_.size();
-        if (inside(point)) {
+        if (inside(point) || scene_->paths.air()) {
             continue;
         }
         if (round == 0) {
@@ -103,9 +111,7 @@ void DgpMeasurement::look_around(std::size_t point) {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const std::uint64_t seed = mixed_bits(mixed_bits(settings_.seed + point) + i);
         if (const auto seen = look_at(*scene_, sources_[i], places_[point], seed)) {
-            if (seen->mean_solid_angle() > 0.0) {  // what has no size has no luminance
-                seen_[point].push_back({*seen, sources_[i].name, sources_[i].light});
-            }
+            seen_[point].push_back({*seen, sources_[i].name, sources_[i].light});
         }
     }
     see_suns(point);
@@ -135,7 +141,7 @@ void DgpMeasurement::see_suns(std::size_t point) {
         }
     }
     for (Source& sun : suns) {
-        if (sun.seen.mean_illuminance() > 0.0 && sun.seen.mean_solid_angle() > 0.0) {
+        if (sun.seen.mean_illuminance() > 0.0) {
             seen_[point].push_back(std::move(sun));
         }
     }
@@ -220,7 +226,7 @@ double DgpMeasurement::threshold(const Gaze& eye, const Picture& picture, std::s
     double sum = std::accumulate(picture.luminance.begin(), picture.luminance.end(), 0.0) *
                  Fisheye::solid_angle;
     for (const Source& source : seen_[point]) {
-        if (cosine_ahead(eye, source.seen.direction) > 0.0) {
+        if (cosine_ahead(eye, source.seen.direction) > 0.0 && source.seen.has_size()) {
             sum += source.seen.mean_illuminance();
         }
     }
@@ -254,6 +260,9 @@ double DgpMeasurement::dgp(const Gaze& eye, const Picture& picture, std::size_t 
 GlareRating DgpMeasurement::rate(std::size_t point, std::size_t view) const {
     const Gaze& eye = gaze(point, view);
     const View& own = views_[point * views() + view];
+    if (scene_->paths.air()) {
+        return rating_in_air(eye.forward, "DGP");
+    }
     GlareRating rating;
     rating.view = eye.forward;
     if (own.rounds == 0) {
@@ -267,12 +276,15 @@ GlareRating DgpMeasurement::rate(std::size_t point, std::size_t view) const {
         const double part = dgp(eye, picture(own, b), point, least, b);
         sum += (part - value) * (part - value);
     }
-    const double half =
-        student_quantile(1.0 - dgp_outside, batches - 1) * std::sqrt(sum * (batches - 1) / batches);
-    rating.value = {value, value - half, value + half};
+    rating.value.value = value;
+    rating.error = std::sqrt(sum * (batches - 1) / batches);
     rating.state = GlareRating::State::rated;
     rating.background = illuminance(eye, whole, point, all_batches);
-    rating.words = words_for(rating.value);
+    for (const Source& source : seen_[point]) {
+        const bool ahead = cosine_ahead(eye, source.seen.direction) > 0.0;
+        rating.small += ahead && !source.seen.has_size() ? 1 : 0;
+    }
+    rating.words = words_for(rating);
     rating.ratios = ring_luminances(eye, whole, point);
     name_sources(eye, whole, point, least, rating);
     return rating;
@@ -285,7 +297,8 @@ void DgpMeasurement::name_sources(const Gaze& eye, const Picture& picture, std::
     for (const Source& source : seen_[point]) {
         const double angle = source.seen.mean_solid_angle();
         const double e = source.seen.mean_illuminance();
-        if (!(cosine_ahead(eye, source.seen.direction) > 0.0) || e <= least * angle) {
+        if (!(cosine_ahead(eye, source.seen.direction) > 0.0) || !source.seen.has_size() ||
+            e <= least * angle) {
             continue;
         }
         const double p = position_index(eye, source.seen.direction);
@@ -341,11 +354,12 @@ void DgpMeasurement::name_sources(const Gaze& eye, const Picture& picture, std::
 std::vector<GlareRating> DgpMeasurement::glare() const {
     std::vector<GlareRating> result(points_.size());
     for (std::size_t point = 0; point < points_.size(); ++point) {
+        std::vector<GlareRating> ratings;
         for (std::size_t view = 0; view < views() && !inside(point); ++view) {
-            GlareRating one = rate(point, view);
-            if (view == 0 || one.value.value > result[point].value.value) {
-                result[point] = std::move(one);
-            }
+            ratings.push_back(rate(point, view));
+        }
+        if (!ratings.empty()) {
+            result[point] = worst_of(std::move(ratings));
         }
     }
     return result;
@@ -374,7 +388,8 @@ double DgpMeasurement::relative_error() const {
     double widest = 0.0;
     for (const GlareRating& rating : glare()) {
         const double value = rating.value.value;
-        widest = std::max(widest, value > 0.0 ? (rating.value.high - value) / value : 0.0);
+        widest = std::max(widest,
+                          value > 0.0 ? 0.5 * (rating.value.high - rating.value.low) / value : 0.0);
     }
     return widest;
 }

@@ -39,6 +39,8 @@ struct DgpSettings {
 /// seen for themselves; of the rest each pixel is a source of its own. What is brighter than five
 /// times the picture's mean glares. The square of a pixel's luminance is that of independent
 /// batches, times each other, so that noise does not add to it. Intervals by the jackknife.
+///
+/// Lights without size are in Ev alone: no picture shows them, and they have no luminance.
 class DgpMeasurement : public Measurement {
   public:
     static constexpr std::size_t most_points = 16;

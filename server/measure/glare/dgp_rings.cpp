@@ -44,7 +44,7 @@ std::vector<double> DgpMeasurement::ring_luminances(const Gaze& eye, const Pictu
     }
     for (const Source& source : seen_[point]) {
         const std::size_t ring = ring_of(eye, source.seen.direction);
-        if (ring < rings) {
+        if (ring < rings && source.seen.has_size()) {
             light[ring] += source.seen.mean_illuminance();
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -34,6 +35,8 @@ struct GlareRating {
 
     State state = State::outside;
     Interval value;                  ///< 95 %, where it is rated
+    double error = 0.0;              ///< standard error of the worst view's value
+    std::size_t views = 1;           ///< of which it is the worst, rated ones
     glm::dvec3 view{0.0};            ///< worst of the directions, unit
     double background = 0.0;         ///< luminance, cd/m²; of DGP the vertical illuminance, lx
     std::uint32_t sources = 0;       ///< that are counted
@@ -46,8 +49,20 @@ struct GlareRating {
     std::string words;           ///< what is left out or outside of the range; may be empty
 };
 
-/// Mean, least and worst of what is rated, each interval with the ends of theirs: they share their
-/// luminaires, so that errors may add up. Nothing where nothing is rated.
+/// Degrees of freedom of standard errors: those of 16 batches.
+constexpr std::size_t glare_degrees = 15;
+
+/// The worst of a place's views: what has no number is worse than what has one. Its interval is
+/// that of the largest of all, see interval_of_largest(). There is one view at least.
+GlareRating worst_of(std::vector<GlareRating> views);
+
+/// Of a view in air that absorbs or scatters: `method` is not defined there, and gives no number.
+GlareRating rating_in_air(const glm::dvec3& view, const std::string& method);
+
+/// Mean, least and worst of what is rated. The mean has the mean ends: places share their
+/// luminaires, so that errors may add up. The worst of all views of all places lies below the
+/// largest lower bound where any of them fails, so each has 1 - 2.5 %/n, n views in all; the least
+/// of p places above the smallest upper bound likewise, with p. Nothing where nothing is rated.
 struct GlareRange {
     Interval mean, minimum, maximum;
 };

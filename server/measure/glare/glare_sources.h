@@ -41,6 +41,7 @@ struct SeenSource {
 
     [[nodiscard]] double mean_solid_angle() const;
     [[nodiscard]] double mean_illuminance() const;
+    [[nodiscard]] bool has_size() const { return mean_solid_angle() > 0.0; }
     /// Without one of the batches.
     [[nodiscard]] double solid_angle_without(std::size_t batch) const;
     [[nodiscard]] double illuminance_without(std::size_t batch) const;

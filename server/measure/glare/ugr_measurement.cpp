@@ -27,7 +27,6 @@ constexpr double highest = 2.0;          // H/R: where the table of CIE 117 ends
 constexpr double told = 0.05;            // of UGR: half of the last digit that is stated
 constexpr double scale = 8.0;            // UGR = 8 log10(...)
 constexpr std::size_t nothing = SeenSource::batches;
-constexpr double outside = 0.025;  // beyond each end of an interval
 
 enum class Place { counted, below, beyond, behind };
 
@@ -121,7 +120,7 @@ void UgrMeasurement::add_samples(std::size_t count) {
 
 /// Directions over the whole sphere by their sine from the vertical serve all horizontal views.
 void UgrMeasurement::add_sample(std::size_t point, std::uint64_t round) {
-    if (inside(point)) {
+    if (inside(point) || scene_->paths.air()) {
         return;
     }
     if (round == 0) {
@@ -234,12 +233,13 @@ double UgrMeasurement::common_variance() const {
     return sum / static_cast<double>(std::max<std::size_t>(measured_ * views(), 1));
 }
 
-UgrMeasurement::Rated UgrMeasurement::rate(std::size_t point, std::size_t view,
-                                           double least_variance) const {
+GlareRating UgrMeasurement::rate(std::size_t point, std::size_t view, double least_variance) const {
+    if (scene_->paths.air()) {
+        return rating_in_air(gaze(point, view).forward, "UGR");
+    }
     const Glaring found = glaring(point, view);
     const Background behind = background(point, view);
-    Rated result{found.counts, 0.0};
-    GlareRating& rating = result.rating;
+    GlareRating rating = found.counts;
     rating.view = gaze(point, view).forward;
     rating.background = behind.mean / pi;
     const bool dark = found.sum + found.small > 0.0 && !(behind.mean > 0.0);
@@ -253,37 +253,24 @@ UgrMeasurement::Rated UgrMeasurement::rate(std::size_t point, std::size_t view,
         rating.state = found.sum > 0.0 ? GlareRating::State::rated : GlareRating::State::no_source;
     }
     if (found.sum > 0.0 && behind.mean > 0.0) {
-        result.error = std::sqrt(std::max(behind.variance, least_variance) + found.variance);
-        const double value = scale * std::log10(0.25 / rating.background * found.sum);
-        const double half = student_quantile(1.0 - outside, batches - 1) * scale /
-                            std::numbers::ln10 * result.error;
-        rating.value = {value, value - half, value + half};
+        rating.error = scale / std::numbers::ln10 *
+                       std::sqrt(std::max(behind.variance, least_variance) + found.variance);
+        rating.value.value = scale * std::log10(0.25 / rating.background * found.sum);
     }
-    return result;
+    return rating;
 }
 
-/// The worst view of each point: what has no number is worse than what has one.
-std::vector<UgrMeasurement::Rated> UgrMeasurement::rate_all() const {
-    std::vector<Rated> result(points_.size());
-    if (rounds() == 0) {
-        return result;
-    }
-    const double least = common_variance();
-    for (std::size_t point = 0; point < points_.size(); ++point) {
+/// The worst view of each point.
+std::vector<GlareRating> UgrMeasurement::rate_all() const {
+    std::vector<GlareRating> result(points_.size());
+    const double least = rounds() > 0 ? common_variance() : 0.0;
+    for (std::size_t point = 0; point < points_.size() && rounds() > 0; ++point) {
+        std::vector<GlareRating> ratings;
         for (std::size_t view = 0; view < views() && !inside(point); ++view) {
-            Rated one = rate(point, view, least);
-            const auto order = [](const GlareRating& r) {
-                return r.state == GlareRating::State::outside ? 2
-                       : r.state == GlareRating::State::rated ? 1
-                                                              : 0;
-            };
-            const GlareRating& worst = result[point].rating;
-            const bool worse =
-                order(one.rating) > order(worst) ||
-                (order(one.rating) == order(worst) && one.rating.value.value > worst.value.value);
-            if (view == 0 || worse) {
-                result[point] = std::move(one);
-            }
+            ratings.push_back(rate(point, view, least));
+        }
+        if (!ratings.empty()) {
+            result[point] = worst_of(std::move(ratings));
         }
     }
     return result;
@@ -318,21 +305,19 @@ void UgrMeasurement::name_sources(std::size_t point, const Gaze& eye, GlareRatin
 }
 
 std::vector<GlareRating> UgrMeasurement::glare() const {
-    std::vector<GlareRating> result;
-    std::vector<Rated> rated = rate_all();
+    std::vector<GlareRating> result = rate_all();
     for (std::size_t point = 0; point < points_.size(); ++point) {
         if (rounds() > 0 && !inside(point)) {
-            name_sources(point, Gaze(rated[point].rating.view), rated[point].rating);
+            name_sources(point, Gaze(result[point].view), result[point]);
         }
-        result.push_back(std::move(rated[point].rating));
     }
     return result;
 }
 
 std::vector<Interval> UgrMeasurement::values() const {
     std::vector<Interval> result;
-    for (const Rated& rated : rate_all()) {
-        result.push_back(rated.rating.value);
+    for (const GlareRating& rating : rate_all()) {
+        result.push_back(rating.value);
     }
     return result;
 }
@@ -350,10 +335,10 @@ double UgrMeasurement::relative_error() const {
         return std::numeric_limits<double>::infinity();
     }
     double widest = 0.0;
-    for (const Rated& rated : rate_all()) {
-        widest = std::max(widest, rated.error);
+    for (const GlareRating& rating : rate_all()) {
+        widest = std::max(widest, 0.5 * (rating.value.high - rating.value.low));
     }
-    return student_quantile(1.0 - outside, batches - 1) * widest;
+    return std::numbers::ln10 / scale * widest;
 }
 
 }  // namespace raybundle

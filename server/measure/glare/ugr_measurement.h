@@ -50,7 +50,7 @@ class UgrMeasurement : public Measurement {
     [[nodiscard]] std::vector<Interval> values() const override;
     /// Of the points that are rated.
     [[nodiscard]] std::optional<MeasurementSummary> all() const override;
-    /// Of the sum in the logarithm, the widest.
+    /// Half of the widest interval, of the sum in the logarithm.
     [[nodiscard]] double relative_error() const override;
     [[nodiscard]] std::vector<GlareRating> glare() const override;
 
@@ -68,10 +68,6 @@ class UgrMeasurement : public Measurement {
         double small = 0.0;     ///< of it, by sources that are too small
         GlareRating counts;
     };
-    struct Rated {
-        GlareRating rating;
-        double error = 0.0;  ///< relative, of the sum in the logarithm
-    };
 
     [[nodiscard]] std::size_t views() const {
         return settings_.views.empty() ? 1 : settings_.views.size();
@@ -85,8 +81,9 @@ class UgrMeasurement : public Measurement {
     [[nodiscard]] Glaring glaring(std::size_t point, std::size_t view) const;
     [[nodiscard]] Background background(std::size_t point, std::size_t view) const;
     [[nodiscard]] double common_variance() const;
-    [[nodiscard]] Rated rate(std::size_t point, std::size_t view, double least_variance) const;
-    [[nodiscard]] std::vector<Rated> rate_all() const;
+    [[nodiscard]] GlareRating rate(std::size_t point, std::size_t view,
+                                   double least_variance) const;
+    [[nodiscard]] std::vector<GlareRating> rate_all() const;
     void name_sources(std::size_t point, const Gaze& gaze, GlareRating& rating) const;
 
     std::shared_ptr<const MeasuredScene> scene_;
