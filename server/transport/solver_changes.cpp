@@ -243,6 +243,11 @@ void Solver::continue_from(const Solver& other, const Scene& scene, const PatchM
     }
     store_.bind();
     store_.adopt(other.store_);
+    if (caustics_) {
+        caustics_->adopt(other.caustics_.get());
+        caustics_->refresh();
+        store_.bind();
+    }
     zones_.set_iterate_age(iterate_age());
     store_.refresh_power();
     group_.clear();
@@ -267,6 +272,10 @@ void Solver::take_over(const Solver& other, std::span<const std::uint32_t> refle
     scene_.set_sky_before(other.scene_.sky(), glm::vec3(1.0F));
     change.reflecting = reflecting;
     change.glossy = any_glossy(reflecting);
+    if (caustics_) {
+        caustics_->adopt(other.caustics_.get());
+        caustics_->scale(change.scale);
+    }
     work_in(change, receivers);
 }
 

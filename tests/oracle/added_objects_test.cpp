@@ -7,6 +7,7 @@
 #include "../reference/lit_room.h"
 #include "changed_room.h"
 #include "growing_room.h"
+#include "scene/edit/light_edit.h"
 
 namespace raybundle {
 namespace {
@@ -54,6 +55,75 @@ TEST_P(AddedObjects, ACopyEndsWhereAFreshSolveOfTheSceneWithItDoes) {
 
 INSTANTIATE_TEST_SUITE_P(Rooms, AddedObjects, testing::Bool(),
                          [](const auto& room) { return room.param ? "Open" : "Closed"; });
+
+enum class SingleRays { mirror, air };
+
+/// A room some of whose light comes by single rays: from a mirror that hangs before a wall, or out
+/// of the air.
+SceneBuilder room_of(SingleRays kind) {
+    SceneBuilder b = room_to_furnish(false);
+    if (kind == SingleRays::air) {
+        b.scene.medium = Medium{.extinction = Medium::extinction_of(6.0)};
+        return b;
+    }
+    Material mirror;
+    mirror.base_colour = glm::vec3(0.95F);
+    mirror.metallic = 1.0F;
+    mirror.roughness = 0.0F;
+    const auto material = b.add_material(mirror);
+    b.add_object("mirror");
+    b.add_quad({5.98F, 0.2F, 0.3F}, {0, 0, 3.4F}, {0, 2.6F, 0}, 4, 4, material);
+    return b;
+}
+
+class LightOfSingleRays : public testing::TestWithParam<SingleRays> {
+  protected:
+    LightOfSingleRays() : room(room_of(GetParam())) { room.iterate(iterations); }
+
+    GrowingRoom room;
+};
+
+TEST_P(LightOfSingleRays, StaysWhileTheSceneGrows) {
+    const auto before = room.light();
+    const std::size_t fronts = room.b.mesh.front_patch_count();
+    const std::uint32_t copy = room.grow(box, {2.5F, 0.0F, 0.5F});
+    const auto grown = room.light();
+    for (std::size_t i = 0; i < fronts; ++i) {
+        ASSERT_NEAR(grown[i].g, before[i].g, 1e-3F * before[i].g + 1e-6F) << i;
+    }
+    room.remove_object(copy, false);
+    GrowingRoom fresh(room.b, 77);
+    fresh.iterate(iterations);
+    EXPECT_NEAR(compared(room.light(), fresh.light()).first, 1.0, 0.04);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, LightOfSingleRays,
+                         testing::Values(SingleRays::mirror, SingleRays::air),
+                         [](const auto& room) {
+                             return room.param == SingleRays::air ? "Air" : "Mirror";
+                         });
+
+/// A luminaire that is dimmed to nothing changes no light, whatever shaders its slot calls for.
+TEST(LightOfTheAir, StaysWhileShadersArePlannedAnew) {
+    GrowingRoom room(room_of(SingleRays::air));
+    room.iterate(iterations);
+    const PhotometryFolder files;
+    room.b.scene.folder = files.open();
+    const auto before = room.light();
+    AddedLuminaire luminaire;
+    luminaire.number = next_luminaire(room.b.scene);
+    luminaire.photometry = "wide.ies";
+    luminaire.position = {2.0F, 2.0F, 1.0F};
+    luminaire.aim = {0.0F, -1.0F, 0.0F};
+    add_luminaire(room.b.scene, luminaire);
+    LightEdit dark;
+    dark.light = luminaire.number;
+    dark.dim = 0.0F;
+    apply(room.b.scene, dark);
+    room.change_lights();
+    ASSERT_EQ(room.planned_anew, 1U);
+    EXPECT_NEAR(compared(room.light(), before).first, 1.0, 0.04);
+}
 
 /// Of the only lamp of a closed room nothing is left, and it comes back as bright as it was.
 TEST(RemovedObjects, TakeTheirLightAlong) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 
+#include "solution/geometry/patch_growth.h"
+
 namespace raybundle {
 namespace {
 
@@ -80,6 +82,18 @@ void ScatteredLight::restart(std::span<const glm::vec3> emission) {
     ++changes_;
     scale(glm::vec3(1.0F));
     trace(first_paths);
+}
+
+void ScatteredLight::adopt(const ScatteredLight& other, const PatchGrowth& growth) {
+    reflected_ = growth.grown(other.reflected_, glm::vec3(0.0F));
+    reflected_flux_ = other.reflected_flux_;
+    lamp_sums_ = growth.grown(other.lamp_sums_, glm::dvec3(0.0));
+    surface_sums_ = growth.grown(other.surface_sums_, glm::dvec3(0.0));
+    counts_ = growth.grown(other.counts_, 0U);
+    flux_ = growth.grown(other.flux_, glm::vec3(0.0F));
+    surface_weights_ = other.surface_weights_;
+    paths_ = other.paths_;
+    batches_ = other.batches_;
 }
 
 void ScatteredLight::set_radiance(std::span<const glm::vec3> sent,

@@ -14,6 +14,8 @@
 
 namespace raybundle {
 
+class PatchGrowth;
+
 /// Light that the air scatters on patches, by single paths that start there. Bundles, the first
 /// shot and view rays dim what they carry by the air; this is where what has been taken out of them
 /// goes. A progressive mean: what comes from lamps and sky counts alike until something changes;
@@ -31,6 +33,9 @@ class ScatteredLight {
 
     /// Objects, lamps or materials are others: begins anew. emission: of sides, cd/m².
     void restart(std::span<const glm::vec3> emission);
+    /// Takes over the estimates of another scene of the same lamps, which lacks objects that have
+    /// no size yet.
+    void adopt(const ScatteredLight& other, const PatchGrowth& growth);
     void update(const Scene& scene, std::size_t material) { surfaces_.update(scene, material); }
     /// What patches send is known anew; sent: radiance, cd/m², of all patches, emission: of them,
     /// cd/m².

@@ -8,6 +8,7 @@
 
 #include "gpu/gl_scope.h"
 #include "scene/mesh/patch_means.h"
+#include "solution/geometry/patch_growth.h"
 
 namespace raybundle {
 namespace {
@@ -39,6 +40,7 @@ Caustics::Caustics(const Scene& scene, const PatchMesh& mesh, const GpuScene& gp
       surface_sums_(sums_),
       surface_counts_(sums_.size(), 0),
       seed_(seed),
+      unit_(gpu_scene.radiance_unit()),
       readback_("caustic sources", mesh.patch_count() * sizeof(glm::vec4)),
       flux_("caustic flux", 2 * mesh.patch_count() * sizeof(glm::vec4)),
       deposit_buffer_("caustic deposits", mesh.patch_count() * sizeof(glm::vec4)),
@@ -106,7 +108,7 @@ void Caustics::restart() {
                         scene_.specular_rays()->boxes(SpecularRays::Coats::passed));
     }
     if (air_) {
-        air_->scale(scale_);
+        air_->scale(scale_ * (scene_.radiance_unit() / unit_));  // which is in cd/m²
         air_->restart(mesh_.emission);
     }
     sums_.assign(sums_.size(), glm::dvec3(0.0));
@@ -125,6 +127,38 @@ void Caustics::restart() {
     if (lights_ && !lights_->empty()) {
         trace(first_rays);
     }
+    reflect();
+}
+
+void Caustics::adopt(const Caustics* other) {
+    if (other == nullptr) {
+        radiance_.clear();
+        return;
+    }
+    const PatchGrowth growth(other->scene_, scene_);
+    growth.copy(other->radiance_, radiance_);
+    scale_ = other->scale_;
+    unit_ = other->unit_;
+    if (air_ && other->air_) {
+        air_->adopt(*other->air_, growth);
+    }
+    if (!caustic_rays_ || !other->caustic_rays_) {
+        return;
+    }
+    growth.copy(other->flux_, flux_, 2);
+    sums_ = growth.grown(other->sums_, glm::dvec3(0.0));
+    surface_sums_ = growth.grown(other->surface_sums_, glm::dvec3(0.0));
+    surface_counts_ = growth.grown(other->surface_counts_, 0U);
+    if (!other->surface_flux_.empty()) {
+        surface_flux_ = growth.grown(other->surface_flux_, glm::vec4(0.0F));
+    }
+    surface_batches_ = other->surface_batches_;
+    batches_ = other->batches_;
+    rays_ = other->rays_;
+}
+
+void Caustics::refresh() {
+    upload_surfaces();
     reflect();
 }
 
@@ -240,6 +274,7 @@ void Caustics::reflect() {
     reflect_.set("scale", scale_);
     reflect_.dispatch(scene_.patch_count());
     scale_ = glm::vec3(1.0F);
+    unit_ = scene_.radiance_unit();
     irradiance_.bind_storage(BINDING_IRRADIANCE);
     vertices_.bind_storage(BINDING_VERTEX_IRRADIANCE);
     interpolate_.set("vertex_count", scene_.vertex_count());

@@ -49,6 +49,13 @@ class Caustics {
     void update(const Scene& scene, std::span<const std::uint32_t> materials,
                 std::span<const glm::vec3> emission);
 
+    /// Takes over the estimates of another scene's caustics, from which this one differs by objects
+    /// that have no size yet, or by materials and lamps; null: it had none. The patches' radiance
+    /// is the other one's, too. refresh() or, after a change, scale() and restart() have to follow.
+    void adopt(const Caustics* other);
+    /// The estimates are others, and no light is. As refine().
+    void refresh();
+
     void bind() const;
     /// Irradiance of patches, for one pass that takes it from there: the binding is shared.
     void bind_irradiance() const { irradiance_.bind_storage(BINDING_CAUSTIC_IRRADIANCE); }
@@ -87,6 +94,7 @@ class Caustics {
     std::uint64_t batches_ = 0;
     std::uint64_t changes_ = 0;
     glm::vec3 scale_{1.0F};  // of the radiance since the last estimate
+    float unit_ = 1.0F;      // of radiance, cd/m², at that time
     Readback readback_;
     Buffer flux_, deposit_buffer_, irradiance_, radiance_, vertices_;
     Texture2D vertex_texture_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solution/direct/many_lamps.h"
+#include "solution/geometry/patch_growth.h"
 
 namespace raybundle {
 
@@ -198,27 +199,14 @@ void RadianceStore::refresh_power(Levels levels) const {
 }
 
 void RadianceStore::adopt(const RadianceStore& other) const {
-    const auto copy = [](const Buffer& from, const Buffer& to, std::size_t first, std::size_t at,
-                         std::size_t bytes) {
-        glCopyNamedBufferSubData(from.get(), to.get(), static_cast<GLintptr>(first),
-                                 static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes));
-    };
-    // Fronts of objects that have been added stand before the backs.
-    const std::size_t fronts = other.scene_.front_patch_count();
-    const std::size_t backs = other.patch_count_ - fronts;
-    const std::size_t first_back = scene_.front_patch_count();
-    const auto copy_patches = [&](const Buffer& from, const Buffer& to) {
-        const std::size_t patch = from.bytes() / other.patch_count_;
-        copy(from, to, 0, 0, fronts * patch);
-        if (backs > 0) {
-            copy(from, to, fronts * patch, first_back * patch, backs * patch);
-        }
-    };
-    copy_patches(other.light_.radiance, light_.radiance);
-    copy_patches(other.light_.irradiance, light_.irradiance);
-    copy_patches(other.light_.iterate, light_.iterate);
-    copy_patches(other.measures_.checkpoint_buffer(), measures_.checkpoint_buffer());
-    copy(other.selection_.balance(), selection_.balance(), 0, 0, selection_.balance().bytes());
+    const PatchGrowth growth(other.scene_, scene_);
+    growth.copy(other.light_.radiance, light_.radiance);
+    growth.copy(other.light_.irradiance, light_.irradiance);
+    growth.copy(other.light_.iterate, light_.iterate);
+    growth.copy(other.measures_.checkpoint_buffer(), measures_.checkpoint_buffer());
+    const Buffer& balance = selection_.balance();
+    glCopyNamedBufferSubData(other.selection_.balance().get(), balance.get(), 0, 0,
+                             static_cast<GLsizeiptr>(balance.bytes()));
 }
 
 std::vector<glm::vec4> RadianceStore::read_irradiance() const {
