@@ -61,7 +61,10 @@ void set_air(Scene& scene, const AirOptions& air) {
     }
     if (!scene.medium && !air.fog) {
         if (air.fog_albedo || air.fog_anisotropy) {
-            throw UsageError("--fog-albedo, --fog-anisotropy: need --fog, or a scene with air");
+            scene.notices.emplace_back(
+                "fogAlbedo and fogAnisotropy change nothing: the scene's air is clear, and there "
+                "is "
+                "no fog");
         }
         return;
     }

@@ -111,4 +111,17 @@ TEST_P(RenderFailure, IsToldBeforeWorkBegins) {
 
 INSTANTIATE_TEST_SUITE_P(Gpu, RenderFailure, testing::Values("combined"));
 
+/// A folder of scenes is served with one configuration, and not every scene has air.
+TEST(Inspect, TakesOptionsOfTheAirWhereThereIsNone) {
+    const std::string output = (fs::path(testing::TempDir()) / "raybundle_inspect.txt").string();
+    const std::string command = RAYBUNDLE_EXECUTABLE
+                                " inspect --fog-albedo 0.5 --fog-anisotropy 0.3 " RAYBUNDLE_SCENES
+                                "/cornell_box.gltf > " +
+                                output + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    const std::string text = text_of(output);
+    EXPECT_NE(text.find("fogAlbedo and fogAnisotropy change nothing"), std::string::npos) << text;
+    fs::remove(output);
+}
+
 }  // namespace
