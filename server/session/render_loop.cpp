@@ -87,8 +87,15 @@ void RenderLoop::process_inbox(bool idle) {
 }
 
 void RenderLoop::handle(const ClientEvent& event) {
+    if (event.kind == ClientEvent::Kind::joined && !event.caller) {
+        services_.arrivals.join(event);
+        return;
+    }
+    const Clock& clock = state_.policy.clock();
+    const TimePoint begun = clock.now();
     if (event.kind == ClientEvent::Kind::joined) {
         services_.arrivals.join(event);
+        state_.policy.note_request(event.payer(), clock.ms_since(begun), state_.viewers.size());
         return;
     }
     ViewerSession* const session = state_.viewers.find(event.viewer);
@@ -99,10 +106,8 @@ void RenderLoop::handle(const ClientEvent& event) {
         services_.forget(state_, event.viewer);
         return;
     }
-    const Clock& clock = state_.policy.clock();
-    const TimePoint begun = clock.now();
     handle_message(*session, event);
-    state_.policy.note_request(event.viewer, clock.ms_since(begun), state_.viewers.size());
+    state_.policy.note_request(event.payer(), clock.ms_since(begun), state_.viewers.size());
 }
 
 void RenderLoop::handle_message(ViewerSession& session, const ClientEvent& event) {

@@ -47,10 +47,13 @@ void SessionServices::forget(SessionState& state, ViewerId viewer) {
     state.policy.forget(viewer);
     snapshots.forget(viewer);
     measurements.forget(viewer);
-    state.pictures.forget(state.viewers.at(viewer));
+    ViewerSession& session = state.viewers.at(viewer);
+    state.pictures.forget(session);
+    if (!session.is_caller()) {
+        presence.forget(viewer);
+        light.forget(viewer);
+    }
     state.viewers.erase(viewer);
-    presence.forget(viewer);
-    light.forget(viewer);
 }
 
 }  // namespace raybundle

@@ -21,6 +21,12 @@ struct ClientEvent {
     /// answer.
     std::vector<std::uint32_t> superseded;
     v1::Role role = v1::EDITOR;  ///< what the viewer's token allows
+    /// It is no viewer but asks over HTTP: it sees no pictures, is told nothing unasked, not even
+    /// `welcome` unless its Hello has an id, and nobody hears of it. Not said of `left`.
+    bool caller = false;
+
+    /// Whose share of the time for requests it takes: all callers have one share together.
+    [[nodiscard]] ViewerId payer() const { return caller ? 0 : viewer; }
 };
 
 }  // namespace raybundle

@@ -30,10 +30,10 @@ bool same_subject(const v1::ClientMessage& a, const v1::ClientMessage& b) {
 
 }  // namespace
 
-void Inbox::joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role) {
+void Inbox::joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role, bool caller) {
     {
         const std::lock_guard lock(mutex_);
-        events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}, role});
+        events_.push_back({viewer, ClientEvent::Kind::joined, std::move(hello), {}, role, caller});
     }
     changed_.notify_one();
     if (on_joined_) {
@@ -62,11 +62,11 @@ Inbox::Events::iterator Inbox::find_mergeable(ViewerId viewer, const v1::ClientM
     return events_.end();
 }
 
-Inbox::Pushed Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role) {
+Inbox::Pushed Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role role, bool caller) {
     Pushed pushed{true, std::nullopt};
     {
         const std::lock_guard lock(mutex_);
-        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role};
+        ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role, caller};
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {
@@ -122,7 +122,8 @@ std::optional<ClientEvent> Inbox::take(const std::set<ViewerId>& to_wait) {
     const std::lock_guard lock(mutex_);
     const auto found =
         std::find_if(events_.begin(), events_.end(), [&to_wait](const ClientEvent& event) {
-            return event.kind != ClientEvent::Kind::message || !to_wait.contains(event.viewer);
+            const bool may_wait = event.kind == ClientEvent::Kind::message || event.caller;
+            return !may_wait || !to_wait.contains(event.payer());
         });
     if (found == events_.end()) {
         return std::nullopt;

@@ -38,7 +38,8 @@ class Inbox {
     explicit Inbox(std::size_t max_waiting_per_viewer = 64)
         : max_waiting_(max_waiting_per_viewer) {}
 
-    void joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role = v1::EDITOR);
+    void joined(ViewerId viewer, v1::ClientMessage hello, v1::Role role = v1::EDITOR,
+                bool caller = false);
 
     /// `call` hears of each viewer that joins, on the thread that reports it, right after its event
     /// has been queued. Set it before the network starts.
@@ -46,7 +47,7 @@ class Inbox {
 
     /// Not taken where the viewer has too many requests waiting that cannot be merged.
     [[nodiscard]] Pushed push(ViewerId viewer, v1::ClientMessage message,
-                              v1::Role role = v1::EDITOR);
+                              v1::Role role = v1::EDITOR, bool caller = false);
 
     /// Forgets what waits of this viewer; if the render thread has not heard of it yet, it never
     /// will.
@@ -55,7 +56,8 @@ class Inbox {
     /// Takes everything that waits, in order of arrival.
     std::vector<ClientEvent> drain();
 
-    /// Takes what has waited longest, but no message of those who are to wait.
+    /// Takes what has waited longest, but no message of those who are to wait: payers, see
+    /// ClientEvent. Callers who are to wait do not even come in.
     std::optional<ClientEvent> take(const std::set<ViewerId>& to_wait);
 
     /// Events that wait.

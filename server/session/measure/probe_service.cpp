@@ -80,6 +80,12 @@ HandlerResult ProbeService::probe(ViewerSession& session, const ClientEvent& eve
                                 from_message(probe.ray().direction())));
         return HandlerResult::answered;
     }
+    if (session.is_caller()) {
+        parts_.server.reply_error(event, v1::Error::INVALID_ARGUMENT,
+                                  "probe.pixel: needs a picture, which there is none of over "
+                                  "HTTP; name a ray");
+        return HandlerResult::answered;
+    }
     const glm::uvec2 size = session.size();
     const glm::vec2 pixel(probe.pixel().x(), probe.pixel().y());
     if (!(pixel.x >= 0.0F && pixel.y >= 0.0F && pixel.x < static_cast<float>(size.x) &&

@@ -72,9 +72,12 @@ void ReviewService::measure(ViewerSession& session, Pin& pin) {
     const LiveScene& live = parts_.scene;
     v1::PinChanged& message = pin.message;
     const glm::vec3 position = from_message(message.position());
-    const auto pixel = pixel_of(session.camera(), session.size(), position);
-    parts_.pictures.prepare(session);
-    auto hit = pixel ? session.probe(*pixel) : std::nullopt;
+    std::optional<PixelProbe> hit;
+    if (!session.is_caller()) {
+        const auto pixel = pixel_of(session.camera(), session.size(), position);
+        parts_.pictures.prepare(session);
+        hit = pixel ? session.probe(*pixel) : std::nullopt;
+    }
     if (!hit || hit->patch != pin.patch) {
         hit = probe_point(live.solver().scene(), live.solver().store(), live.programs(),
                           live.scene(), live.mesh(), pin.patch, position);

@@ -7,7 +7,24 @@
 
 namespace raybundle {
 
+/// One who asks over HTTP has no pictures that there might be no room for.
+void ArrivalService::join_caller(const ClientEvent& event) {
+    ViewerSession& session = parts_.viewers.add_caller(event.viewer, event.message.hello(),
+                                                       parts_.scene.scene().cameras.front());
+    session.set_role(event.role);
+    if (event.message.has_id()) {
+        v1::ServerMessage message;
+        fill_welcome(event, message.mutable_welcome());
+        parts_.server.reply(event, message);
+    }
+    spdlog::debug("caller {} '{}' asks", event.viewer, session.name());
+}
+
 void ArrivalService::join(const ClientEvent& event) {
+    if (event.caller) {
+        join_caller(event);
+        return;
+    }
     v1::Hello hello = event.message.hello();
     const glm::uvec2 size = parts_.admission.served_size(ViewerSession::size_of(hello), nullptr);
     to_message(size, hello.mutable_viewport());
@@ -23,7 +40,8 @@ void ArrivalService::join(const ClientEvent& event) {
     parts_.views.restore_target(session);
     parts_.presence.note_arrival();
     v1::ServerMessage message;
-    fill_welcome(event, size, message.mutable_welcome());
+    fill_welcome(event, message.mutable_welcome());
+    to_message(size, message.mutable_welcome()->mutable_viewport());
     parts_.server.reply(event, message);
     if (!event.message.has_id()) {
         parts_.server.send(event.viewer, message);
@@ -34,8 +52,7 @@ void ArrivalService::join(const ClientEvent& event) {
     spdlog::info("viewer {} '{}' joined", event.viewer, hello.name());
 }
 
-void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
-                                  v1::Welcome* welcome) const {
+void ArrivalService::fill_welcome(const ClientEvent& event, v1::Welcome* welcome) const {
     welcome->set_protocol("1.0");
     welcome->set_server("raybundle " RAYBUNDLE_VERSION);
     welcome->set_viewer(event.viewer);
@@ -45,7 +62,6 @@ void ArrivalService::fill_welcome(const ClientEvent& event, glm::uvec2 size,
     parts_.lighting.describe(welcome->mutable_scene());
     parts_.animations.describe(welcome->mutable_scene());
     ViewerAdmission::fill_limits(welcome->mutable_limits());
-    to_message(size, welcome->mutable_viewport());
     welcome->set_renderer(parts_.traits.renderer);
     welcome->set_software_rendering(parts_.traits.software_rendering);
     welcome->set_can_open_scenes(parts_.traits.can_open_scenes);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/glm.hpp>
 #include <string>
 
 #include "net/server.h"
@@ -49,7 +48,9 @@ class ArrivalService {
     void join(const ClientEvent& event);
 
   private:
-    void fill_welcome(const ClientEvent& event, glm::uvec2 size, v1::Welcome* welcome) const;
+    void join_caller(const ClientEvent& event);
+    /// All but the viewport.
+    void fill_welcome(const ClientEvent& event, v1::Welcome* welcome) const;
 
     Parts parts_;
 };

@@ -145,6 +145,9 @@ class ViewerSession {
     void follow(ViewerId leader) { identity_.following = leader; }
     [[nodiscard]] v1::Role role() const { return identity_.role; }
     void set_role(v1::Role role) { identity_.role = role; }
+    /// It asks over HTTP and never gets a picture, see ClientEvent::caller.
+    [[nodiscard]] bool is_caller() const { return identity_.caller; }
+    void set_caller() { identity_.caller = true; }
     [[nodiscard]] double target_error() const { return target_.error; }  ///< 0: none
     [[nodiscard]] bool has_target() const { return target_.error > 0.0 || target_.seconds > 0.0; }
 
@@ -163,6 +166,7 @@ class ViewerSession {
         v1::Role role = v1::EDITOR;
         ViewerId following = 0;
         bool lossless = false;  ///< the client decodes PNG
+        bool caller = false;
     };
     struct Motion {
         double scale = 1.0;          ///< of the picture's width and height

@@ -5,15 +5,35 @@
 
 namespace raybundle {
 
-ViewerSession& Viewers::add(ViewerId viewer, const v1::Hello& hello, const Camera& camera) {
+ViewerSession& Viewers::add_to(Sessions& sessions, ViewerId viewer, const v1::Hello& hello,
+                               const Camera& camera) const {
     auto session = std::make_unique<ViewerSession>(viewer, hello, camera,
                                                    policy_.settings().viewers, policy_.clock());
-    return *sessions_.insert_or_assign(viewer, std::move(session)).first->second;
+    return *sessions.insert_or_assign(viewer, std::move(session)).first->second;
+}
+
+ViewerSession& Viewers::add(ViewerId viewer, const v1::Hello& hello, const Camera& camera) {
+    return add_to(sessions_, viewer, hello, camera);
+}
+
+ViewerSession& Viewers::add_caller(ViewerId viewer, const v1::Hello& hello, const Camera& camera) {
+    ViewerSession& session = add_to(callers_, viewer, hello, camera);
+    session.set_caller();
+    return session;
+}
+
+void Viewers::erase(ViewerId viewer) {
+    sessions_.erase(viewer);
+    callers_.erase(viewer);
 }
 
 ViewerSession* Viewers::find(ViewerId viewer) const {
-    const auto found = sessions_.find(viewer);
-    return found == sessions_.end() ? nullptr : found->second.get();
+    for (const Sessions* sessions : {&sessions_, &callers_}) {
+        if (const auto found = sessions->find(viewer); found != sessions->end()) {
+            return found->second.get();
+        }
+    }
+    return nullptr;
 }
 
 std::vector<ViewerLoad> Viewers::loads() const {

@@ -11,17 +11,19 @@
 
 namespace raybundle {
 
-/// All who watch, by their numbers.
+/// All who watch, by their numbers; and, apart from them, those who only ask (ClientEvent::caller).
 class Viewers {
   public:
     explicit Viewers(const FramePolicy& policy) : policy_(policy) {}
 
     ViewerSession& add(ViewerId viewer, const v1::Hello& hello, const Camera& camera);
-    void erase(ViewerId viewer) { sessions_.erase(viewer); }
+    /// One who asks: found by its number, but not counted, and not met on the way through all.
+    ViewerSession& add_caller(ViewerId viewer, const v1::Hello& hello, const Camera& camera);
+    void erase(ViewerId viewer);
     /// Null where nobody has this number.
     [[nodiscard]] ViewerSession* find(ViewerId viewer) const;
     /// Requires that somebody has it.
-    [[nodiscard]] ViewerSession& at(ViewerId viewer) const { return *sessions_.at(viewer); }
+    [[nodiscard]] ViewerSession& at(ViewerId viewer) const { return *find(viewer); }
 
     [[nodiscard]] std::size_t size() const { return sessions_.size(); }
     [[nodiscard]] bool empty() const { return sessions_.empty(); }
@@ -34,7 +36,12 @@ class Viewers {
 
   private:
     const FramePolicy& policy_;
-    std::map<ViewerId, std::unique_ptr<ViewerSession>> sessions_;
+    using Sessions = std::map<ViewerId, std::unique_ptr<ViewerSession>>;
+    ViewerSession& add_to(Sessions& sessions, ViewerId viewer, const v1::Hello& hello,
+                          const Camera& camera) const;
+
+    Sessions sessions_;
+    Sessions callers_;
 };
 
 }  // namespace raybundle
