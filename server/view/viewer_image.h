@@ -49,6 +49,7 @@ struct PictureLook {
     DisplayMode mode = DisplayMode::photo;
     float exposure = 0.0F;
     ColourScale scale;
+    bool automatic = false;  ///< the picture's own automatic exposure comes to `exposure`
 };
 
 /// Estimated error and brightness of what a viewer shows, from its probe pixels (one in 16).

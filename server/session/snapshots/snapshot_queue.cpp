@@ -48,7 +48,7 @@ void SnapshotQueue::add(const ClientEvent& request, const Camera& camera, const 
     }
     Request added{request, camera, look, clock_.now()};
     if (!request.message.snapshot().has_epoch()) {
-        added.look = {DisplayMode::photo, look.exposure, {}};
+        added.look = {DisplayMode::photo, look.exposure, {}, look.automatic};
     }
     const auto place = static_cast<std::ptrdiff_t>(place_of_snapshot(waiting, next));
     requests_.insert(requests_.begin() + place, std::move(added));
@@ -283,7 +283,11 @@ bool SnapshotQueue::finish_earlier() {
 
 /// Takes the tile that is done, and delivers the picture where it was the last one.
 void SnapshotQueue::deliver(std::uint32_t epoch) {
-    picture_.tiles->take(*picture_.image, requests_.front().look);
+    PictureLook& look = requests_.front().look;
+    if (std::exchange(look.automatic, false)) {  // by the first tile, for all of them
+        look.exposure += picture_.image->automatic_exposure();
+    }
+    picture_.tiles->take(*picture_.image, look);
     picture_.image.reset();
     picture_.taking_part = false;
     if (!picture_.tiles->complete()) {

@@ -51,7 +51,8 @@ void ViewerDisplay::set(const v1::SetDisplay& message) {
 PictureLook ViewerDisplay::look(const ViewerImage* image) const {
     const float automatic = auto_exposure_ && image != nullptr ? image->automatic_exposure() : 0.0F;
     const float exposure = shown_exposure_.value_or(automatic + exposure_offset_);
-    return {mode_, exposure, colour_scale(exposure)};
+    const bool unknown = auto_exposure_ && image == nullptr && !shown_exposure_;
+    return {mode_, exposure, colour_scale(exposure), unknown};
 }
 
 float ViewerDisplay::next_exposure(const ViewerImage& image, const ImageStatistics& statistics,
