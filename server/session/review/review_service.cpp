@@ -56,11 +56,13 @@ HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& 
     message.set_epoch(parts_.scene.epoch());
     message.set_set_at_ms(unix_ms());
     *message.mutable_local_position() = wanted.position();
-    const Camera& camera = session.camera();
-    to_message(camera.eye, message.mutable_camera()->mutable_eye());
-    to_message(camera.target, message.mutable_camera()->mutable_target());
-    to_message(camera.up, message.mutable_camera()->mutable_up());
-    message.mutable_camera()->set_vertical_fov(camera.vertical_fov);
+    if (!session.is_caller()) {  // who asks over HTTP looks from nowhere
+        const Camera& camera = session.camera();
+        to_message(camera.eye, message.mutable_camera()->mutable_eye());
+        to_message(camera.target, message.mutable_camera()->mutable_target());
+        to_message(camera.up, message.mutable_camera()->mutable_up());
+        message.mutable_camera()->set_vertical_fov(camera.vertical_fov);
+    }
     measure(session, pin);
     announce_pin(event, board_.add_pin(std::move(pin)));
     return HandlerResult::answered;
