@@ -12,7 +12,8 @@ struct EmbeddedFile {
     std::string_view contents;  ///< bytes, unchanged
 };
 
-std::span<const EmbeddedFile> shader_files();  ///< server/shaders
-std::span<const EmbeddedFile> client_files();  ///< client_web
+std::span<const EmbeddedFile> shader_files();    ///< server/shaders
+std::span<const EmbeddedFile> client_files();    ///< client_web
+std::span<const EmbeddedFile> protocol_files();  ///< protocol/raybundle.proto, as a FileDescriptorSet
 
 }  // namespace raybundle

@@ -110,6 +110,8 @@ std::string NetworkState::metrics() const {
     out.counter("raybundle_connections_refused_total",
                 "Connections refused by origin, path or number",
                 count(counters.connections_refused));
+    out.counter("raybundle_rest_requests_total", "Requests below /api",
+                count(counters.rest_requests));
     out.counter("raybundle_wrong_tokens_total", "Wrong tokens, of viewers and of HTTP requests",
                 static_cast<double>(gate.wrong_tokens()));
     add_queue_delays(viewers, out);

@@ -26,6 +26,7 @@ struct NetworkCounters {
     std::atomic<std::uint64_t> bytes_sent{0};       ///< WebSocket payload
     std::atomic<std::uint64_t> bytes_received{0};   ///< WebSocket payload
     std::atomic<std::uint64_t> connections_refused{0};
+    std::atomic<std::uint64_t> rest_requests{0};  ///< below /api
 };
 
 /// What the network thread and the callers of Server share. Everything in it is thread-safe.

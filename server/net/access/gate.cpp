@@ -14,6 +14,13 @@ double unix_s() {
         .count();
 }
 
+/// Of "Bearer TOKEN"; empty where it is something else.
+std::string_view token_of(std::string_view authorization) {
+    constexpr std::string_view kScheme = "Bearer ";
+    return authorization.starts_with(kScheme) ? authorization.substr(kScheme.size())
+                                              : std::string_view();
+}
+
 }  // namespace
 
 /// Nothing for a token that opens nothing.
@@ -32,20 +39,26 @@ std::optional<Pass> Gate::pass_for(const Access& access, std::string_view token)
     return found ? std::optional(Pass{found->role, digest, found->name}) : std::nullopt;
 }
 
-std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
-    const auto current = access();
-    const auto pass = pass_for(*current, hello.token());
+std::variant<Pass, Denial> Gate::check(const Access& access, std::string_view token,
+                                       const std::string& name) {
+    auto pass = pass_for(access, token);
     if (!pass) {
-        const std::string reason = hello.token().empty() ? "is missing" : "is not valid";
+        const std::string reason = token.empty() ? "is missing" : "is not valid";
         return Denial{{v1::Error::UNAUTHENTICATED, "hello.token: " + reason, std::nullopt},
                       std::nullopt};
     }
-    const std::string& token_name = pass->token_name;
-    if (current->tokens.owns_name(hello.name()) && !same_name(hello.name(), token_name)) {
-        return Denial{
-            {v1::Error::PERMISSION_DENIED,
-             "hello.name: '" + hello.name() + "' is the name of another token", std::nullopt},
-            std::nullopt};
+    if (access.tokens.owns_name(name) && !same_name(name, pass->token_name)) {
+        return Denial{{v1::Error::PERMISSION_DENIED,
+                       "hello.name: '" + name + "' is the name of another token", std::nullopt},
+                      std::nullopt};
+    }
+    return std::move(*pass);
+}
+
+std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
+    auto checked = check(*access(), hello.token(), hello.name());
+    if (std::holds_alternative<Denial>(checked)) {
+        return checked;
     }
     const std::lock_guard lock(mutex_);
     if (present_ >= max_viewers_) {
@@ -56,7 +69,7 @@ std::variant<Pass, Denial> Gate::enter(const v1::Hello& hello) {
                       CloseCode::try_again_later};
     }
     ++present_;
-    return *pass;
+    return checked;
 }
 
 double Gate::note_wrong_token(const std::string& peer, std::string_view where, double now_ms) {
@@ -90,12 +103,13 @@ bool Gate::opens_metrics(std::string_view authorization) const {
 }
 
 std::optional<v1::Role> Gate::role_of(std::string_view authorization) const {
-    constexpr std::string_view kScheme = "Bearer ";
-    const auto current = access();
-    const bool scheme = authorization.starts_with(kScheme);
-    const auto pass =
-        pass_for(*current, scheme ? authorization.substr(kScheme.size()) : std::string_view());
+    const auto pass = pass_for(*access(), token_of(authorization));
     return pass ? std::optional(pass->role) : std::nullopt;
+}
+
+std::variant<Pass, Denial> Gate::admit(std::string_view authorization,
+                                       const std::string& name) const {
+    return check(*access(), token_of(authorization), name);
 }
 
 std::shared_ptr<const Access> Gate::access() const {

@@ -53,6 +53,11 @@ class Gate {
     std::variant<Pass, Denial> enter(const v1::Hello& hello);
     void leave();
 
+    /// Checks an HTTP Authorization header, "Bearer TOKEN", and the name that its sender goes by.
+    /// Who asks over HTTP does not count as present.
+    [[nodiscard]] std::variant<Pass, Denial> admit(std::string_view authorization,
+                                                   const std::string& name) const;
+
     /// Remembers a wrong token of a peer, in a log line where it is worth one, and says how long
     /// the answer is to wait.
     double note_wrong_token(const std::string& peer, std::string_view where, double now_ms);
@@ -76,6 +81,9 @@ class Gate {
 
   private:
     [[nodiscard]] static std::optional<Pass> pass_for(const Access& access, std::string_view token);
+    [[nodiscard]] static std::variant<Pass, Denial> check(const Access& access,
+                                                          std::string_view token,
+                                                          const std::string& name);
 
     const std::size_t max_viewers_;
     mutable std::mutex mutex_;

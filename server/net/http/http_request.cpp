@@ -18,6 +18,12 @@ HttpMethod method_of(int method) {
             return HttpMethod::head;
         case LWSHUMETH_PUT:
             return HttpMethod::put;
+        case LWSHUMETH_POST:
+            return HttpMethod::post;
+        case LWSHUMETH_PATCH:
+            return HttpMethod::patch;
+        case LWSHUMETH_DELETE:
+            return HttpMethod::remove;
         default:
             return HttpMethod::other;
     }

@@ -16,7 +16,7 @@
 
 namespace raybundle {
 
-enum class HttpMethod { get, head, put, other };
+enum class HttpMethod { get, head, put, post, patch, remove, other };
 
 /// Answer to one HTTP request; headers common to all answers are http_headers().
 struct HttpResponse {

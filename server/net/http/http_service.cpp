@@ -16,8 +16,9 @@ namespace {
 /// Answers after which nobody reads what the client may still send.
 bool ends_connection(int status) {
     constexpr int kTimeout = 408;
+    constexpr int kLengthRequired = 411;
     constexpr int kTooLarge = 413;
-    return status == kTimeout || status == kTooLarge;
+    return status == kTimeout || status == kLengthRequired || status == kTooLarge;
 }
 
 }  // namespace
@@ -37,9 +38,7 @@ int HttpService::on_event(lws* connection, int reason, void* in, std::size_t siz
         case LWS_CALLBACK_HTTP_BODY:
             return on_body(connection, {static_cast<const char*>(in), size});
         case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-            documents_.takes_body(connection) ? documents_.complete(connection)
-                                              : uploads_.complete(connection);
-            return 0;
+            return on_complete(connection);
         case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
             return confirm_upgrade(connection) ? 0 : -1;
         default:
@@ -52,6 +51,10 @@ int HttpService::on_timer(lws* connection) {
     if (auto held = held_.extract(connection)) {
         return answer(connection, std::move(held.mapped()));
     }
+    if (rest_.takes_body(connection)) {
+        auto over = rest_.expire(connection);
+        return over ? answer(connection, std::move(*over)) : 0;
+    }
     auto late = documents_.takes_body(connection) ? documents_.expire(connection)
                                                   : uploads_.expire(connection);
     return late ? answer(connection, std::move(*late)) : 0;
@@ -60,6 +63,7 @@ int HttpService::on_timer(lws* connection) {
 void HttpService::forget(lws* connection) {
     uploads_.forget(connection);
     documents_.forget(connection);
+    rest_.forget(connection);
     transfers_.erase(connection);
     held_.erase(connection);
 }
@@ -101,6 +105,9 @@ int HttpService::on_request(lws* connection) {
     const auto [method, path] = request_line(connection);
     if (has_large_headers(connection)) {
         return answer(connection, large_headers_response());
+    }
+    if (path.starts_with(kRestFolder)) {
+        return on_rest(connection, method, path);
     }
     if (is_document(path) && (method == HttpMethod::get || method == HttpMethod::put)) {
         return on_document(connection, method, path);
@@ -167,7 +174,42 @@ int HttpService::on_upload(lws* connection, const std::string& path) {
     return refusal ? answer_in(client.delay_ms, connection, std::move(*refusal)) : 0;
 }
 
+int HttpService::on_rest(lws* connection, HttpMethod method, const std::string& path) {
+    const std::string length = request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+    return go_on(connection,
+                 rest_.begin(connection,
+                             {method, path, request_query(connection),
+                              request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION),
+                              request_header(connection, WSI_TOKEN_HTTP_CONTENT_TYPE),
+                              request_header(connection, WSI_TOKEN_ORIGIN),
+                              request_header(connection, WSI_TOKEN_HOST), parse_length(length),
+                              !request_header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty(),
+                              request_peer(connection, state_.settings.trusted_proxies)}));
+}
+
+/// Answers now or later, or waits for the rest of the request.
+int HttpService::go_on(lws* connection, RestService::Outcome outcome) {
+    if (outcome.response) {
+        return answer_in(outcome.delay_ms, connection, std::move(*outcome.response));
+    }
+    lws_set_timer_usecs(connection, static_cast<lws_usec_t>(1e6 * outcome.time_s));
+    return 0;
+}
+
+int HttpService::on_complete(lws* connection) {
+    if (rest_.takes_body(connection)) {
+        return go_on(connection, rest_.complete(connection));
+    }
+    documents_.takes_body(connection) ? documents_.complete(connection)
+                                      : uploads_.complete(connection);
+    return 0;
+}
+
 int HttpService::on_body(lws* connection, std::string_view bytes) {
+    if (rest_.takes_body(connection)) {
+        rest_.write(connection, bytes);
+        return 0;
+    }
     if (documents_.takes_body(connection)) {
         documents_.write(connection, bytes);
         return 0;
@@ -200,6 +242,9 @@ void HttpService::answer_uploads() {
     auto finished = uploads_.finished();
     for (auto& made : documents_.finished()) {
         finished.push_back(std::move(made));
+    }
+    for (auto& answered : rest_.finished()) {
+        finished.push_back(std::move(answered));
     }
     for (auto& [connection, response] : finished) {
         if (answer(connection, std::move(response)) != 0) {

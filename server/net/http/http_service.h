@@ -16,6 +16,7 @@
 #include "net/http/http_transfer.h"
 #include "net/http/http_uploads.h"
 #include "net/network_state.h"
+#include "net/rest/rest_service.h"
 
 struct lws;
 
@@ -27,7 +28,7 @@ class HttpService {
   public:
     /// `wake` makes the network thread call answer_uploads(); any thread calls it.
     HttpService(NetworkState& state, std::function<void()> wake)
-        : state_(state), uploads_(state, wake), documents_(state, std::move(wake)) {}
+        : state_(state), uploads_(state, wake), documents_(state, std::move(wake)), rest_(state) {}
 
     /// Whether on_event() is to hear of an lws_callback_reasons.
     static bool is_event(int reason);
@@ -38,7 +39,8 @@ class HttpService {
     /// LWS_CALLBACK_TIMER of a connection that is no viewer's.
     int on_timer(lws* connection);
 
-    /// Answers the uploads that have been checked, and sends the documents that have been made.
+    /// Answers the uploads that have been checked and what has been asked below /api, and sends the
+    /// documents that have been made.
     void answer_uploads();
 
     /// The connection is gone.
@@ -49,6 +51,9 @@ class HttpService {
     int on_body(lws* connection, std::string_view bytes);
     int on_document(lws* connection, HttpMethod method, const std::string& path);
     int on_upload(lws* connection, const std::string& path);
+    int on_rest(lws* connection, HttpMethod method, const std::string& path);
+    int go_on(lws* connection, RestService::Outcome outcome);
+    int on_complete(lws* connection);
     int on_writable(lws* connection);
     bool confirm_upgrade(lws* connection);
     int answer(lws* connection, HttpResponse response);
@@ -67,6 +72,7 @@ class HttpService {
     std::map<lws*, HttpResponse> held_;  ///< until the connection's timer
     HttpUploads uploads_;
     HttpDocuments documents_;
+    RestService rest_;
 };
 
 }  // namespace raybundle

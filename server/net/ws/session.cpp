@@ -14,13 +14,6 @@ namespace {
 
 constexpr int kMaxWrongTokens = 3;  ///< of one connection
 
-/// Name of the message in the words of the client, e.g. "moveObject".
-std::string body_name(const v1::ClientMessage& message) {
-    const auto* const field =
-        v1::ClientMessage::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
-    return field == nullptr ? "message" : field->json_name();
-}
-
 }  // namespace
 
 void Session::on_fragment(std::string_view bytes, bool first, bool last, bool binary,
@@ -66,11 +59,8 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         on_hello(std::move(message), now_ms);
     } else if (!pass_) {
         refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
-    } else if (const v1::Role needed = required_role(message.body_case()); pass_->role < needed) {
-        refuse({v1::Error::PERMISSION_DENIED,
-                body_name(message) + ": needs the role " + v1::Role_Name(needed) +
-                    ", this viewer has " + v1::Role_Name(pass_->role),
-                id});
+    } else if (const auto refusal = refuse_role(message, pass_->role)) {
+        refuse(*refusal);
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
         if (id) {

@@ -158,6 +158,19 @@ v1::Role required_role(Client::BodyCase body) {
     return rule == nullptr ? v1::VIEWER : rule->role;
 }
 
+std::optional<Refusal> refuse_role(const Client& message, v1::Role role) {
+    const v1::Role needed = required_role(message.body_case());
+    if (role >= needed) {
+        return std::nullopt;
+    }
+    const auto* const field =
+        Client::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
+    return Refusal{v1::Error::PERMISSION_DENIED,
+                   (field == nullptr ? "message" : field->json_name()) + ": needs the role " +
+                       v1::Role_Name(needed) + ", this viewer has " + v1::Role_Name(role),
+                   message.has_id() ? std::optional(message.id()) : std::nullopt};
+}
+
 std::optional<Refusal> validate(const Client& message, const WireLimits& limits) {
     MessageChecker checker(limits);
     check_numbers(message, "", checker);

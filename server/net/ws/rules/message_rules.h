@@ -35,6 +35,9 @@ const MessageRule* rule_of(v1::ClientMessage::BodyCase body);
 /// Lowest role that may send a message of this kind.
 v1::Role required_role(v1::ClientMessage::BodyCase body);
 
+/// The refusal of a message that the role does not allow, with the message's id.
+std::optional<Refusal> refuse_role(const v1::ClientMessage& message, v1::Role role);
+
 /// Checks every range that raybundle.proto states and that can be checked without a scene: finite
 /// numbers, field of view, sizes, directions, rotations, colours. Returns the first violation.
 /// Whether an object, light, material, viewer or pixel exists is for the render thread to say.

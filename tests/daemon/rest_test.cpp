@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// REST beside the socket, as it is served: what is done over HTTP is what the socket shows.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "daemon.h"
+#include "json_viewer.h"
+
+namespace raybundle {
+namespace {
+
+struct Answer {
+    int status = 0;
+    std::string head;
+    std::string body;
+    [[nodiscard]] Json json() const { return Json::parse(body, nullptr, false); }
+};
+
+class RestTest : public testing::Test {
+  protected:
+    RestTest() {
+        std::string pattern = std::filesystem::temp_directory_path() / "raybundle_rest_XXXXXX";
+        folder_ = mkdtemp(pattern.data());
+        daemon_.emplace(scene_file("cornell_box.gltf"),
+                        std::vector<std::string>{"--journal", folder_ / "session.db"});
+    }
+    ~RestTest() override {
+        daemon_.reset();
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+
+    [[nodiscard]] Answer ask(const std::string& line, const std::string& body = "") const {
+        const std::string text = http_exchange(
+            daemon_->port(), line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" +
+                                 (body.empty() ? ""
+                                               : "Content-Type: application/json\r\n"
+                                                 "Content-Length: " +
+                                                     std::to_string(body.size()) + "\r\n") +
+                                 "\r\n" + body);
+        const std::size_t end = text.find("\r\n\r\n");
+        return {std::stoi(text.substr(9, 3)), text.substr(0, end), text.substr(end + 4)};
+    }
+
+    /// Asks again until there is an answer.
+    [[nodiscard]] Answer poll(const std::string& url) const {
+        for (;;) {
+            Answer answer = ask("GET " + url);
+            if (answer.status != 202) {
+                return answer;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    }
+
+    std::filesystem::path folder_;
+    std::optional<Daemon> daemon_;
+};
+
+TEST_F(RestTest, WhatIsChangedOverHttpIsSeenOverTheSocket) {
+    JsonViewer viewer(daemon_->port());
+    const Json welcome = viewer.join().at("welcome");
+    const Json scene = ask("GET /api/v1/scene").json();
+    EXPECT_EQ(scene.at("scene").at("lights"), welcome.at("scene").at("lights"));
+    EXPECT_EQ(ask("GET /api/v1/lights/1").json(), welcome.at("scene").at("lights").at(0));
+
+    const Answer set = ask("PATCH /api/v1/lights/1?name=Ada", R"({"dim":0.5})");
+    EXPECT_EQ(set.status, 200) << set.body;
+    const Json told = viewer.next_with("sceneChanged").at("sceneChanged");
+    EXPECT_EQ(told.at("epoch"), set.json().at("sceneChanged").at("epoch"));
+    EXPECT_EQ(told.at("byName"), "Ada");
+    EXPECT_EQ(ask("GET /api/v1/lights/1").json().at("dim"), 0.5);
+    EXPECT_EQ(ask("GET /api/v1/changes").json().at("changes").size(), 1U);
+    EXPECT_EQ(ask("POST /api/v1/undo", R"({"epoch":0})").status, 200);
+    EXPECT_EQ(ask("GET /api/v1/lights/1").json().at("dim"), 1);
+    const Answer none = ask("POST /api/v1/changes", R"({"setLight":{"light":99,"on":true}})");
+    EXPECT_EQ(none.status, 404);
+    EXPECT_EQ(none.json().at("detail"), "setLight.light: no light 99");
+
+    // Who asks over HTTP is not among the people. The next presence tells of the second viewer.
+    JsonViewer other(daemon_->port());
+    other.join();
+    const Json presence = other.next_with("presence").at("presence");
+    EXPECT_EQ(presence.at("viewers").size(), 2U) << presence;
+}
+
+TEST_F(RestTest, PinsComeAndGo) {
+    JsonViewer viewer(daemon_->port());
+    viewer.join();
+    const Json floor = ask("POST /api/v1/probes",
+                           R"({"ray":{"origin":{"x":1,"y":2,"z":0.5},"direction":{"y":-1}}})")
+                           .json();
+    ASSERT_TRUE(floor.at("hit").get<bool>());
+    const Json wanted{
+        {"text", "glare"}, {"position", floor.at("position")}, {"patch", floor.at("patch")}};
+    const Answer added = ask("POST /api/v1/pins?name=Ada", wanted.dump());
+    ASSERT_EQ(added.status, 201) << added.body;
+    EXPECT_TRUE(has(added.head, "location: /api/v1/pins/1\r\n") ||
+                added.head.ends_with("location: /api/v1/pins/1"))
+        << added.head;
+    EXPECT_GT(added.json().at("illuminance"), 0);
+    EXPECT_EQ(viewer.next_with("pinChanged").at("pinChanged").at("text"), "glare");
+    EXPECT_EQ(ask("POST /api/v1/pins/1/replies?name=Ben", R"({"text":"yes"})").status, 200);
+    EXPECT_EQ(ask("PATCH /api/v1/pins/1", R"({"resolved":true})").status, 200);
+    const Json pin = ask("GET /api/v1/pins/1").json();
+    EXPECT_EQ(pin.at("replies").at(0).at("byName"), "Ben");
+    EXPECT_TRUE(pin.at("resolved").get<bool>());
+    EXPECT_EQ(ask("DELETE /api/v1/pins/1").status, 200);
+    EXPECT_EQ(ask("GET /api/v1/pins/1").status, 404);
+    EXPECT_EQ(ask("DELETE /api/v1/pins/1").status, 404);
+    EXPECT_EQ(ask("POST /api/v1/probes", R"({"pixel":{"x":1,"y":1}})").status, 400);
+}
+
+TEST_F(RestTest, MeasurementsAndPicturesAreAskedForAgain) {
+    const Answer measuring =
+        ask("POST /api/v1/measurements?wait=0", R"({"quantity":"HORIZONTAL","relativeError":0.2,)"
+                                                R"("points":[{"position":{"x":1,"y":4,"z":1}}]})");
+    ASSERT_EQ(measuring.status, 202) << measuring.body;
+    const Answer measured = poll(measuring.json().at("url"));
+    ASSERT_EQ(measured.status, 200) << measured.body;
+    const Json point = measured.json().at("points").at(0);
+    EXPECT_LE(point.at("low"), point.at("value"));
+    EXPECT_LE(point.at("value"), point.at("high"));
+
+    const Answer taking = ask(
+        "POST /api/v1/snapshots",
+        R"({"snapshot":{"width":32,"height":24,"relativeError":0.9,"format":"PNG"},"setCamera":)"
+        R"({"eye":{"x":2.7,"y":2.7,"z":-7.5},"target":{"x":2.7,"y":2.7,"z":2.7}}})");
+    ASSERT_EQ(taking.status, 202) << taking.body;
+    const std::string url = taking.json().at("url");
+    const Answer taken = poll(url);
+    ASSERT_EQ(taken.status, 200) << taken.body;
+    EXPECT_EQ(poll(url).body, taken.body) << "the answer is kept";
+    // Exposed by itself, though nobody looks.
+    EXPECT_NE(taken.json().at("exposure"), 0);
+    const Answer picture = ask("GET " + taken.json().at("url").get<std::string>());
+    EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
+}
+
+}  // namespace
+}  // namespace raybundle
