@@ -103,6 +103,7 @@ TEST_F(RestTest, PinsComeAndGo) {
                 added.head.ends_with("location: /api/v1/pins/1"))
         << added.head;
     EXPECT_GT(added.json().at("illuminance"), 0);
+    EXPECT_FALSE(added.json().contains("camera")) << "it was looked at from nowhere";
     EXPECT_EQ(viewer.next_with("pinChanged").at("pinChanged").at("text"), "glare");
     EXPECT_EQ(ask("POST /api/v1/pins/1/replies?name=Ben", R"({"text":"yes"})").status, 200);
     EXPECT_EQ(ask("PATCH /api/v1/pins/1", R"({"resolved":true})").status, 200);

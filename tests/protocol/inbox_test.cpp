@@ -158,5 +158,23 @@ TEST(Inbox, WaitEndsByEventByInterruptAndByTime) {
     writer.join();
 }
 
+TEST(Inbox, CallersHaveOneShareTogetherAndWaitOutside) {
+    Inbox inbox;
+    v1::ClientMessage hello;
+    hello.mutable_hello();
+    v1::ClientMessage message;
+    message.mutable_list_changes();
+    inbox.joined(7, hello, v1::EDITOR, true);
+    ASSERT_TRUE(inbox.push(7, message, v1::EDITOR, true));
+    inbox.joined(8, hello);
+    ASSERT_TRUE(inbox.push(8, message));
+    const std::set<ViewerId> callers_wait{0};
+    EXPECT_EQ(inbox.take(callers_wait)->viewer, 8U);
+    EXPECT_EQ(inbox.take(callers_wait)->viewer, 8U);
+    EXPECT_FALSE(inbox.take(callers_wait));
+    EXPECT_EQ(inbox.take({7})->kind, ClientEvent::Kind::joined);
+    EXPECT_EQ(inbox.take({7})->kind, ClientEvent::Kind::message);
+}
+
 }  // namespace
 }  // namespace raybundle
