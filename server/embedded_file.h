@@ -14,6 +14,6 @@ struct EmbeddedFile {
 
 std::span<const EmbeddedFile> shader_files();    ///< server/shaders
 std::span<const EmbeddedFile> client_files();    ///< client_web
-std::span<const EmbeddedFile> protocol_files();  ///< protocol/raybundle.proto, as a FileDescriptorSet
+std::span<const EmbeddedFile> protocol_files();  ///< FileDescriptorSet of the .proto
 
 }  // namespace raybundle
