@@ -94,7 +94,7 @@ describe('the page of a running server', () => {
 
     it('moves the shadow with the object that is dragged', async () => {
         const {page} = desktop;
-        await frameWith(page, {settled: 0.95});
+        await frameWith(page, {settled: 0.7});
         const before = await shadows(page);
         const start = JSON.stringify(before);
         assert.ok(before.second > VISIBLE * before.first, `shadow to begin with: ${start}`);
@@ -104,7 +104,7 @@ describe('the page of a running server', () => {
         await page.waitForFunction(() => !document.querySelector('#undo:disabled'));
         await keepScreenshot(page, 'after_drag');
         const epoch = await page.evaluate(() => window.raybundle.scene.epoch);
-        await frameWith(page, {epoch, settled: 0.85});
+        await frameWith(page, {epoch, settled: 0.5});
         const moved = (await middleOf(page)).x - middle.x;
         assert.ok(Math.abs(moved - DRAG_M) < 0.2, `moved by ${moved.toFixed(2)} m`);
         await keepScreenshot(page, 'after_settling');

@@ -151,7 +151,7 @@ describe('drawing here', () => {
         await opened.page.waitForFunction(
             () => {
                 const {frame} = window.raybundle ?? {};
-                return frame && frame.iterations >= 400 && window.raybundleParts.drawing.light?.complete;
+                return frame && frame.iterations >= 250 && window.raybundleParts.drawing.light?.complete;
             },
             null, {timeout: PATIENCE_MS, polling: 100});
         return opened;

@@ -173,7 +173,7 @@ describe('a walkthrough', () => {
     });
 
     it('is walked through by the keys of the live page, as fine as the display', async () => {
-        const {page, faults, context} = await open('living_room', {viewport: {width: 360, height: 640}, deviceScaleFactor: 2, colorScheme: 'dark'});
+        const {page, faults, context} = await open('living_room', {viewport: {width: 360, height: 480}, deviceScaleFactor: 1.5, colorScheme: 'dark'});
         const eye = () => page.evaluate(() => window.raybundleWalkthrough.camera.view.eye);
         const start = await eye();
         await page.focus('#picture');
@@ -201,7 +201,7 @@ describe('a walkthrough', () => {
         assert.match(await page.textContent('#scale-high'), /330 lx/);
         const fits = () => page.evaluate(() => {
             const {canvas} = window.raybundleWalkthrough.picture;
-            return canvas.width === Math.round(2 * canvas.clientWidth) && document.documentElement.scrollWidth <= innerWidth;
+            return canvas.width === Math.round(1.5 * canvas.clientWidth) && document.documentElement.scrollWidth <= innerWidth;
         });
         assert.ok(await fits());
         await page.waitForFunction(() => !window.raybundleWalkthrough.camera.moving);

@@ -188,7 +188,7 @@ TEST(Dgp, TheSunIsASourceOfItsOwn) {
 
 /// Intervals hold the truth, known by many samples, about as often as they say: 40 seeds of a room
 /// lit by reflection, of which 2 are expected outside (8 or more: once in a thousand).
-TEST(Dgp, IntervalsHoldTheTruth) {
+TEST(HeavyDgp, IntervalsHoldTheTruth) {
     const SceneBuilder room = enclosure(0.7F);
     const auto scene = std::make_shared<const MeasuredScene>(room.scene, room.mesh);
     const glm::dvec3 eye = odd_rotation() * glm::vec4(0.6F, 1.2F, 1.0F, 1.0F);

@@ -118,7 +118,7 @@ TEST(SpotCheck, FindsTheFewPixelsThatHoldMostOfTheError) {
 }
 
 /// Sparks of one picture are measured in the next as well, where they are nothing special.
-TEST(SpotCheck, StaysUnbiasedWhereSparksWereInAnotherPicture) {
+TEST(HeavySpotCheck, StaysUnbiasedWhereSparksWereInAnotherPicture) {
     constexpr glm::uvec2 size(320, 200);
     constexpr int checks = 64;
     const SceneBuilder b = open_floor();

@@ -91,17 +91,15 @@ TEST(Brdf, NeverCreatesEnergy) {
          {0.0F, 0.05F, 0.06F, 0.08F, 0.12F, 0.2F, 0.37F, 0.6F, 0.8F, 1.0F}) {
         for (const float metallic : {0.0F, 0.5F, 1.0F}) {
             for (const float specular : {0.3F, 1.0F}) {
-                for (const float colour : {1.0F, 25.0F}) {
-                    Material material = plastic(roughness, specular);
-                    material.metallic = metallic;
-                    material.specular_colour = glm::vec3(colour, 1.0F, 0.5F * colour);
-                    const Brdf brdf = make_brdf(material, {1.0F, 1.5F, 0.9F});
-                    for (const float c : cosines) {
-                        const glm::dvec3 a = albedo_by_quadrature(brdf, c);
-                        ASSERT_LE(std::max({a.r, a.g, a.b}), 1.0 + quadrature_error)
-                            << "roughness " << roughness << " metallic " << metallic << " specular "
-                            << specular << " * " << colour << " cos " << c;
-                    }
+                Material material = plastic(roughness, specular);
+                material.metallic = metallic;
+                material.specular_colour = {25.0F, 1.0F, 1.0F};
+                const Brdf brdf = make_brdf(material, {1.5F, 1.0F, 0.9F});
+                for (const float c : cosines) {
+                    const glm::dvec3 a = albedo_by_quadrature(brdf, c);
+                    ASSERT_LE(std::max({a.r, a.g, a.b}), 1.0 + quadrature_error)
+                        << "roughness " << roughness << " metallic " << metallic << " specular "
+                        << specular << " cos " << c;
                 }
             }
         }
