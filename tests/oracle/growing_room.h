@@ -16,6 +16,11 @@
 
 namespace raybundle {
 
+/// Names a test by its parameter, whether the room is open.
+inline constexpr auto room_name = [](const auto& test) {
+    return std::string(test.param ? "Open" : "Closed");
+};
+
 /// A folder of two photometric files: wide.ies and narrow.ies; removed with it.
 class PhotometryFolder {
   public:
