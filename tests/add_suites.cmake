@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Run by ctest: adds a test for each suite of `program`, with `suite_properties`. `listed` keeps the names.
+# Run by ctest: adds a test for each suite of `program`, with `suite_properties`; where they are `together`, one test for
+# all of them, named `target`. `listed` keeps the names.
 # Suites named Cases... (what others' files broke) have the label cases.
 
 if(NOT EXISTS "${program}")
@@ -19,6 +20,14 @@ if("${program}" IS_NEWER_THAN "${listed}")
     file(WRITE "${listed}" "${names}")
 endif()
 file(READ "${listed}" names)
+set(quick ${names})
+list(FILTER quick EXCLUDE REGEX "(^|/)Cases")
+if(together AND quick)
+    list(FILTER names INCLUDE REGEX "(^|/)Cases")
+    list(JOIN quick ".*:" filter)
+    add_test("${target}" "${program}" "--gtest_filter=${filter}.*-*Heavy*")
+    set_tests_properties("${target}" PROPERTIES ${suite_properties})
+endif()
 foreach(name IN LISTS names)
     add_test("${name}" "${program}" "--gtest_filter=${name}.*-*Heavy*")
     set_tests_properties("${name}" PROPERTIES ${suite_properties})
