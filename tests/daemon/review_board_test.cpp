@@ -10,8 +10,6 @@
 namespace raybundle {
 namespace {
 
-constexpr std::uint32_t kPatches = 100;
-
 Pin pin(const std::string& text, std::uint32_t epoch = 0) {
     Pin result;
     result.message.set_text(text);
@@ -22,7 +20,7 @@ Pin pin(const std::string& text, std::uint32_t epoch = 0) {
 
 TEST(ReviewBoard, NumbersPinsAndNeverGivesANumberTwice) {
     ChangeLog log;
-    ReviewBoard board(log, kPatches);
+    ReviewBoard board(log);
     EXPECT_EQ(board.add_pin(pin("a"))->message.pin(), 1U);
     EXPECT_EQ(board.add_pin(pin("b"))->message.pin(), 2U);
     EXPECT_TRUE(board.remove_pin(2));
@@ -33,7 +31,7 @@ TEST(ReviewBoard, NumbersPinsAndNeverGivesANumberTwice) {
 
 TEST(ReviewBoard, IsBounded) {
     ChangeLog log;
-    ReviewBoard board(log, kPatches);
+    ReviewBoard board(log);
     for (std::size_t i = 0; i < ReviewBoard::max_pins; ++i) {
         ASSERT_NE(board.add_pin(pin("x")), nullptr);
     }
@@ -47,7 +45,7 @@ TEST(ReviewBoard, IsBounded) {
 
 TEST(ReviewBoard, LooksAtEveryPinInTurn) {
     ChangeLog log;
-    ReviewBoard board(log, kPatches);
+    ReviewBoard board(log);
     EXPECT_EQ(board.next_pin(), nullptr);
     board.add_pin(pin("a"));
     board.add_pin(pin("b"));
@@ -58,7 +56,7 @@ TEST(ReviewBoard, LooksAtEveryPinInTurn) {
 
 TEST(ReviewBoard, TellsNewcomersEverything) {
     ChangeLog log;
-    ReviewBoard board(log, kPatches);
+    ReviewBoard board(log);
     board.add_pin(pin("a"));
     v1::Welcome welcome;
     board.fill_welcome(&welcome);

@@ -11,6 +11,7 @@
 #include "gpu/egl_context.h"
 #include "report/bcf.h"
 #include "session/messages/scene_messages.h"
+#include "session/review/pin_place.h"
 #include "session/review/review_service.h"
 #include "session/unix_time.h"
 #include "view/point_probe.h"
@@ -61,7 +62,7 @@ Pin ReviewService::placed(const v1::PinChanged& topic) {
             probe_ray(live.solver().scene(), live.solver().store(), live.programs(), eye, ahead);
         if (hit) {
             const Object& object = live.scene().objects[hit->object];
-            pin.patch = hit->patch;
+            put_on(live.scene(), live.mesh(), hit->patch, hit->position, pin);
             pin.patch_illuminance = live.patch_illuminance(hit->patch);
             to_message(hit->position, message.mutable_position());
             message.set_object(object.id);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/messages/scene_messages.h"
+
 namespace raybundle {
 
 namespace {
@@ -11,20 +13,24 @@ namespace {
 constexpr float worth_telling = 0.02F;    // difference of relative changes
 constexpr float min_illuminance = 1e-3F;  // lx; below, a change is measured against this
 
-/// A pin as the journal holds it: the message, then the patch's number and illuminance, in fields
-/// that are the journal's own.
+/// A pin as the journal holds it: the message, then where it is and the light there, in fields that
+/// are the journal's own.
 std::string stored(const Pin& pin) {
     v1::JournalPin note;
     *note.mutable_pin() = pin.message;
     note.set_patch(pin.patch);
     note.set_patch_illuminance(pin.patch_illuminance);
+    if (pin.place) {
+        note.set_object(pin.place->object + 1);
+        to_message(pin.place->position, note.mutable_place());
+        to_message(pin.place->normal, note.mutable_normal());
+    }
     return note.SerializeAsString();
 }
 
 }  // namespace
 
-ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count)
-    : log_(log), side_count_(side_count) {
+ReviewBoard::ReviewBoard(ChangeLog& log) : log_(log) {
     for (const std::string& body : log.notes(NoteKind::pin)) {
         add_stored_pin(body);
     }
@@ -41,8 +47,14 @@ ReviewBoard::ReviewBoard(ChangeLog& log, std::uint32_t side_count)
 void ReviewBoard::add_stored_pin(const std::string& body) {
     v1::JournalPin note;
     if (note.ParseFromString(body)) {
-        const std::uint32_t patch = std::min(note.patch(), side_count_ - 1);
-        pins_[note.pin().pin()] = {note.pin(), patch, note.patch_illuminance()};
+        Pin& pin = pins_[note.pin().pin()] = {};
+        pin.message = note.pin();
+        pin.patch = note.patch();
+        pin.patch_illuminance = note.patch_illuminance();
+        if (note.object() > 0) {
+            pin.place = {note.object() - 1, from_message(note.place()),
+                         from_message(note.normal())};
+        }
     }
 }
 

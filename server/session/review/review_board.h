@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raybundle.pb.h"
+#include "scene/mesh/surface_place.h"
 #include "session/changes/change_log.h"
 
 namespace raybundle {
@@ -16,7 +17,9 @@ namespace raybundle {
 /// A pin and what its light is compared with.
 struct Pin {
     v1::PinChanged message;
-    std::uint32_t patch = 0;
+    std::optional<SurfacePlace> place;  ///< side_of() finds it where the journal lacks it
+    std::uint32_t patch = 0;            ///< side of the mesh, as it was when it had
+    std::size_t triangles = 0;          ///< so many triangles; 0: as the journal has it
     /// Mean irradiance of the patch when the pin was set, lx; follows the solution as it refines
     /// until the scene changes.
     float patch_illuminance = 0.0F;
@@ -31,8 +34,8 @@ class ReviewBoard {
     static constexpr std::size_t max_viewpoints = 64;
     static constexpr int max_replies = 100;  ///< of a pin
 
-    /// Takes up what the journal holds. Notes of patches that the mesh lacks keep their text.
-    ReviewBoard(ChangeLog& log, std::uint32_t side_count);
+    /// Takes up what the journal holds.
+    explicit ReviewBoard(ChangeLog& log);
 
     /// Numbers a pin and stores it. Nothing where the board is full or it cannot be stored; the
     /// reason is in refusal().
@@ -72,7 +75,6 @@ class ReviewBoard {
     ChangeLog& log_;
     std::map<std::uint32_t, Pin> pins_;
     std::map<std::uint32_t, v1::ViewpointChanged> viewpoints_;
-    std::uint32_t side_count_;
     std::uint32_t next_pin_number_ = 1;
     std::uint32_t next_viewpoint_number_ = 1;
     std::uint32_t last_checked_ = 0;

@@ -9,6 +9,7 @@
 #include "gpu/egl_context.h"
 #include "session/measure/probed_pixel.h"
 #include "session/messages/scene_messages.h"
+#include "session/review/pin_place.h"
 #include "session/unix_time.h"
 #include "view/point_probe.h"
 
@@ -23,8 +24,7 @@ constexpr double pin_look_factor = 1.5;    // of the iterations, between two loo
 
 }  // namespace
 
-ReviewService::ReviewService(const Parts& parts)
-    : parts_(parts), board_(parts.scene.log(), parts.scene.solver().scene().side_count()) {}
+ReviewService::ReviewService(const Parts& parts) : parts_(parts), board_(parts.scene.log()) {}
 
 /// Tells everybody, and answers the request.
 void ReviewService::announce(const ClientEvent& event, const v1::ServerMessage& message) {
@@ -45,7 +45,8 @@ HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& 
         return HandlerResult::answered;
     }
     Pin pin;
-    pin.patch = wanted.patch();
+    put_on(parts_.scene.scene(), parts_.scene.mesh(), wanted.patch(),
+           from_message(wanted.position()), pin);
     pin.patch_illuminance = parts_.scene.patch_illuminance(pin.patch);
     v1::PinChanged& message = pin.message;
     message.set_by(event.viewer);
@@ -228,8 +229,16 @@ void ReviewService::check_pin() {
     if (pin == nullptr) {
         return;
     }
+    const bool placed = pin->place.has_value();
+    const auto side = side_of(parts_.scene.scene(), parts_.scene.mesh(), *pin);
+    if (!side) {
+        return;
+    }
+    if (!placed) {
+        board_.keep(*pin);
+    }
     const bool changed =
-        update_change(*pin, parts_.scene.patch_illuminance(pin->patch), parts_.scene.epoch());
+        update_change(*pin, parts_.scene.patch_illuminance(*side), parts_.scene.epoch());
     if (changed || refine(*pin)) {
         board_.keep(*pin);
         v1::ServerMessage message;
