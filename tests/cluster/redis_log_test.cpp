@@ -45,6 +45,7 @@ class RedisLogTest : public testing::Test {
         settings.address = server.address();
         settings.project = "office";
         settings.scene_digest = "abc";
+        settings.retry_ms = 10;
         return settings;
     }
     RedisServer server;

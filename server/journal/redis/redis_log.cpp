@@ -12,10 +12,7 @@
 namespace raybundle {
 namespace {
 
-/// Before a change is refused; pictures stand still meanwhile, as while a journal's file is busy.
-constexpr int timeout_ms = 1000;
 constexpr int block_ms = 200;  ///< of XREAD: how long the end of a server waits for it
-constexpr std::chrono::milliseconds retry_after(200);
 constexpr const char* page_entries = "1000";
 constexpr int most_conflicts_of_a_note = 16;
 
@@ -42,7 +39,7 @@ RedisLog::RedisLog(const RedisLogSettings& settings) : settings_(settings), work
     snapshot_key_ = prefix + "snapshot";
     numbers_key_ = prefix + "numbers";
     try {
-        writer_ = std::make_unique<RedisConnection>(settings.address, timeout_ms);
+        writer_ = std::make_unique<RedisConnection>(settings.address, settings.timeout_ms);
         check_project(*writer_);
         check_durability(*writer_);
         load(*writer_);
@@ -141,7 +138,7 @@ std::optional<std::string> RedisLog::gap(RedisConnection& connection) const {
 void RedisLog::follow() {
     do {
         try {
-            RedisConnection connection(settings_.address, timeout_ms);
+            RedisConnection connection(settings_.address, settings_.timeout_ms);
             check_project(connection);
             if (auto reason = gap(connection)) {
                 set_outage(std::move(reason));
@@ -174,7 +171,8 @@ void RedisLog::follow_by(RedisConnection& connection) {
 /// Waits a little before the next attempt. True: the server ends.
 bool RedisLog::rest() {
     std::unique_lock lock(mutex_);
-    return woken_.wait_for(lock, retry_after, [this] { return stop_; });
+    return woken_.wait_for(lock, std::chrono::milliseconds(settings_.retry_ms),
+                           [this] { return stop_; });
 }
 
 void RedisLog::set_outage(std::optional<std::string> reason) {
@@ -243,7 +241,7 @@ void RedisLog::keep_snapshot() {
 
 RedisConnection& RedisLog::writer() {
     if (!writer_) {
-        writer_ = std::make_unique<RedisConnection>(settings_.address, timeout_ms);
+        writer_ = std::make_unique<RedisConnection>(settings_.address, settings_.timeout_ms);
     }
     return *writer_;
 }

@@ -27,6 +27,10 @@ struct RedisLogSettings {
     /// forgotten; of tests less.
     std::uint32_t snapshot_every = 4096;
     std::uint32_t most_past = 16384;
+    /// Of a connection and of each answer, before a change is refused; pictures stand still
+    /// meanwhile, as while a journal's file is busy.
+    int timeout_ms = 1000;
+    int retry_ms = 200;  ///< from an outage to the next look whether it is over
 };
 
 /// The log of a project that several servers share: a stream of Redis. A change's ID is its epoch,
