@@ -26,13 +26,29 @@ enum class NoteKind : std::uint8_t {
     requirements = 141
 };
 
+/// By what a request is known again that has been answered.
+struct RequestKey {
+    std::string text;         ///< ClientMessage.request_key
+    std::uint32_t part = 0;   ///< of the changes that the request stands for this one, from 1
+    std::uint32_t parts = 0;  ///< how many these are; 0: this change is what was asked for
+
+    [[nodiscard]] bool complete() const { return part == parts; }
+};
+
 /// What another server of the project has added to its log: a change, or a note.
 struct LogEntry {
     v1::SceneChanged change;  ///< unset: a note
     NoteKind kind = NoteKind::pin;
     std::uint32_t number = 0;
-    std::string body;               ///< of the note; empty: it is gone
-    std::vector<std::string> keys;  ///< ClientMessage.request_key of who asked for the change
+    std::string body;              ///< of the note; empty: it is gone
+    std::vector<RequestKey> keys;  ///< of the requests for the change
+};
+
+/// A change that somebody may ask for again.
+struct KeyedChange {
+    v1::SceneChanged change;
+    v1::SceneChanged before;  ///< as append() had it; unset: not known any more
+    std::vector<RequestKey> keys;
 };
 
 /// What another server of the project tells and nobody keeps.
@@ -74,12 +90,13 @@ class ProjectLog {
     /// comes back by take_entries().
     [[nodiscard]] virtual Appended append(const v1::SceneChanged& change,
                                           const v1::SceneChanged& before,
-                                          const std::vector<std::string>& keys) = 0;
+                                          const std::vector<RequestKey>& keys) = 0;
 
     /// What other servers have added, in order; empty where there are no others.
     [[nodiscard]] virtual std::vector<LogEntry> take_entries() { return {}; }
     /// Changes of before the log was opened that had a key, newest last, as far as they are known.
-    [[nodiscard]] virtual std::vector<LogEntry> keyed() { return {}; }
+    /// Throws JournalError.
+    [[nodiscard]] virtual std::vector<KeyedChange> keyed() = 0;
 
     /// A number that no note of that kind has, on any server; `free` is one that this one knows
     /// none of. Throws JournalError.

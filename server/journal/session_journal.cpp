@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "journal/change_sum.h"
+#include "journal/request_keys.h"
 
 namespace raybundle {
 namespace {
@@ -92,6 +93,7 @@ void SessionJournal::open(const JournalSettings& settings) {
     database_->execute(
         "CREATE TABLE IF NOT EXISTS past(session INTEGER NOT NULL REFERENCES session(id),"
         " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID");
+    create_key_tables(*database_);
     database_->execute(kShownTable);
     find_session(settings);
 }
@@ -207,8 +209,16 @@ std::vector<v1::SceneChanged> SessionJournal::past() {
     return result;
 }
 
+std::vector<KeyedChange> SessionJournal::keyed() {
+    try {
+        return keyed_changes(*database_, session_);
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
 Appended SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                                const std::vector<std::string>& /*keys*/) {
+                                const std::vector<RequestKey>& keys) {
     try {
         const std::int64_t subject = subject_of(change).second;
         SqliteTransaction transaction(*database_);
@@ -226,6 +236,7 @@ Appended SessionJournal::append(const v1::SceneChanged& change, const v1::SceneC
         update.bind(2, session_);
         update.run();
         keep_past(change.epoch(), before);
+        keep_keys(*database_, session_, change, keys, most_past);
         transaction.commit();
         epoch_ = change.epoch();
         return Appended::yes;

@@ -42,9 +42,11 @@ class SessionJournal final : public ProjectLog {
     /// Without `before` nobody can go back beyond this change after a restart. Always `yes`; where
     /// it throws, nothing is written, and a later attempt may succeed.
     Appended append(const v1::SceneChanged& change, const v1::SceneChanged& before = {},
-                    const std::vector<std::string>& keys = {}) override;
+                    const std::vector<RequestKey>& keys = {}) override;
     /// most_past at most.
     [[nodiscard]] std::vector<v1::SceneChanged> past() override;
+    /// The last most_request_keys of the last most_past changes.
+    [[nodiscard]] std::vector<KeyedChange> keyed() override;
 
     [[nodiscard]] std::uint32_t new_number(NoteKind /*kind*/, std::uint32_t free) override {
         return free;

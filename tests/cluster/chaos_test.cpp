@@ -89,8 +89,8 @@ std::vector<StreamEntry> entries_of(const RedisServer& redis) {
 void expect_once(const std::vector<StreamEntry>& entries, const Changer& changer) {
     std::map<std::string, std::vector<std::uint32_t>> epochs;
     for (const StreamEntry& entry : entries) {
-        for (const std::string& key : entry.entry.keys) {
-            epochs[key].push_back(entry.entry.change.epoch());
+        for (const RequestKey& key : entry.entry.keys) {
+            epochs[key.text].push_back(entry.entry.change.epoch());
         }
     }
     for (const auto& [key, epoch] : changer.acknowledged) {

@@ -54,11 +54,13 @@ class RedisLogTest : public testing::Test {
 TEST_F(RedisLogTest, AChangeOfOneArrivesAtTheOther) {
     RedisLog one(settings());
     RedisLog other(settings());
-    EXPECT_EQ(one.append(light_of(1, 5.0F), light_of(0, 9.0F), {"key"}), Appended::yes);
+    EXPECT_EQ(one.append(light_of(1, 5.0F), light_of(0, 9.0F), {{"key"}}), Appended::yes);
     const auto entries = entries_of(other, 1);
     EXPECT_EQ(entries[0].change.epoch(), 1U);
     EXPECT_EQ(entries[0].change.set_light().intensity(), 5.0F);
-    EXPECT_EQ(entries[0].keys, std::vector<std::string>{"key"});
+    ASSERT_EQ(entries[0].keys.size(), 1U);
+    EXPECT_EQ(entries[0].keys[0].text, "key");
+    EXPECT_TRUE(entries[0].keys[0].complete());
     EXPECT_EQ(other.append(light_of(2, 6.0F), {}, {}), Appended::yes);
     EXPECT_EQ(entries_of(one, 1)[0].change.epoch(), 2U) << "its own change does not come back";
 }
@@ -79,7 +81,7 @@ TEST_F(RedisLogTest, ALaterOneHasTheSumTheStatesBeforeTheNotesAndTheKeys) {
         RedisLog log(settings());
         ASSERT_EQ(log.append(light_of(1, 5.0F), light_of(0, 9.0F), {}), Appended::yes);
         log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "glare");
-        ASSERT_EQ(log.append(light_of(2, 6.0F), light_of(0, 5.0F), {"k"}), Appended::yes);
+        ASSERT_EQ(log.append(light_of(2, 6.0F), light_of(0, 5.0F), {{"k"}}), Appended::yes);
         ASSERT_EQ(log.append(light_of(3, 7.0F, 2), light_of(0, 1.0F, 2), {}), Appended::yes);
         log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "gone");
         log.drop_note(NoteKind::pin, 2);
@@ -98,6 +100,23 @@ TEST_F(RedisLogTest, ALaterOneHasTheSumTheStatesBeforeTheNotesAndTheKeys) {
     EXPECT_EQ(log.notes(NoteKind::pin), std::vector<std::string>{"glare"});
     ASSERT_EQ(log.keyed().size(), 1U);
     EXPECT_EQ(log.keyed()[0].change.epoch(), 2U);
+    EXPECT_EQ(log.keyed()[0].before.set_light().intensity(), 5.0F);
+}
+
+TEST_F(RedisLogTest, OfSeveralChangesThatOneRequestStandsForTheKeySaysWhichIsMade) {
+    {
+        RedisLog log(settings());
+        ASSERT_EQ(log.append(light_of(1, 5.0F), {}, {{"undo", 1, 12}}), Appended::yes);
+        ASSERT_EQ(log.append(light_of(2, 6.0F), {}, {{"undo", 2, 12}, {"k"}}), Appended::yes);
+    }
+    RedisLog log(settings());
+    const auto keyed = log.keyed();
+    ASSERT_EQ(keyed.size(), 2U);
+    ASSERT_EQ(keyed[1].keys.size(), 2U);
+    EXPECT_EQ(keyed[1].keys[0].text, "undo");
+    EXPECT_EQ(keyed[1].keys[0].part, 2U);
+    EXPECT_EQ(keyed[1].keys[0].parts, 12U);
+    EXPECT_TRUE(keyed[1].keys[1].complete());
 }
 
 TEST_F(RedisLogTest, NumbersOfNotesAreOfOneAlone) {
@@ -146,14 +165,17 @@ TEST_F(RedisLogTest, WithoutRedisNothingIsStoredAndAllComesLater) {
 }
 
 TEST_F(RedisLogTest, WhoseAnswerWasLostComesBackOnce) {
-    RedisLog log(settings());
+    RedisLogSettings impatient = settings();
+    impatient.timeout_ms = 300;
+    RedisLog log(impatient);
     server.freeze();  // the command arrives, its answer does not in time
-    EXPECT_THROW(static_cast<void>(log.append(light_of(1, 5.0F), {}, {"k"})), JournalError);
+    EXPECT_THROW(static_cast<void>(log.append(light_of(1, 5.0F), {}, {{"k"}})), JournalError);
     server.thaw();
     wait_for_outage(log, false);
     const auto entries = entries_of(log, 1);
     EXPECT_EQ(entries[0].change.epoch(), 1U);
-    EXPECT_EQ(entries[0].keys, std::vector<std::string>{"k"});
+    ASSERT_EQ(entries[0].keys.size(), 1U);
+    EXPECT_EQ(entries[0].keys[0].text, "k");
     EXPECT_EQ(log.append(light_of(2, 6.0F), {}, {}), Appended::yes);
     EXPECT_EQ(server.command({"XLEN", "raybundle:{office}:log"}).number, 2);
 }

@@ -7,8 +7,10 @@
 #include <set>
 
 #include "daemon.h"
+#include "journal/session_journal.h"
 #include "json_viewer.h"
 #include "net/access/access_tokens.h"
+#include "scene/edit/light_edit.h"
 #include "test_folder.h"
 
 namespace raybundle {
@@ -230,6 +232,97 @@ TEST_F(Additions, ObjectsAreRemovedCopiedAndTakenFromTheFolder) {
     EXPECT_EQ(hit.at("probeResult").at("object"), number) << hit;
     EXPECT_TRUE(again.request({{"undo", {{"epoch", 0}}}}).contains("ok"));
     EXPECT_EQ(ids(objects_now()), ids(first));
+}
+
+Json keyed(Json request, const std::string& key) {
+    request["requestKey"] = key;
+    return request;
+}
+
+/// What a request was answered, without what names the request or tells of the scene as it is now.
+Json said(JsonViewer& viewer, const Json& request) {
+    Json answer = viewer.request(request);
+    answer.erase("replyTo");
+    if (answer.contains("sceneChanged")) {
+        Json& change = answer["sceneChanged"];
+        for (const char* now : {"objects", "materials", "lights"}) {
+            change.erase(now);
+        }
+        if (change.contains("setDaylight")) {
+            EXPECT_GT(change["setDaylight"].at("lights").size(), 0U);
+            change["setDaylight"].erase("lights");
+        }
+    }
+    return answer;
+}
+
+Json field_of_four() {
+    return keyed(
+        add("wide.ies",
+            {{"columns", 2}, {"rows", 2}, {"columnStep", vec(1, 0, 0)}, {"rowStep", vec(0, 0, 2)}}),
+        "field");
+}
+
+TEST_F(Additions, WhatIsAskedForAgainAfterAKillIsNotMadeAgain) {
+    ASSERT_EQ(put("wide.ies", wide), 201);
+    const std::vector<Json> requests{
+        keyed({{"setLight", {{"light", 1}, {"intensity", 500.0}}}}, "light"),
+        field_of_four(),
+        keyed({{"setGroup", {{"group", "all"}, {"dim", 0.5}, {"lights", {1}}}}}, "group"),
+        keyed({{"setDaylight", {{"sky", "clear"}, {"sunElevation", 40.0}}}}, "day"),
+        keyed({{"addObject", {{"copyOf", kShortBox}, {"name", "twin"}}}}, "twin"),
+        keyed({{"undo", {{"epoch", 1}}}}, "undo")};
+    std::vector<Json> answers;
+    {
+        JsonViewer editor(daemon_->port());
+        editor.join(editor_token, 32, 24);
+        for (const Json& request : requests) {
+            answers.push_back(said(editor, request));
+            EXPECT_FALSE(answers.back().contains("error")) << request << answers.back();
+            EXPECT_EQ(said(editor, request), answers.back()) << "asked for again at once";
+        }
+        daemon_->end(SIGKILL);
+    }
+    start();
+    JsonViewer editor(daemon_->port());
+    const Json welcome = editor.join(editor_token, 32, 24).at("welcome");
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        EXPECT_EQ(said(editor, requests[i]), answers[i]) << requests[i];
+    }
+    JsonViewer late(daemon_->port());
+    const Json after = late.join(editor_token, 32, 24).at("welcome");
+    EXPECT_EQ(after.at("epoch"), welcome.at("epoch")) << "nothing has been added";
+    EXPECT_EQ(after.at("scene"), welcome.at("scene"));
+}
+
+/// A server that was killed between the luminaires of a field has added some of them.
+TEST_F(Additions, OfAFieldThatWasBegunOnlyTheRestIsAdded) {
+    ASSERT_EQ(put("wide.ies", wide), 201);
+    daemon_.reset();
+    const std::string room = folder_.path("room.gltf");
+    {
+        SessionJournal journal({outside_.path("session.db"), room, *file_digest(room)});
+        v1::SceneChanged first;
+        first.set_epoch(1);
+        v1::AddLuminaire& luminaire = *first.mutable_add_luminaire();
+        luminaire.set_light(first_added_light);
+        luminaire.set_photometry("wide.ies");
+        luminaire.set_name("wide 1");
+        luminaire.mutable_position()->set_y(5.0F);
+        luminaire.mutable_aim()->set_y(-1.0F);
+        ASSERT_EQ(journal.append(first, {}, {{"field", 1, 4}}), Appended::yes);
+    }
+    start();
+    JsonViewer editor(daemon_->port());
+    const Json lights = editor.join(editor_token, 32, 24).at("welcome").at("scene").at("lights");
+    ASSERT_EQ(lights.back().at("name"), "wide 1");
+    EXPECT_TRUE(editor.request(field_of_four()).contains("ok"));
+    EXPECT_TRUE(editor.request(field_of_four()).contains("ok"));
+    JsonViewer late(daemon_->port());
+    const Json welcome = late.join(editor_token, 32, 24).at("welcome");
+    EXPECT_EQ(welcome.at("epoch"), 4);
+    EXPECT_EQ(welcome.at("scene").at("lights").size(), lights.size() + 3);
+    EXPECT_EQ(welcome.at("scene").at("lights").back().at("name"), "wide 4");
 }
 
 TEST_F(Additions, ARestartKeepsWhatHasComeAndGone) {

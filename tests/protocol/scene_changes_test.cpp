@@ -90,6 +90,25 @@ TEST(ChangeQueue, NothingIsJoinedAcrossAnUndo) {
     EXPECT_EQ(queue.take().change.move_object().transform().translation().x(), 3.0F);
 }
 
+/// Each says which part of the request it is, so that the log knows when all have been made.
+TEST(ChangeQueue, WhatARequestStandsForHasItsKey) {
+    ChangeQueue queue;
+    ClientEvent back = undo(2, 0);
+    back.message.set_request_key("k");
+    queue.add(back);
+    const std::vector<v1::SceneChanged> changes{change_of(light(0, 7.0F)),
+                                                change_of(move(0, 2, 1.0F))};
+    queue.add_expanded(changes, queue.take(), 3);
+    for (const std::uint32_t part : {4U, 5U}) {
+        const auto keys = keys_of(queue.take());
+        ASSERT_EQ(keys.size(), 1U);
+        EXPECT_EQ(keys[0].text, "k");
+        EXPECT_EQ(keys[0].part, part);
+        EXPECT_EQ(keys[0].parts, 5U);
+    }
+    EXPECT_TRUE(queue.take().expanded);
+}
+
 ClientEvent dim_group(std::uint32_t id, const std::string& name, float dim) {
     ClientEvent event = request(1, id);
     event.message.mutable_set_group()->set_group(name);

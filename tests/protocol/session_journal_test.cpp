@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "journal/request_keys.h"
+
 namespace raybundle {
 namespace {
 
@@ -112,6 +114,47 @@ TEST_F(SessionJournalTest, KnowsWhatWasBeforeTheLastChangesUpToAGap) {
     EXPECT_EQ(past[1].SerializeAsString(), move(4, 2, 1.5F).SerializeAsString());
     journal.append(move(5, 2, 4.5F));
     EXPECT_TRUE(journal.past().empty());
+}
+
+TEST_F(SessionJournalTest, KnowsWhatWasMadeOfARequestWithAKey) {
+    {
+        SessionJournal journal(settings_);
+        journal.append(move(1, 2, 0.5F), move(0, 2, 0.0F), {{"a"}, {"b"}});
+        journal.append(move(2, 2, 1.5F), move(0, 2, 0.5F));
+        journal.append(light(3, 5), {}, {{"undo", 1, 2}});
+        journal.append(move(4, 2, 2.5F), {}, {{"undo", 2, 2}});
+    }
+    const auto keyed = SessionJournal(settings_).keyed();
+    ASSERT_EQ(keyed.size(), 2U) << "of a request the last change counts";
+    EXPECT_EQ(keyed[0].change.SerializeAsString(), move(1, 2, 0.5F).SerializeAsString())
+        << "as it was made, whatever came after";
+    EXPECT_EQ(keyed[0].before.SerializeAsString(), move(0, 2, 0.0F).SerializeAsString());
+    ASSERT_EQ(keyed[0].keys.size(), 2U);
+    EXPECT_EQ(keyed[0].keys[1].text, "b");
+    EXPECT_TRUE(keyed[0].keys[1].complete());
+    EXPECT_EQ(keyed[1].change.epoch(), 4U);
+    ASSERT_EQ(keyed[1].keys.size(), 1U);
+    EXPECT_EQ(keyed[1].keys[0].part, 2U);
+    EXPECT_EQ(keyed[1].keys[0].parts, 2U);
+    settings_.scene_digest = "another";
+    EXPECT_TRUE(SessionJournal(settings_).keyed().empty());
+}
+
+TEST_F(SessionJournalTest, ForgetsKeysThatAreLongAgo) {
+    SessionJournal journal(settings_);
+    journal.append(move(1, 2, 0.5F), {}, {{"a"}});
+    journal.append(move(SessionJournal::most_past, 2, 1.5F), {}, {{"b"}});
+    EXPECT_EQ(journal.keyed().size(), 2U);
+    journal.append(move(SessionJournal::most_past + 1, 2, 1.5F));
+    ASSERT_EQ(journal.keyed().size(), 1U);
+    EXPECT_EQ(journal.keyed()[0].keys[0].text, "b");
+    std::vector<RequestKey> many;
+    for (std::uint32_t i = 0; i < most_request_keys; ++i) {
+        many.push_back({"c" + std::to_string(i)});
+    }
+    journal.append(move(SessionJournal::most_past + 2, 2, 1.5F), {}, many);
+    ASSERT_EQ(journal.keyed().size(), 1U) << "the file does not grow with time";
+    EXPECT_EQ(journal.keyed()[0].keys.size(), most_request_keys);
 }
 
 TEST_F(SessionJournalTest, AnotherSceneIsAnotherSession) {

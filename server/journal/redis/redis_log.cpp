@@ -104,7 +104,7 @@ void RedisLog::load(RedisConnection& connection) {
                 past_.back().set_epoch(entry.entry.change.epoch());
             }
             if (!entry.entry.keys.empty()) {
-                keyed_.push_back(entry.entry);
+                keyed_.push_back({entry.entry.change, entry.before, entry.entry.keys});
             }
         }
     }
@@ -288,7 +288,7 @@ Appended RedisLog::add(const StreamEntry& entry, bool again) {
 }
 
 Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                          const std::vector<std::string>& keys) {
+                          const std::vector<RequestKey>& keys) {
     if (const auto reason = outage()) {
         throw JournalError(*reason);
     }

@@ -51,9 +51,9 @@ class RedisLog final : public ProjectLog {
     [[nodiscard]] std::uint32_t epoch() const override { return epoch_; }
     [[nodiscard]] std::vector<v1::SceneChanged> changes() override { return state_.changes(); }
     [[nodiscard]] std::vector<v1::SceneChanged> past() override { return past_; }
-    [[nodiscard]] std::vector<LogEntry> keyed() override { return keyed_; }
+    [[nodiscard]] std::vector<KeyedChange> keyed() override { return keyed_; }
     [[nodiscard]] Appended append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                                  const std::vector<std::string>& keys) override;
+                                  const std::vector<RequestKey>& keys) override;
     [[nodiscard]] std::vector<LogEntry> take_entries() override;
 
     [[nodiscard]] std::uint32_t new_number(NoteKind kind, std::uint32_t free) override;
@@ -95,7 +95,7 @@ class RedisLog final : public ProjectLog {
     std::set<std::uint64_t> done_;  ///< own requests that are in the stream and not read yet
     LogState state_;
     std::vector<v1::SceneChanged> past_;
-    std::vector<LogEntry> keyed_;
+    std::vector<KeyedChange> keyed_;
     std::unique_ptr<RedisConnection> writer_;
 
     mutable std::mutex mutex_;

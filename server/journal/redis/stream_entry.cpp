@@ -16,11 +16,31 @@ bool parse_number(std::string_view text, Number& number) {
     return parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
 }
 
-std::vector<std::string> split_keys(const std::string& text) {
-    std::vector<std::string> keys;
+/// "KEY", or "KEY PART/PARTS" of one of several changes. Keys have no blanks.
+std::string text_of(const RequestKey& key) {
+    return key.parts == 0
+               ? key.text
+               : key.text + " " + std::to_string(key.part) + "/" + std::to_string(key.parts);
+}
+
+RequestKey parse_key(std::string_view text) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    const std::size_t slash = std::min(text.find('/', blank), text.size());
+    RequestKey key{std::string(text.substr(0, blank))};
+    if (slash < text.size() &&
+        (!parse_number(text.substr(blank + 1, slash - blank - 1), key.part) ||
+         !parse_number(text.substr(slash + 1), key.parts))) {
+        key.part = 0;
+        key.parts = 1;  // it is not known to be complete
+    }
+    return key;
+}
+
+std::vector<RequestKey> split_keys(const std::string& text) {
+    std::vector<RequestKey> keys;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(key_separator, begin), text.size());
-        keys.push_back(text.substr(begin, end - begin));
+        keys.push_back(parse_key(std::string_view(text).substr(begin, end - begin)));
         begin = end + 1;
     }
     return keys;
@@ -74,8 +94,8 @@ std::vector<std::string> words_of(const StreamEntry& entry) {
         return words;
     }
     std::string keys;
-    for (const std::string& key : entry.entry.keys) {
-        keys += (keys.empty() ? "" : std::string(1, key_separator)) + key;
+    for (const RequestKey& key : entry.entry.keys) {
+        keys += (keys.empty() ? "" : std::string(1, key_separator)) + text_of(key);
     }
     words.insert(words.end(), {"change", entry.entry.change.SerializeAsString(), "before",
                                entry.before.SerializeAsString()});

@@ -104,7 +104,7 @@ void ChangeCoordinator::start_pending() {
         return;
     }
     if (first.stands_for_several()) {
-        start_several(first);
+        start_several(std::move(first));
         return;
     }
     const TimePoint begun = parts_.policy.clock().now();
@@ -200,14 +200,17 @@ bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
 
 /// Puts the changes that a request stands for where their turn is next, or answers it once they
 /// have been made.
-void ChangeCoordinator::start_several(const PendingChange& pending) {
+void ChangeCoordinator::start_several(PendingChange pending) {
+    if (!pending.expanded && recorder_.drop_made(pending)) {
+        return;
+    }
     if (pending.expanded) {
         if (pending.requests.front().message.has_undo()) {
             parts_.animations.note_undo(pending.requests.front().message.undo().epoch());
         }
         for (const ClientEvent& request : pending.requests) {
             recorder_.some_failed() ? recorder_.refuse_unsaved(request)
-                                    : parts_.server.reply_ok(request);
+                                    : recorder_.answer_all_made(request);
         }
         return;
     }
@@ -218,7 +221,7 @@ void ChangeCoordinator::start_several(const PendingChange& pending) {
         if (expansion.is_answer) {
             queue_.put_first({expansion.changes.front(), pending.requests, false});
         } else {
-            queue_.add_expanded(expansion.changes, pending);
+            queue_.add_expanded(expansion.changes, pending, expansion.made, expansion.fresh);
         }
         return;
     }

@@ -70,7 +70,7 @@ class ChangeCoordinator {
     [[nodiscard]] bool goes_on(const std::vector<PendingChange>& pending) const;
     bool start_surfaces(std::vector<PendingChange>& pending);
     void undim_sky(std::vector<PendingChange>& pending) const;
-    void start_several(const PendingChange& pending);
+    void start_several(PendingChange pending);
     void gather_all();
     void begin_phase(Solver& solver, bool dragged);
     void shrink_for_drag();

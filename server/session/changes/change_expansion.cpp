@@ -110,12 +110,24 @@ Expansion exchange_type(const v1::SetLight& request, const Scene& scene) {
     return result;
 }
 
-Expansion add_field(const v1::AddLuminaire& request, const Scene& scene) {
+/// How many luminaires of a field a server has made that ended before the last one.
+std::size_t made_before(const PendingChange& pending, std::size_t size, const ChangeLog& log) {
+    const v1::ClientMessage& message = pending.requests.front().message;
+    const MadeRequest* const made =
+        message.has_request_key() ? log.made(message.request_key()) : nullptr;
+    return made != nullptr && made->key.parts == size ? made->key.part : 0;
+}
+
+Expansion add_field(const PendingChange& pending, const Scene& scene, const ChangeLog& log) {
+    const v1::AddLuminaire& request = pending.requests.front().message.add_luminaire();
     const std::string problem = problem_of(scene, from_message(request));
     if (!problem.empty()) {
         return refused(v1::Error::INVALID_ARGUMENT, "addLuminaire." + problem);
     }
-    const std::vector<v1::AddLuminaire> field = field_of(scene, request);
+    std::vector<v1::AddLuminaire> field = field_of(scene, request);
+    const std::size_t made = made_before(pending, field.size(), log);
+    const bool one = field.size() == 1;
+    field.erase(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(made));
     if (added_lights(scene) + field.size() > max_added_lights) {
         return refused(v1::Error::RESOURCE_EXHAUSTED, "addLuminaire: at most " +
                                                           std::to_string(max_added_lights) +
@@ -123,7 +135,9 @@ Expansion add_field(const v1::AddLuminaire& request, const Scene& scene) {
                                                           std::to_string(added_lights(scene)));
     }
     Expansion result;
-    result.is_answer = field.size() == 1;
+    result.is_answer = one;
+    result.fresh = true;
+    result.made = static_cast<std::uint32_t>(made);
     for (const v1::AddLuminaire& luminaire : field) {
         const std::string wrong = problem_of(scene, from_message(luminaire));
         if (!wrong.empty()) {
@@ -173,7 +187,7 @@ Expansion expand(const PendingChange& pending, const Scene& scene, const PatchMe
         return add_one_object(message.add_object(), scene, mesh);
     }
     if (message.has_add_luminaire()) {
-        return add_field(message.add_luminaire(), scene);
+        return add_field(pending, scene, log);
     }
     if (message.has_set_light()) {
         return exchange_type(message.set_light(), scene);

@@ -15,6 +15,8 @@ struct Expansion {
     v1::Error problem;  ///< unset where there is none
     /// The change is what was asked for, and answers it; else they are answered apart.
     bool is_answer = false;
+    bool fresh = false;      ///< luminaires that nobody has numbered for good
+    std::uint32_t made = 0;  ///< of them have been made before, under the request's key
 };
 
 /// Of an undo, a group of lights, a lighting scene, what is added, or an exchange of all luminaires

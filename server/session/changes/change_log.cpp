@@ -183,9 +183,7 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
         refresh_surfaces(scene, materials, mesh);
     }
     restore_history(scene);
-    for (const LogEntry& entry : journal_->keyed()) {
-        note_keys(entry.keys, entry.change);
-    }
+    restore_keys();
     if (epoch_ > 0) {
         spdlog::info("the session goes on after change {}", epoch_);
     }
@@ -230,6 +228,19 @@ void ChangeLog::restore_history(const Scene& scene) {
     }
 }
 
+/// What has been answered before a restart is known again.
+void ChangeLog::restore_keys() {
+    try {
+        for (const KeyedChange& keyed : journal_->keyed()) {
+            v1::SceneChanged record = keyed.change;
+            set_before(unsigned_state(keyed.before), record);
+            note_keys(keyed.keys, record);
+        }
+    } catch (const JournalError& error) {
+        spdlog::error("what is asked for again may be made twice: {}", error.what());
+    }
+}
+
 /// Whether there is a journal, where there has to be one.
 bool ChangeLog::usable() {
     if (required_ && !journal_) {
@@ -260,7 +271,7 @@ v1::Error ChangeLog::refusal(const std::string& text) const {
 }
 
 Recorded ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before,
-                           const std::vector<std::string>& keys) {
+                           const std::vector<RequestKey>& keys) {
     change.set_epoch(epoch_ + 1);
     if (!usable()) {
         return Recorded::no;
@@ -287,7 +298,7 @@ std::vector<LogEntry> ChangeLog::take_entries() {
 }
 
 bool ChangeLog::accept(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                       const std::vector<std::string>& keys) {
+                       const std::vector<RequestKey>& keys) {
     if (change.epoch() != epoch_ + 1) {
         return false;
     }
@@ -309,10 +320,11 @@ std::vector<PeerNews> ChangeLog::take_news() {
     return shared() ? journal_->take_news() : std::vector<PeerNews>();
 }
 
-void ChangeLog::note_keys(const std::vector<std::string>& keys, const v1::SceneChanged& change) {
-    for (const std::string& key : keys) {
-        if (made_.insert_or_assign(key, change).second) {
-            keys_.push_back(key);
+void ChangeLog::note_keys(const std::vector<RequestKey>& keys, const v1::SceneChanged& change) {
+    for (const RequestKey& key : keys) {
+        const MadeRequest made{key.parts == 0 ? change : v1::SceneChanged(), key};
+        if (made_.insert_or_assign(key.text, made).second) {
+            keys_.push_back(key.text);
         }
     }
     while (keys_.size() > max_keys) {
@@ -321,7 +333,7 @@ void ChangeLog::note_keys(const std::vector<std::string>& keys, const v1::SceneC
     }
 }
 
-const v1::SceneChanged* ChangeLog::made(const std::string& key) const {
+const MadeRequest* ChangeLog::made(const std::string& key) const {
     const auto found = made_.find(key);
     return found == made_.end() ? nullptr : &found->second;
 }

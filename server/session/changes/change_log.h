@@ -28,6 +28,12 @@ enum class Recorded : std::uint8_t {
     no,     ///< it could not be stored and must not be made; refusal() says why
 };
 
+/// What was made of a request with a key.
+struct MadeRequest {
+    v1::SceneChanged change;  ///< unset where the request stands for several
+    RequestKey key;           ///< of its last change so far
+};
+
 /// The one ordered log of scene changes: gives each its epoch and, where a journal is configured,
 /// puts it there before anybody hears of it.
 class ChangeLog {
@@ -57,20 +63,24 @@ class ChangeLog {
     /// Numbers the change and stores it, with what its subject is like before it, who makes it
     /// when, and the keys of the requests for it.
     [[nodiscard]] Recorded record(v1::SceneChanged& change, const v1::SceneChanged& before,
-                                  const std::vector<std::string>& keys = {});
+                                  const std::vector<RequestKey>& keys = {});
     /// What other servers of the project have added, in order.
     [[nodiscard]] std::vector<LogEntry> take_entries();
     /// Takes up the next change that is in the log already, of another server. False: it is not
     /// the next one.
     [[nodiscard]] bool accept(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                              const std::vector<std::string>& keys);
+                              const std::vector<RequestKey>& keys);
+    /// Notes what a change is announced as; it answers its requests also when they come again.
+    void note_answer(const std::vector<RequestKey>& keys, const v1::SceneChanged& change) {
+        note_keys(keys, change);
+    }
     /// Whether other servers have it, too.
     [[nodiscard]] bool shared() const { return journal_ && journal_->shared(); }
     /// See ProjectLog; nothing where nobody else has the log.
     void publish(const v1::ServerMessage& message, bool lasting);
     [[nodiscard]] std::vector<PeerNews> take_news();
     /// What was made of a request with that key; null where it is not known.
-    [[nodiscard]] const v1::SceneChanged* made(const std::string& key) const;
+    [[nodiscard]] const MadeRequest* made(const std::string& key) const;
     /// Why nothing was stored, for who asked: what is answered in place of `text`.
     [[nodiscard]] v1::Error refusal(const std::string& text) const;
 
@@ -115,8 +125,9 @@ class ChangeLog {
     bool usable();
     void open_again();
     void refused(const std::string& what, const std::string& reason);
-    void note_keys(const std::vector<std::string>& keys, const v1::SceneChanged& change);
+    void note_keys(const std::vector<RequestKey>& keys, const v1::SceneChanged& change);
     void restore_history(const Scene& scene);
+    void restore_keys();
     void note_animation(const v1::SceneChanged& change);
 
     std::string place_;
@@ -131,8 +142,8 @@ class ChangeLog {
     ChangeRecords records_;
     std::vector<v1::AnimationStep> animation_steps_;
     std::uint64_t failures_ = 0;
-    std::map<std::string, v1::SceneChanged> made_;  ///< by request key
-    std::deque<std::string> keys_;                  ///< of made_, oldest first
+    std::map<std::string, MadeRequest> made_;  ///< by request key
+    std::deque<std::string> keys_;             ///< of made_, oldest first
 };
 
 }  // namespace raybundle

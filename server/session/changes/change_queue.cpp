@@ -37,6 +37,16 @@ v1::SceneChanged change_of(const ClientEvent& event) {
     return change;
 }
 
+std::vector<RequestKey> keys_of(const PendingChange& pending) {
+    std::vector<RequestKey> keys = pending.keys;
+    for (const ClientEvent& request : pending.requests) {
+        if (request.message.has_request_key()) {
+            keys.push_back({request.message.request_key()});
+        }
+    }
+    return keys;
+}
+
 /// Whether a request goes on where one that waits last has begun: a group that is being dimmed.
 bool ChangeQueue::joins_last(const ClientEvent& event) const {
     const auto group_of = [](const ClientEvent& e) { return e.message.set_group().group(); };
@@ -74,12 +84,21 @@ void ChangeQueue::add(const ClientEvent& event) {
 }
 
 void ChangeQueue::add_expanded(const std::vector<v1::SceneChanged>& changes,
-                               const PendingChange& request) {
+                               const PendingChange& request, std::uint32_t made, bool fresh) {
     pending_.push_front(request);
     pending_.front().expanded = true;
-    for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
-        pending_.push_front({*change, {}});
-        pending_.front().change.set_by(request.requests.back().viewer);
+    const auto all = made + static_cast<std::uint32_t>(changes.size());
+    for (std::uint32_t number = all; number > made; --number) {
+        PendingChange part{changes[number - made - 1], {}};
+        part.change.set_by(request.requests.back().viewer);
+        part.keys = keys_of(request);
+        for (RequestKey& key : part.keys) {
+            key.part = number;
+            key.parts = all;
+        }
+        part.part = true;
+        part.fresh = fresh;
+        pending_.push_front(std::move(part));
     }
 }
 

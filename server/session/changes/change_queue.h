@@ -17,10 +17,13 @@ struct PendingChange {
     v1::SceneChanged change;  ///< without epoch; not set: stands for several ones
     std::vector<ClientEvent> requests;
     bool expanded = false;  ///< of several ones: they have been made, it is to be answered
-    /// Is in the log already, by another server of the project, with its epoch and these keys.
+    /// Is in the log already, by another server of the project, with its epoch and its keys.
     bool recorded = false;
-    std::vector<std::string> keys = {};
+    std::vector<RequestKey> keys = {};
     bool again = false;  ///< has had its turn, when other servers were quicker
+    bool part = false;   ///< of what a request stands for, whose keys it has
+    /// A part that nobody else adds under another number: it gets its number when it is its turn.
+    bool fresh = false;
 
     /// An undo, a group of lights, a lighting scene: which changes these are is found out when it
     /// is their turn.
@@ -36,9 +39,11 @@ class ChangeQueue {
   public:
     /// A request for a change, or for what stands for several.
     void add(const ClientEvent& event);
-    /// Puts the changes that a request stands for in front, and itself, now `expanded`, behind
-    /// them.
-    void add_expanded(const std::vector<v1::SceneChanged>& changes, const PendingChange& request);
+    /// Puts the changes that a request stands for in front, each a part of it with its keys, and
+    /// itself, now `expanded`, behind them. made: how many parts of it have been made before, by a
+    /// server that has ended since.
+    void add_expanded(const std::vector<v1::SceneChanged>& changes, const PendingChange& request,
+                      std::uint32_t made = 0, bool fresh = false);
     /// A change that another server has made: behind those of the kind, before all others.
     void add_recorded(LogEntry entry);
     /// Puts changes back whose turn has not come after all, in order, behind recorded ones.
@@ -61,6 +66,9 @@ class ChangeQueue {
 
     std::deque<PendingChange> pending_;
 };
+
+/// Keys of the requests for a change, or those that it has.
+std::vector<RequestKey> keys_of(const PendingChange& pending);
 
 /// The change that a request asks for; empty for what stands for several.
 v1::SceneChanged change_of(const ClientEvent& event);

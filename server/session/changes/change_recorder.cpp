@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -18,16 +19,6 @@ namespace raybundle {
 namespace {
 
 constexpr const char* not_saved = "the change could not be saved, so it was not made";
-
-std::vector<std::string> keys_of(const PendingChange& pending) {
-    std::vector<std::string> keys;
-    for (const ClientEvent& request : pending.requests) {
-        if (request.message.has_request_key()) {
-            keys.push_back(request.message.request_key());
-        }
-    }
-    return keys;
-}
 
 /// What there is to know of an addition, or of what is there again.
 template <typename Addition>
@@ -63,8 +54,11 @@ std::vector<PendingChange> ChangeRecorder::record(std::vector<PendingChange>& pe
 Recorded ChangeRecorder::record_one(PendingChange& pending) {
     Scene& scene = parts_.scene.scene();
     ChangeLog& log = parts_.scene.log();
-    if (drop_made(pending)) {
+    if (drop_made(pending) || part_is_over(pending)) {
         return Recorded::no;
+    }
+    if (pending.fresh) {
+        pending.change.mutable_add_luminaire()->set_light(next_luminaire(scene));
     }
     if (pending.recorded) {
         pending.change.set_by(0);  // numbers of viewers are each server's own
@@ -95,6 +89,7 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
     if (pending.change.has_set_daylight()) {
         describe_sky_lights(scene, pending.change.mutable_set_daylight());
     }
+    log.note_answer(keys_of(pending), pending.change);
     return Recorded::yes;
 }
 
@@ -187,19 +182,46 @@ void ChangeRecorder::refuse_unsaved(const ClientEvent& request) const {
 }
 
 bool ChangeRecorder::answer_made(const ClientEvent& request) const {
-    const v1::SceneChanged* const made =
-        request.message.has_request_key() ? parts_.scene.log().made(request.message.request_key())
-                                          : nullptr;
-    if (made == nullptr) {
+    const MadeRequest* const made = request.message.has_request_key()
+                                        ? parts_.scene.log().made(request.message.request_key())
+                                        : nullptr;
+    if (made == nullptr || !made->key.complete()) {
         return false;
     }
+    if (made->key.parts > 0) {
+        parts_.server.reply_ok(request);
+        return true;
+    }
+    const Scene& scene = parts_.scene.scene();
     v1::ServerMessage message;
-    *message.mutable_scene_changed() = announced(parts_.scene.scene(), *made);
+    v1::SceneChanged& change = *message.mutable_scene_changed() = announced(scene, made->change);
+    if (change.has_set_daylight() && change.set_daylight().lights().empty()) {
+        describe_sky_lights(scene, change.mutable_set_daylight());  // the log has it without
+    }
     parts_.server.reply(request, message);
     return true;
 }
 
-/// Answers those requests that another server has carried out meanwhile. True: none is left.
+void ChangeRecorder::answer_all_made(const ClientEvent& request) const {
+    if (request.message.has_request_key()) {  // of none no change in the log knows the key
+        parts_.scene.log().note_answer({{request.message.request_key(), 1, 1}}, {});
+    }
+    parts_.server.reply_ok(request);
+}
+
+/// A part of what a request stands for is not made where an earlier one has failed, so that what
+/// has been made is known by the last part; nor where another server has made it meanwhile.
+bool ChangeRecorder::part_is_over(const PendingChange& pending) const {
+    if (!pending.part || some_failed_) {
+        return pending.part;
+    }
+    return pending.fresh &&
+           std::any_of(pending.keys.begin(), pending.keys.end(), [this](const RequestKey& key) {
+               const MadeRequest* const made = parts_.scene.log().made(key.text);
+               return made != nullptr && made->key.parts == key.parts && made->key.part >= key.part;
+           });
+}
+
 bool ChangeRecorder::drop_made(PendingChange& pending) const {
     if (pending.requests.empty()) {
         return false;

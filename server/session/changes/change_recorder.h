@@ -39,6 +39,10 @@ class ChangeRecorder {
 
     /// Answers a request that has been carried out before, under its key. False: it has not.
     [[nodiscard]] bool answer_made(const ClientEvent& request) const;
+    /// Answers one that stood for several changes, or for none.
+    void answer_all_made(const ClientEvent& request) const;
+    /// Answers those requests that have been carried out meanwhile. True: none is left.
+    [[nodiscard]] bool drop_made(PendingChange& pending) const;
     /// Answers one for a change that could not be saved.
     void refuse_unsaved(const ClientEvent& request) const;
 
@@ -51,7 +55,7 @@ class ChangeRecorder {
     Recorded record_one(PendingChange& pending);
     Recorded number(PendingChange& pending, const v1::SceneChanged& before);
     [[nodiscard]] v1::Error problem_now(const PendingChange& pending) const;
-    bool drop_made(PendingChange& pending) const;
+    [[nodiscard]] bool part_is_over(const PendingChange& pending) const;
     void sign(PendingChange& pending) const;
 
     Parts parts_;
