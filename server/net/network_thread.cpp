@@ -71,7 +71,7 @@ void NetworkThread::run() {
     constexpr auto kGoodbye = std::chrono::milliseconds(300);
     constexpr auto kGoodbyeStep = std::chrono::milliseconds(2);
     Clock::time_point end = Clock::time_point::max();
-    while (Clock::now() < end && !(said_goodbye_ && viewers_.empty())) {
+    while (Clock::now() < end && !(said_goodbye_ && viewers_.empty() && !http_.answering())) {
         if (said_goodbye_) {
             std::this_thread::sleep_for(kGoodbyeStep);
         }
@@ -86,6 +86,7 @@ void NetworkThread::run() {
             for (const auto& [connection, viewer] : viewers_) {
                 viewer->close(CloseCode::going_away, "the server is stopping");
             }
+            http_.say_goodbye();
         }
     }
     const std::lock_guard lock(context_mutex_);

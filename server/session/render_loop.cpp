@@ -136,7 +136,7 @@ void RenderLoop::refuse_waiting() {
     waiting.insert(waiting.end(), changes.begin(), changes.end());
     for (const ClientEvent& event : waiting) {
         if (event.kind == ClientEvent::Kind::message) {
-            state_.server.reply_error(event, v1::Error::INTERNAL, "the server is stopping");
+            state_.server.reply_error(event, v1::Error::UNAVAILABLE, "the server is stopping");
         }
     }
 }

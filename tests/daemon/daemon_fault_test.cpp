@@ -314,7 +314,19 @@ TEST_F(DaemonTest, AReplacedSceneIsServedAndARejectedOneIsNot) {
     EXPECT_NE(welcome.dump().find("renamed box"), std::string::npos) << welcome.dump();
     EXPECT_EQ(welcome.at("welcome").at("epoch"), 0);
     EXPECT_TRUE(solves(again));
-    EXPECT_EQ(daemon.end(), 0);
+
+    // What is not done when the server stops can be asked for again.
+    const Json picture = {{"width", 640}, {"height", 480}, {"relativeError", 1e-3}};
+    again.send({{"id", 98}, {"snapshot", picture}});
+    again.send({{"id", 99}, {"snapshot", picture}});
+    again.request({{"ping", Json::object()}});  // they are there
+    daemon.signal(SIGTERM);
+    for (const std::uint32_t id : {98U, 99U}) {
+        const Json answer = again.answer_to(id);
+        ASSERT_TRUE(answer.contains("error")) << answer;
+        EXPECT_EQ(answer.at("error").at("code"), "UNAVAILABLE") << answer;
+    }
+    EXPECT_EQ(daemon.wait(), 0);
 }
 
 }  // namespace

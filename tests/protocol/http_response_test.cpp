@@ -39,6 +39,36 @@ TEST(HttpResponse, HealthAndMetrics) {
     EXPECT_EQ(get("/metrics").content_type, "text/plain; version=0.0.4; charset=utf-8");
 }
 
+/// Value of a header as it is sent; "-" where it is absent, "!" where it is there twice.
+std::string sent_header(const HttpResponse& response, std::string_view name) {
+    std::string value = "-";
+    for (const auto& [key, text] : headers_of(response)) {
+        if (key == name) {
+            value = value == "-" ? text : "!";
+        }
+    }
+    return value;
+}
+
+TEST(HttpResponse, SaysWhenToAskAgainWhateverIsAskedFor) {
+    EXPECT_EQ(sent_header(get("/healthz", false), "retry-after:"), "1");
+    EXPECT_EQ(sent_header(get("/healthz", true), "retry-after:"), "-");
+    HttpResponse crowded;
+    crowded.status = 429;
+    EXPECT_EQ(sent_header(crowded, "retry-after:"), "1");
+    HttpResponse document;
+    document.status = 503;
+    document.headers = {{"retry-after:", "5"}, {"cache-control:", "private"}};
+    EXPECT_EQ(sent_header(document, "retry-after:"), "5");
+    EXPECT_EQ(sent_header(document, "cache-control:"), "private") << "in place of the common one";
+    EXPECT_EQ(sent_header(document, "referrer-policy:"), "no-referrer");
+}
+
+TEST(HttpResponse, SaysThatItsConnectionEnds) {
+    EXPECT_EQ(sent_header(get("/"), "connection:"), "-");
+    EXPECT_EQ(sent_header(last_response(get("/")), "connection:"), "close");
+}
+
 TEST(HttpResponse, HealthTellsLiveReadyAndEditableApart) {
     const auto status = [](const char* path, bool ready, bool editable) {
         HttpContent content{kFiles, ready, ""};

@@ -285,6 +285,40 @@ TEST_F(RestServerTest, TheConnectionServesTheNextRequestAfterARefusal) {
     EXPECT_TRUE(client.read_until("live\n").starts_with("HTTP/1.1 200"));
 }
 
+/// Only where nobody can tell where the next request begins.
+TEST_F(RestServerTest, ABodyWithoutLengthEndsItsConnectionAndAnEmptyOneDoesNot) {
+    for (const char* line : {"POST /api/v1/undo", "PATCH /api/v1/pins/1", "POST /index.html"}) {
+        RawClient client(server_.port());
+        client.send(std::string(line) + " HTTP/1.1\r\nHost: h\r\n\r\n");
+        const std::string answer = client.read_all();
+        EXPECT_TRUE(answer.starts_with("HTTP/1.1 4")) << answer;
+        EXPECT_TRUE(has(answer, "connection: close\r\n")) << answer;
+    }
+    RawClient client(server_.port());
+    for (const char* line : {"POST /api/v1/undo", "PUT /pins.bcf", "PUT /scenes/a.glb"}) {
+        client.send(std::string(line) + " HTTP/1.1\r\nHost: h\r\nContent-Length: 0\r\n\r\n");
+        const std::string answer = client.read_until("\n\r\n") + client.read_until("\n");
+        EXPECT_TRUE(answer.starts_with("HTTP/1.1 4")) << answer;
+        EXPECT_FALSE(has(answer, "connection: close\r\n")) << answer;
+    }
+    client.send("GET /healthz/live HTTP/1.1\r\nHost: h\r\n\r\n");
+    EXPECT_TRUE(client.read_until("live\n").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(RestServerTest, WhoWaitsWhileTheServerStopsIsToldSo) {
+    RawClient client(server_.port());
+    client.send(head("POST /api/v1/undo", "{}", "") + "{}");
+    while (server_.inbox().size() < 2) {
+        server_.inbox().wait_for(std::chrono::milliseconds(5));
+    }
+    server_.stop();
+    const std::string answer = client.read_all();
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 503")) << answer;
+    EXPECT_TRUE(has(answer, "retry-after: 1\r\n")) << answer;
+    EXPECT_TRUE(has(answer, "\"code\":\"UNAVAILABLE\"")) << answer;
+    EXPECT_TRUE(has(answer, "the server is stopping")) << answer;
+}
+
 TEST_F(RestServerTest, WhoHangsUpLeaves) {
     {
         RawClient client(server_.port());

@@ -10,6 +10,10 @@ namespace {
 
 constexpr const char* retry_after_s = "5";  // most documents take less
 
+DocumentResult stopping_result() {
+    return {503, "text/plain; charset=utf-8", "The server is stopping\n", {}};
+}
+
 HttpResponse document_response(DocumentResult result) {
     HttpResponse response;
     response.status = result.status;
@@ -39,7 +43,11 @@ std::optional<HttpResponse> HttpDocuments::begin(lws* connection, DocumentReques
             {411, "text/plain; charset=utf-8", "Needs Content-Length, not 0\n", {}});
     }
     if (put && *length > most_bytes) {
-        return document_response({413, "text/plain; charset=utf-8", "Larger than 16 MiB\n", {}});
+        return last_response(
+            document_response({413, "text/plain; charset=utf-8", "Larger than 16 MiB\n", {}}));
+    }
+    if (stopping_) {
+        return document_response(stopping_result());
     }
     if (running_.size() >= most_running) {
         return document_response({503,
@@ -87,14 +95,24 @@ std::optional<HttpResponse> HttpDocuments::expire(lws* connection) {
         return std::nullopt;
     }
     running_.erase(found);
-    return document_response(
-        {408, "text/plain; charset=utf-8", "The body took too long (maxUploadSeconds)\n", {}});
+    return last_response(document_response(
+        {408, "text/plain; charset=utf-8", "The body took too long (maxUploadSeconds)\n", {}}));
 }
 
 void HttpDocuments::complete(lws* connection) {
     Running& running = running_.at(connection);
     if (running.missing == 0 && !running.asked) {
         ask(running);
+    }
+}
+
+void HttpDocuments::say_goodbye() {
+    stopping_ = true;
+    for (auto& [connection, running] : running_) {
+        const std::lock_guard lock(running.answer->mutex);
+        if (!running.answer->result) {
+            running.answer->result = stopping_result();
+        }
     }
 }
 

@@ -42,6 +42,8 @@ class HttpDocuments {
     std::optional<HttpResponse> expire(lws* connection);
     /// Answers that have come since the last call.
     std::vector<std::pair<lws*, HttpResponse>> finished();
+    /// The server is stopping: finished() has a refusal for each, and begin() has none but such.
+    void say_goodbye();
     void forget(lws* connection) { running_.erase(connection); }
 
   private:
@@ -59,6 +61,7 @@ class HttpDocuments {
 
     NetworkState& state_;
     std::function<void()> wake_;
+    bool stopping_ = false;
     std::map<lws*, Running> running_;
 };
 

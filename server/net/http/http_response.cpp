@@ -190,4 +190,33 @@ std::span<const std::pair<const char*, std::string_view>> http_headers() {
     return kHeaders;
 }
 
+std::vector<std::pair<std::string, std::string>> headers_of(const HttpResponse& response) {
+    std::vector<std::pair<std::string, std::string>> headers = response.headers;
+    const auto add = [&headers](const char* name, std::string_view value) {
+        const bool own = std::any_of(headers.begin(), headers.end(),
+                                     [name](const auto& header) { return header.first == name; });
+        if (!own) {
+            headers.emplace_back(name, value);
+        }
+    };
+    for (const auto& [name, value] : http_headers()) {
+        add(name, value);
+    }
+    if (response.status == 429 || response.status == 503) {
+        add("retry-after:", "1");
+    }
+    if (response.status == 401) {
+        add("www-authenticate:", "Bearer");
+    }
+    if (response.ends_connection) {
+        add("connection:", "close");
+    }
+    return headers;
+}
+
+HttpResponse last_response(HttpResponse response) {
+    response.ends_connection = true;
+    return response;
+}
+
 }  // namespace raybundle

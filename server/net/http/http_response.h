@@ -28,6 +28,8 @@ struct HttpResponse {
     /// Besides http_headers(), and in their place where the name is the same; names end with a
     /// colon.
     std::vector<std::pair<std::string, std::string>> headers;
+    /// What comes behind its request is a body that nobody reads: too long, or of unknown length.
+    bool ends_connection = false;
 
     [[nodiscard]] const std::string& content() const { return file ? *file : body; }
 };
@@ -59,5 +61,13 @@ HttpResponse upgrade_required(std::string text);
 /// content security policy.
 /// Names end with a colon, as libwebsockets wants them.
 std::span<const std::pair<const char*, std::string_view>> http_headers();
+
+/// All headers of an answer but its type and length. Besides http_headers() and its own ones:
+/// where it may be asked for again (429, 503) and says no time, after a second; of 401 what is
+/// needed; that the connection ends.
+std::vector<std::pair<std::string, std::string>> headers_of(const HttpResponse& response);
+
+/// An answer behind which the connection ends.
+HttpResponse last_response(HttpResponse response);
 
 }  // namespace raybundle

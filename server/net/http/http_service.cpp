@@ -13,12 +13,12 @@
 namespace raybundle {
 namespace {
 
-/// Answers after which nobody reads what the client may still send.
-bool ends_connection(int status) {
-    constexpr int kTimeout = 408;
-    constexpr int kLengthRequired = 411;
-    constexpr int kTooLarge = 413;
-    return status == kTimeout || status == kLengthRequired || status == kTooLarge;
+/// libwebsockets takes all that follows for the body then, further requests, too.
+bool has_body_without_end(lws* connection, HttpMethod method) {
+    const bool brings =
+        method == HttpMethod::post || method == HttpMethod::put || method == HttpMethod::patch;
+    return !request_header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty() ||
+           (brings && !parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH)));
 }
 
 }  // namespace
@@ -66,6 +66,7 @@ void HttpService::forget(lws* connection) {
     rest_.forget(connection);
     transfers_.erase(connection);
     held_.erase(connection);
+    endless_.erase(connection);
 }
 
 /// Refuses with an HTTP answer where the handshake is not for us.
@@ -105,6 +106,9 @@ int HttpService::on_request(lws* connection) {
     const auto [method, path] = request_line(connection);
     if (has_large_headers(connection)) {
         return answer(connection, large_headers_response());
+    }
+    if (has_body_without_end(connection, method)) {
+        endless_.insert(connection);
     }
     if (path.starts_with(kRestFolder)) {
         return on_rest(connection, method, path);
@@ -219,6 +223,7 @@ int HttpService::on_body(lws* connection, std::string_view bytes) {
 }
 
 int HttpService::answer(lws* connection, HttpResponse response) {
+    response.ends_connection |= endless_.erase(connection) > 0;
     auto& transfer = transfers_[connection];
     transfer = std::make_unique<HttpTransfer>(std::move(response));
     if (!transfer->begin(connection)) {
@@ -253,6 +258,12 @@ void HttpService::answer_uploads() {
     }
 }
 
+void HttpService::say_goodbye() {
+    documents_.say_goodbye();
+    rest_.say_goodbye();
+    answer_uploads();
+}
+
 int HttpService::on_writable(lws* connection) {
     const auto transfer = transfers_.find(connection);
     if (transfer == transfers_.end()) {
@@ -266,7 +277,7 @@ int HttpService::on_writable(lws* connection) {
 
 /// The connection stays open for the next request where the client wants that.
 int HttpService::end_transfer(lws* connection) {
-    const bool close = ends_connection(transfers_.at(connection)->status());
+    const bool close = transfers_.at(connection)->ends_connection();
     transfers_.erase(connection);
     if (close) {
         return -1;

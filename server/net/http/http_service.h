@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -43,6 +44,11 @@ class HttpService {
     /// documents that have been made.
     void answer_uploads();
 
+    /// The server is stopping: answers all who wait, and whoever asks from now on, with 503.
+    void say_goodbye();
+    /// Answers are on their way.
+    [[nodiscard]] bool answering() const { return !transfers_.empty(); }
+
     /// The connection is gone.
     void forget(lws* connection);
 
@@ -68,6 +74,7 @@ class HttpService {
 
     NetworkState& state_;
     const EncodedFiles encoded_files_{client_files()};
+    std::set<lws*> endless_;  ///< their request's body has no end that is known
     std::map<lws*, std::unique_ptr<HttpTransfer>> transfers_;
     std::map<lws*, HttpResponse> held_;  ///< until the connection's timer
     HttpUploads uploads_;

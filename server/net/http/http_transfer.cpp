@@ -39,26 +39,13 @@ std::string reason_of(int status) {
 }  // namespace
 
 bool HttpTransfer::add_headers(lws* connection, unsigned char** next, unsigned char* end) {
-    const auto add = [&](const std::string& name, std::string_view value) {
+    const auto headers = headers_of(response_);
+    return std::all_of(headers.begin(), headers.end(), [&](const auto& header) {
+        const auto& [name, value] = header;
         return lws_add_http_header_by_name(connection, bytes_of(name.c_str()),
                                            bytes_of(value.data()), static_cast<int>(value.size()),
                                            next, end) == 0;
-    };
-    const auto own = [this](std::string_view name) {
-        return std::any_of(response_.headers.begin(), response_.headers.end(),
-                           [&](const auto& header) { return header.first == name; });
-    };
-    for (const auto& [name, value] : http_headers()) {
-        if (!own(name) && !add(name, value)) {
-            return false;
-        }
-    }
-    for (const auto& [name, value] : response_.headers) {
-        if (!add(name, value)) {
-            return false;
-        }
-    }
-    return response_.status != HTTP_STATUS_UNAUTHORIZED || add("www-authenticate:", "Bearer");
+    });
 }
 
 bool HttpTransfer::begin(lws* connection) {
@@ -96,10 +83,7 @@ void write_refusal(lws* connection, const HttpResponse& response) {
             "\r\ncontent-type: " + std::string(response.content_type) +
             "\r\ncontent-length: " + std::to_string(response.content().size()) +
             "\r\nconnection: close\r\n";
-    for (const auto& [name, value] : http_headers()) {
-        text.append(name).append(" ").append(value).append("\r\n");
-    }
-    for (const auto& [name, value] : response.headers) {
+    for (const auto& [name, value] : headers_of(response)) {
         text.append(name).append(" ").append(value).append("\r\n");
     }
     text += "\r\n" + response.content();

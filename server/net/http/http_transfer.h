@@ -24,7 +24,7 @@ class HttpTransfer {
 
     /// The whole answer has been written.
     [[nodiscard]] bool done() const { return written_ == size_; }
-    [[nodiscard]] int status() const { return response_.status; }
+    [[nodiscard]] bool ends_connection() const { return response_.ends_connection; }
 
   private:
     bool add_headers(lws* connection, unsigned char** next, unsigned char* end);

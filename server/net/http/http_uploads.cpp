@@ -44,9 +44,10 @@ std::optional<HttpResponse> HttpUploads::expire(lws* connection) {
     }
     const std::uint64_t missing = found->second.missing;
     running_.erase(found);
-    return text_response({408, fmt::format("The upload took longer than {} s (maxUploadSeconds); "
-                                           "{} bytes were missing",
-                                           state_.settings.max_upload_s, missing)});
+    return last_response(
+        text_response({408, fmt::format("The upload took longer than {} s (maxUploadSeconds); "
+                                        "{} bytes were missing",
+                                        state_.settings.max_upload_s, missing)}));
 }
 
 void HttpUploads::complete(lws* connection) {

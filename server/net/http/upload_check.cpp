@@ -51,7 +51,7 @@ std::optional<HttpResponse> refuse_upload(const UploadRequest& request, const Up
         return refuse(411, "Needs Content-Length, not 0");
     }
     if (*request.length > most_bytes) {
-        return refuse(413, "Larger than " + std::to_string(most_bytes) + " bytes");
+        return last_response(refuse(413, "Larger than " + std::to_string(most_bytes) + " bytes"));
     }
     if (limits.running >= limits.max_running) {
         return refuse(503, "Other uploads are running; try again later");

@@ -80,9 +80,6 @@ HttpResponse problem(int status, std::string detail, v1::Error::Code code) {
     // What a client has sent comes back in texts, and need not be UTF-8.
     response.body =
         body.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    if (status == 429 || status == 503) {
-        response.headers.emplace_back("retry-after:", "1");
-    }
     return response;
 }
 

@@ -12,7 +12,7 @@ namespace raybundle {
 int http_status(v1::Error::Code code);
 
 /// An error as application/problem+json (RFC 9457): v1::Problem. code: of the protocol, where it is
-/// one of these. Where it may be asked for again, Retry-After says so.
+/// one of these.
 HttpResponse problem(int status, std::string detail,
                      v1::Error::Code code = v1::Error::CODE_UNSPECIFIED);
 HttpResponse problem(v1::Error::Code code, std::string detail);

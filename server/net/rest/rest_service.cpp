@@ -42,6 +42,10 @@ bool is_json(std::string_view content_type) {
             content_type[json.size()] == ' ');
 }
 
+HttpResponse stopping_problem() {
+    return problem(v1::Error::UNAVAILABLE, "the server is stopping");
+}
+
 HttpResponse openapi_response() {
     HttpResponse response;
     response.content_type = "application/json";
@@ -120,7 +124,8 @@ RestService::Outcome RestService::begin(lws* connection, RestHead head) {
     }
     const std::uint32_t most = state_.settings.limits.max_message_bytes;
     if (head.length && *head.length > most) {
-        return {problem(413, "the body is larger than " + std::to_string(most) + " bytes")};
+        return {last_response(
+            problem(413, "the body is larger than " + std::to_string(most) + " bytes"))};
     }
     // libwebsockets reads all that follows as the body where there is no length.
     const bool brings = head.method == HttpMethod::post || head.method == HttpMethod::put ||
@@ -198,6 +203,9 @@ RestService::Outcome RestService::start(lws* connection) {
     if (route.source == RestSource::requests) {
         return answer(answer_request(running));
     }
+    if (stopping_) {
+        return answer(stopping_problem());
+    }
     auto messages = rest_messages(running.match, running.body, state_.settings.limits);
     if (auto* const refusal = std::get_if<Refusal>(&messages)) {
         return answer(problem(refusal->code, std::move(refusal->text)));
@@ -240,7 +248,7 @@ std::optional<HttpResponse> RestService::expire(lws* connection) {
     }
     Running& running = late.mapped();
     if (!running.call) {
-        return problem(408, "the body did not come within 10 s");
+        return last_response(problem(408, "the body did not come within 10 s"));
     }
     if (running.match.route->method == HttpMethod::get) {
         HttpResponse response = problem(v1::Error::UNAVAILABLE, "the server is busy");
@@ -255,8 +263,9 @@ std::vector<std::pair<lws*, HttpResponse>> RestService::finished() {
     std::vector<std::pair<lws*, HttpResponse>> answers;
     for (auto entry = running_.begin(); entry != running_.end();) {
         Running& running = entry->second;
-        if (running.call && running.call->listen()) {
-            HttpResponse response = *running.call->answer();
+        const bool answered = running.call && running.call->listen();
+        if (answered || (running.call && stopping_)) {
+            HttpResponse response = answered ? *running.call->answer() : stopping_problem();
             response.send_body = running.method != HttpMethod::head;
             answers.emplace_back(entry->first, std::move(response));
             entry = running_.erase(entry);

@@ -63,6 +63,8 @@ class RestService {
     std::optional<HttpResponse> expire(lws* connection);
     /// Answers that have come since the last call.
     std::vector<std::pair<lws*, HttpResponse>> finished();
+    /// The server is stopping: finished() has a refusal for each, and so has what comes now.
+    void say_goodbye() { stopping_ = true; }
     /// The connection is gone: nobody waits for its answer.
     void forget(lws* connection) { running_.erase(connection); }
 
@@ -88,6 +90,7 @@ class RestService {
     std::optional<HttpResponse> refuse_crowd(const Running& asking) const;
 
     NetworkState& state_;
+    bool stopping_ = false;
     std::map<lws*, Running> running_;
     RestRequests requests_;
 };

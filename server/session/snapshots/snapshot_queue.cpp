@@ -104,7 +104,7 @@ void SnapshotQueue::drop_picture() {
 void SnapshotQueue::refuse_all() {
     drop_picture();
     for (const Request& request : requests_) {
-        server_.reply_error(request.event, v1::Error::INTERNAL, "the server is stopping");
+        server_.reply_error(request.event, v1::Error::UNAVAILABLE, "the server is stopping");
     }
     requests_.clear();
 }
