@@ -7,6 +7,7 @@
 #include "net/clock.h"
 #include "net/rest/rest_messages.h"
 #include "net/rest/rest_problem.h"
+#include "net/ws/json_fields.h"
 #include "net/ws/protocol_version.h"
 #include "net/ws/rules/message_rules.h"
 
@@ -19,7 +20,7 @@ HttpResponse response_of(const RestMatch& match, std::string_view message) {
     auto answer = rest_answer(match, message);
     if (!answer) {
         return problem(v1::Error::NOT_FOUND, "no " + match.fields.front().first + " \"" +
-                                                 match.fields.front().second + "\"");
+                                                 short_excerpt(match.fields.front().second) + "\"");
     }
     HttpResponse response;
     response.status = match.route->status;

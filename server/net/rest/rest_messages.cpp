@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "net/ws/json_fields.h"
 #include "net/ws/json_scan.h"
 #include "net/ws/protocol_version.h"
 
@@ -73,7 +74,8 @@ std::optional<Refusal> append_message(const RestMatch& match, Json body, const W
     for (const auto& [field, text] : match.fields) {
         const auto value = value_of(name, field, text);
         if (!value) {
-            return refusal("no " + field + " \"" + text + "\"", v1::Error::NOT_FOUND);
+            return refusal("no " + field + " \"" + short_excerpt(text) + "\"",
+                           v1::Error::NOT_FOUND);
         }
         if (body.contains(field)) {
             return refusal(std::string(name) + "." + field + ": stands in the path");
@@ -89,7 +91,8 @@ std::optional<Refusal> append_named(const RestRoute& route, const Json& body,
     const auto& names = route.messages;
     for (const auto& [name, value] : body.items()) {
         if (name != kRequestKey && std::find(names.begin(), names.end(), name) == names.end()) {
-            return refusal("\"" + name + "\": is not for this path; known are " + list_of(names));
+            return refusal("\"" + short_excerpt(name) + "\": is not for this path; known are " +
+                           list_of(names));
         }
     }
     const bool one = route.body == RestBody::one_of;
@@ -177,7 +180,7 @@ std::variant<Messages, Refusal> rest_messages(const RestMatch& match, std::strin
         std::string twice;
         json = parse_noting_twice(body, twice);
         if (!twice.empty()) {
-            return refusal("\"" + twice + "\": is given twice");
+            return refusal("\"" + short_excerpt(twice) + "\": is given twice");
         }
     }
     Messages messages;
