@@ -56,5 +56,20 @@ TEST(PeerViewers, KeepANumberAsLongAsTheyAreThere) {
     EXPECT_EQ(peers.find(before.front()), nullptr);
 }
 
+/// A server that was killed says no goodbye.
+TEST(PeerViewers, OfASilentServerAreForgotten) {
+    PeerViewers peers;
+    const TimePoint now{};
+    const auto after = [now](double seconds) {
+        return now + std::chrono::duration_cast<TimePoint::duration>(
+                         std::chrono::duration<double>(seconds));
+    };
+    peers.note(7, presence_of({3}), now);
+    peers.note(8, presence_of({3}), after(1.0));
+    EXPECT_FALSE(peers.forget_silent(after(PeerViewers::silence_s - 0.1)));
+    EXPECT_TRUE(peers.forget_silent(after(PeerViewers::silence_s + 0.1)));
+    EXPECT_EQ(numbers_in(peers).size(), 1U) << "who has been heard since stays";
+}
+
 }  // namespace
 }  // namespace raybundle

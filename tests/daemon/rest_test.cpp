@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include "daemon.h"
 #include "json_viewer.h"
+#include "test_folder.h"
 
 namespace raybundle {
 namespace {
@@ -20,21 +21,21 @@ struct Answer {
     [[nodiscard]] Json json() const { return Json::parse(body, nullptr, false); }
 };
 
+/// One server for all: each test goes on where the one before has left the scene.
 class RestTest : public testing::Test {
   protected:
-    RestTest() {
-        std::string pattern = std::filesystem::temp_directory_path() / "raybundle_rest_XXXXXX";
-        folder_ = mkdtemp(pattern.data());
-        daemon_.emplace(scene_file("cornell_box.gltf"),
-                        std::vector<std::string>{"--journal", folder_ / "session.db"});
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<TestFolder>();
+        daemon_ = std::make_unique<Daemon>(
+            scene_file("cornell_box.gltf"),
+            std::vector<std::string>{"--journal", folder_->path("session.db")});
     }
-    ~RestTest() override {
+    static void TearDownTestSuite() {
         daemon_.reset();
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
+        folder_.reset();
     }
 
-    [[nodiscard]] Answer ask(const std::string& line, const std::string& body = "") const {
+    [[nodiscard]] static Answer ask(const std::string& line, const std::string& body = "") {
         const std::string text = http_exchange(
             daemon_->port(), line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" +
                                  (body.empty() ? ""
@@ -47,7 +48,7 @@ class RestTest : public testing::Test {
     }
 
     /// Asks again until there is an answer.
-    [[nodiscard]] Answer poll(const std::string& url) const {
+    [[nodiscard]] static Answer poll(const std::string& url) {
         for (;;) {
             Answer answer = ask("GET " + url);
             if (answer.status != 202) {
@@ -57,13 +58,14 @@ class RestTest : public testing::Test {
         }
     }
 
-    std::filesystem::path folder_;
-    std::optional<Daemon> daemon_;
+    static inline std::unique_ptr<TestFolder> folder_;
+    static inline std::unique_ptr<Daemon> daemon_;
 };
 
 TEST_F(RestTest, WhatIsChangedOverHttpIsSeenOverTheSocket) {
     JsonViewer viewer(daemon_->port());
-    const Json welcome = viewer.join().at("welcome");
+    const Json welcome = viewer.join({}, 32, 24).at("welcome");
+    const std::size_t changes = ask("GET /api/v1/changes").json().at("changes").size();
     const Json scene = ask("GET /api/v1/scene").json();
     EXPECT_EQ(scene.at("scene").at("lights"), welcome.at("scene").at("lights"));
     EXPECT_EQ(ask("GET /api/v1/lights/1").json(), welcome.at("scene").at("lights").at(0));
@@ -74,23 +76,28 @@ TEST_F(RestTest, WhatIsChangedOverHttpIsSeenOverTheSocket) {
     EXPECT_EQ(told.at("epoch"), set.json().at("sceneChanged").at("epoch"));
     EXPECT_EQ(told.at("byName"), "Ada");
     EXPECT_EQ(ask("GET /api/v1/lights/1").json().at("dim"), 0.5);
-    EXPECT_EQ(ask("GET /api/v1/changes").json().at("changes").size(), 1U);
-    EXPECT_EQ(ask("POST /api/v1/undo", R"({"epoch":0})").status, 200);
+    EXPECT_EQ(ask("GET /api/v1/changes").json().at("changes").size(), changes + 1);
+    EXPECT_EQ(ask("POST /api/v1/undo", Json{{"epoch", welcome.at("epoch")}}.dump()).status, 200);
     EXPECT_EQ(ask("GET /api/v1/lights/1").json().at("dim"), 1);
     const Answer none = ask("POST /api/v1/changes", R"({"setLight":{"light":99,"on":true}})");
     EXPECT_EQ(none.status, 404);
     EXPECT_EQ(none.json().at("detail"), "setLight.light: no light 99");
 
-    // Who asks over HTTP is not among the people. The next presence tells of the second viewer.
+    // Who asks over HTTP is not among the people, of whom a presence tells when the next one comes.
     JsonViewer other(daemon_->port());
-    other.join();
-    const Json presence = other.next_with("presence").at("presence");
-    EXPECT_EQ(presence.at("viewers").size(), 2U) << presence;
+    const Json own = other.join({}, 32, 24).at("welcome").at("viewer");
+    other.next([&](const Json& message) {
+        const Json viewers = message.value("/presence/viewers"_json_pointer, Json::array());
+        for (const Json& person : viewers) {
+            EXPECT_EQ(person.at("name"), "test") << viewers;
+        }
+        return viewers.size() == 2 && viewers.at(1).at("viewer") == own;
+    });
 }
 
 TEST_F(RestTest, PinsComeAndGo) {
     JsonViewer viewer(daemon_->port());
-    viewer.join();
+    viewer.join({}, 32, 24);
     const Json floor = ask("POST /api/v1/probes",
                            R"({"ray":{"origin":{"x":1,"y":2,"z":0.5},"direction":{"y":-1}}})")
                            .json();
@@ -99,20 +106,19 @@ TEST_F(RestTest, PinsComeAndGo) {
         {"text", "glare"}, {"position", floor.at("position")}, {"patch", floor.at("patch")}};
     const Answer added = ask("POST /api/v1/pins?name=Ada", wanted.dump());
     ASSERT_EQ(added.status, 201) << added.body;
-    EXPECT_TRUE(has(added.head, "location: /api/v1/pins/1\r\n") ||
-                added.head.ends_with("location: /api/v1/pins/1"))
-        << added.head;
+    const std::string path = "/api/v1/pins/" + added.json().at("pin").dump();
+    EXPECT_TRUE(has(added.head + "\r\n", "location: " + path + "\r\n")) << added.head;
     EXPECT_GT(added.json().at("illuminance"), 0);
     EXPECT_FALSE(added.json().contains("camera")) << "it was looked at from nowhere";
     EXPECT_EQ(viewer.next_with("pinChanged").at("pinChanged").at("text"), "glare");
-    EXPECT_EQ(ask("POST /api/v1/pins/1/replies?name=Ben", R"({"text":"yes"})").status, 200);
-    EXPECT_EQ(ask("PATCH /api/v1/pins/1", R"({"resolved":true})").status, 200);
-    const Json pin = ask("GET /api/v1/pins/1").json();
+    EXPECT_EQ(ask("POST " + path + "/replies?name=Ben", R"({"text":"yes"})").status, 200);
+    EXPECT_EQ(ask("PATCH " + path, R"({"resolved":true})").status, 200);
+    const Json pin = ask("GET " + path).json();
     EXPECT_EQ(pin.at("replies").at(0).at("byName"), "Ben");
     EXPECT_TRUE(pin.at("resolved").get<bool>());
-    EXPECT_EQ(ask("DELETE /api/v1/pins/1").status, 200);
-    EXPECT_EQ(ask("GET /api/v1/pins/1").status, 404);
-    EXPECT_EQ(ask("DELETE /api/v1/pins/1").status, 404);
+    EXPECT_EQ(ask("DELETE " + path).status, 200);
+    EXPECT_EQ(ask("GET " + path).status, 404);
+    EXPECT_EQ(ask("DELETE " + path).status, 404);
     EXPECT_EQ(ask("POST /api/v1/probes", R"({"pixel":{"x":1,"y":1}})").status, 400);
 }
 
