@@ -12,6 +12,7 @@ import {announce, byId, fileName, returnFocus, saveFile, whileAsked} from './ui/
 import {Gizmo} from './scene/gizmo.js';
 import {Grabbing} from './scene/grabbing.js';
 import {GlarePanel} from './measure/glare_panel.js';
+import {OutlinesLayer} from './measure/outlines_layer.js';
 import {WorkPlanePanel} from './measure/work_plane_panel.js';
 import {ZonesPanel} from './measure/zones_panel.js';
 import {Documents} from './review/documents.js';
@@ -77,7 +78,7 @@ const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
 const gridPanel = new GridPanel(app, measuring, display);
 const workPlane = new WorkPlanePanel(app, measuring);
-new ZonesPanel(app, measuring, workPlane);
+new OutlinesLayer(app, workPlane, new ZonesPanel(app, measuring, workPlane));
 new GlarePanel(app);
 new Documents(app, measuring);
 const people = new People(app, marks);

@@ -49,6 +49,11 @@ export class WorkPlanePanel {
         app.overlay.add(({place}) => this.#draw(place));
     }
 
+    /** What has been measured last; null: nothing is shown. */
+    get result() {
+        return this.#result;
+    }
+
     /** Where a plane may lie: over the selected object, a storey, or all there is. */
     #list() {
         const {scene, selected} = this.app;

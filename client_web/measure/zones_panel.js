@@ -60,6 +60,11 @@ export class ZonesPanel {
         });
     }
 
+    /** As the server has measured them last. @returns {Measured[]} */
+    get list() {
+        return [...this.#zones.values()];
+    }
+
     /** Keeps the plane that the fields describe. */
     async #keep() {
         const name = byId('zone-name', HTMLInputElement);
@@ -95,12 +100,14 @@ export class ZonesPanel {
     }
 
     #show() {
-        const zones = [...this.#zones.values()];
+        const zones = this.list;
         replaceRows(byId('zones', HTMLElement), zones.map((zone) => this.#row(zone)));
         byId('zones-none', HTMLElement).hidden = zones.length > 0;
+        byId('zones-in-picture-field', HTMLElement).hidden = zones.length === 0;
         byId('zone-form', HTMLElement).hidden = !this.app.mayReview;
         byId('requirement-form', HTMLElement).hidden = !this.app.mayEdit;
         replaceRows(byId('requirement-rows', HTMLElement), this.#requirements.map((row) => this.#requirementRow(row)));
+        this.app.drawOverlay();
     }
 
     /** @param {Measured} zone */

@@ -356,6 +356,7 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {Check[]} [checks]
  * @property {Verdict} [verdict]
  * @property {boolean} [removed]
+ * @property {Vec3[]} [outline]  its corners, world space
  */
 
 /**

@@ -10,14 +10,24 @@ import {WELCOME as PLAIN_WELCOME} from './fake_server.mjs';
 
 const openPage = fakePages();
 
+/** @type {(y: number) => {x: number, y: number, z: number}[]} */
+const square = (y) => [{x: 1, y, z: 1}, {x: 3, y, z: 1}, {x: 3, y, z: 4}, {x: 1, y, z: 4}];
 const office = {name: 'Office', mean: 500, uniformity: 0.6, glare: 19};
 const desk = {
     measurement: 4, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 1, rows: 1, factor: 1, points: [],
     mean: 512, meanLow: 490, meanHigh: 534, uniformity: 0.71, uniformityLow: 0.69, uniformityHigh: 0.73,
-    name: 'Desk by the window', requirement: 'Office', verdict: 'NOT_YET_KNOWN',
+    outline: square(0.75), name: 'Desk by the window', requirement: 'Office', verdict: 'NOT_YET_KNOWN',
     checks: [
         {what: 'Em', required: 500, atMost: false, verdict: 'NOT_YET_KNOWN'},
         {what: 'Uo', required: 0.6, atMost: false, verdict: 'MET'},
+    ],
+};
+const seats = {
+    measurement: 7, quantity: 'UGR', epoch: 0, settled: 1, columns: 3, rows: 1, factor: 1, outline: square(1.2), maximum: 21.3,
+    points: [
+        {position: {x: 1.3, y: 1.2, z: 2.5}, value: 17.2, low: 17, high: 17.4, inside: false, glare: {state: 'RATED', sources: []}},
+        {position: {x: 2, y: 1.2, z: 2.5}, value: 21.3, low: 21, high: 21.6, inside: false, glare: {state: 'RATED', sources: []}},
+        {position: {x: 2.7, y: 1.2, z: 2.5}, inside: false, glare: {state: 'OUTSIDE', sources: [], words: 'too large'}},
     ],
 };
 const pin = {
@@ -50,7 +60,7 @@ async function open(options = {}) {
         if (hello) {
             send({welcome: WELCOME});
         } else if (measure) {
-            send({measured: measure.quantity === 'UGR' && measure.points ? rating : {...desk, measurement: 5, name: measure.name}});
+            send({measured: measure.quantity === 'UGR' ? (measure.points ? rating : seats) : {...desk, measurement: 5, name: measure.name}});
         } else {
             send({ok: {}});
         }
@@ -108,6 +118,26 @@ describe('zones', () => {
         assert.deepEqual(faults, []);
     });
 
+    it('are outlined in the picture, each with its sign', async () => {
+        const {page, faults, say} = await open({colorScheme: 'dark'});
+        const label = () => page.textContent('.zone-outlines text');
+        await page.waitForSelector('.zone-outlines .not_yet_known');
+        assert.equal(await label(), '? Desk by the window');
+        const drawn = await page.getAttribute('.zone-outlines .stroke', 'd');
+        assert.equal(drawn?.split('L').length, 4);
+        say({measured: {...desk, verdict: 'MET'}});
+        await page.waitForSelector('.zone-outlines .met');
+        assert.equal(await label(), '✓ Desk by the window');
+        await page.click('#tab-measure');
+        await page.locator('#zones-title').scrollIntoViewIfNeeded();
+        await keepScreenshot(page, 'zone_outlines');
+        await page.evaluate(() => { window.raybundle.view = {...window.raybundle.view, eye: {x: 2, y: 1.6, z: 7}}; });
+        await page.waitForFunction((before) => document.querySelector('.zone-outlines .stroke')?.getAttribute('d') !== before, drawn);
+        await page.uncheck('#zones-in-picture');
+        await page.waitForFunction(() => !document.querySelector('.zone-outlines text'));
+        assert.deepEqual(faults, []);
+    });
+
     it('fit a narrow page, in the dark', async () => {
         const {page, faults} = await open({colorScheme: 'dark', viewport: {width: 360, height: 740}});
         await page.click('#panel-toggle');
@@ -122,6 +152,26 @@ describe('zones', () => {
 });
 
 describe('glare', () => {
+    it('is a heat map over seats, with the limits that are kept', async () => {
+        const {page, faults} = await open({colorScheme: 'light'});
+        await page.click('#tab-measure');
+        await page.selectOption('#plane-quantity', 'UGR');
+        assert.ok(await page.isHidden('#glare-legend'));
+        await page.click('#measure-plane');
+        await page.waitForSelector('#glare-legend', {state: 'visible'});
+        const fills = await page.locator('.glare-map path').evaluateAll((cells) => cells.map((cell) => cell.getAttribute('fill')));
+        const steps = await page.locator('#glare-legend li').evaluateAll((items) =>
+            items.map((item) => [item.textContent, item.style.getPropertyValue('--step')]));
+        const limitOf = (fill) => steps.find(([, colour]) => colour === fill)?.[0];
+        assert.deepEqual(fills.map(limitOf), ['19', '22', undefined]);
+        assert.equal(await page.locator('.glare-map .unrated').count(), 1);
+        await page.locator('#plane-title').scrollIntoViewIfNeeded();
+        await keepScreenshot(page, 'glare_map');
+        await page.click('#clear-plane');
+        await page.waitForSelector('#glare-legend', {state: 'hidden'});
+        assert.deepEqual(faults, []);
+    });
+
     it('is rated from where one stands, with what glares', async () => {
         const {page, sent, faults} = await open({colorScheme: 'dark'});
         await page.click('#tab-measure');
