@@ -84,7 +84,7 @@ new Documents(app, measuring);
 const people = new People(app, marks);
 const pins = new Pins(app, marks, people, measuring);
 const changes = new ChangeList(app);
-app.on('sceneChanged', (/** @type {import('./net/protocol.js').SceneChanged} */ change) => {
+app.on('sceneChanged', (/** @type {import('./net/scene_types.js').SceneChanged} */ change) => {
     if (change.by !== app.client.welcome?.viewer) {
         history.noteOther(subjectOf(change), people.name(change.by));
     }

@@ -13,7 +13,7 @@ export {RaybundleClient};
 
 /** @typedef {import('./net/protocol.js').Welcome} Welcome */
 
-/** @type {import('./net/protocol.js').View} */
+/** @type {import('./net/scene_types.js').View} */
 const NO_VIEW = {
     eye: {x: 0, y: 1.6, z: 4},
     target: {x: 0, y: 1.6, z: 0},

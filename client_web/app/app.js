@@ -18,12 +18,12 @@ import {Status, sentence} from '../ui/status.js';
 import {Screen} from './screen.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {import('../net/protocol.js').Welcome} Welcome
  * @typedef {import('../net/protocol.js').FrameHeader} FrameHeader
- * @typedef {import('../net/protocol.js').ProbeResult} ProbeResult
+ * @typedef {import('../net/measure_types.js').ProbeResult} ProbeResult
  * @typedef {import('../net/protocol.js').ServerMessage} ServerMessage
  * @typedef {import('../net/frame_receiver.js').Frame} Frame
  * @typedef {import('../camera/pointer_control.js').Point} Point

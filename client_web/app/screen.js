@@ -5,8 +5,8 @@
 import {framedFov, project, rayThrough} from '../camera/camera.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
  * @typedef {import('../picture/picture.js').Picture} Picture
  * @typedef {import('../camera/pointer_control.js').Point} Point
  */

@@ -12,9 +12,9 @@ import {clamp, diagonal, length, sub} from '../ui/vector.js';
 export {motionOf, noMotion};
 
 /**
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('./motion.js').Mode} Mode
  * @typedef {import('./motion.js').Motion} Motion
  */

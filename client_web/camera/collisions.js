@@ -9,8 +9,8 @@ import {WalkGrid, Walker} from './walk_grid.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
  */
 
 /** So far from the middle of its cells somebody asks for others, metres. */

@@ -4,7 +4,7 @@
 
 import {sameView} from './camera.js';
 
-/** @typedef {import('../net/protocol.js').View} View */
+/** @typedef {import('../net/scene_types.js').View} View */
 
 const LOOK_MS = 1000;
 /** Mean of a picture's pixels below which nothing is seen, 0..255 as encoded. */

@@ -7,9 +7,9 @@ import {UP, add, centre, scale, sub, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('../scene/scene_model.js').SceneModel} SceneModel
  */
 

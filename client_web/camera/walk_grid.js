@@ -5,7 +5,7 @@
 import {add, length, scale, sub, vec3} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('../net/protocol.js').WalkMap} WalkMap
  */
 

@@ -7,7 +7,7 @@ import {automaticExposure, readDisplay} from '../walkthrough/off_screen.js';
 /**
  * @typedef {import('../walkthrough/renderer.js').Renderer} Renderer
  * @typedef {import('../walkthrough/renderer.js').Look} Look
- * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/scene_types.js').View} View
  * @typedef {import('../net/protocol.js').FrameHeader} FrameHeader
  */
 

@@ -9,7 +9,7 @@ import {loadScene} from '../walkthrough/scene_data.js';
  * @typedef {import('../net/protocol.js').ServerMessage} ServerMessage
  * @typedef {import('../net/protocol.js').LightScene} LightScene
  * @typedef {import('../net/protocol.js').LightSky} LightSky
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('../net/raybundle_client.js').RaybundleClient} RaybundleClient
  */
 

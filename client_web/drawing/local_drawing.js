@@ -164,7 +164,7 @@ export class LocalDrawing extends EventTarget {
             this.#placeAll();
             this.#epoch = app.scene?.epoch ?? 0;
         });
-        app.on('sceneChanged', (/** @type {import('../net/protocol.js').SceneChanged} */ change) => {
+        app.on('sceneChanged', (/** @type {import('../net/scene_types.js').SceneChanged} */ change) => {
             if (change.moveObject) {
                 this.#moved();
             }

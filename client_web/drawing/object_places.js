@@ -49,7 +49,7 @@ export function inverse(m) {
 }
 
 /**
- * @param {import('../net/protocol.js').Transform} transform
+ * @param {import('../net/scene_types.js').Transform} transform
  * @returns {number[]}  4x4, column by column
  */
 export function matrixOf(transform) {

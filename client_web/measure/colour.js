@@ -3,7 +3,7 @@
 
 import {clamp, vec3} from '../ui/vector.js';
 
-/** @typedef {import('../net/protocol.js').Vec3} Vec3 */
+/** @typedef {import('../net/scene_types.js').Vec3} Vec3 */
 
 /** @type {(c: Vec3) => number} */
 export const luminance = (c) => 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;

@@ -9,7 +9,7 @@ import {valueText} from './work_plane.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').MeasuredPoint} MeasuredPoint
+ * @typedef {import('../net/measure_types.js').MeasuredPoint} MeasuredPoint
  */
 
 const NEAR = 0.02;

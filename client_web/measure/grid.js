@@ -5,9 +5,9 @@ import {NOT_YET, inUnit, noteOf, plusMinusCell} from '../ui/units.js';
 import {add, clamp, cross, dot, normalise, scale, sub, vec3} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').ProbeGridResult} ProbeGridResult
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/measure_types.js').ProbeGridResult} ProbeGridResult
  * @typedef {object} Grid
  * @property {Vec3} origin  first point, world space, metres
  * @property {Vec3} stepX

@@ -17,13 +17,13 @@ import {corners, length, sub} from '../ui/vector.js';
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./measure.js').Measuring} Measuring
  * @typedef {import('./display_panel.js').DisplayPanel} DisplayPanel
- * @typedef {import('../net/protocol.js').ProbeResult} ProbeResult
+ * @typedef {import('../net/measure_types.js').ProbeResult} ProbeResult
  * @typedef {import('../scene/scene_model.js').PlacedObject} PlacedObject
  * @typedef {object} ShownGrid
  * @property {import('./grid.js').Grid} grid  where it is now
  * @property {import('./grid.js').Grid} laid  where it was laid
  * @property {Anchor} anchor
- * @property {import('../net/protocol.js').ProbeGridResult} result
+ * @property {import('../net/measure_types.js').ProbeGridResult} result
  * @property {string} surface  that it lies on, for people
  * @property {boolean} settled  whether the light was
  * @property {boolean} outdated  whether something has changed since

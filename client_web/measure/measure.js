@@ -13,8 +13,8 @@ import {remember, remembered} from '../camera/walking.js';
  * @typedef {import('../picture/marks.js').Marks} Marks
  * @typedef {import('./display_panel.js').DisplayPanel} DisplayPanel
  * @typedef {import('../camera/pointer_control.js').Point} Point
- * @typedef {import('../net/protocol.js').ProbeResult} ProbeResult
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/measure_types.js').ProbeResult} ProbeResult
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('../ui/units.js').IlluminanceUnit} IlluminanceUnit
  * @typedef {{probe: ProbeResult, laid: Vec3, anchor: Anchor}} KeptPoint
  * @typedef {{number: number, probe: ProbeResult, laid: Vec3, position: Vec3, anchor: Anchor, text: string, mark: HTMLElement, row: HTMLTableRowElement}} MeasuredPoint

@@ -5,8 +5,8 @@ import {verdictSign} from './zones.js';
 import {add, mix, scale, sub} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Measured} Measured
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/measure_types.js').Measured} Measured
  * @typedef {{x: number, y: number, depth: number}} Placed  CSS pixels, metres
  */
 

@@ -7,7 +7,7 @@ import {byId} from '../ui/elements.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Measured} Measured
+ * @typedef {import('../net/measure_types.js').Measured} Measured
  * @typedef {import('../picture/overlay.js').OverlayFrame} OverlayFrame
  * @typedef {import('./work_plane_panel.js').WorkPlanePanel} WorkPlanePanel
  * @typedef {import('./zones_panel.js').ZonesPanel} ZonesPanel

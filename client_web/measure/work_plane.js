@@ -5,9 +5,9 @@ import {inUnit, threeDigits} from '../ui/units.js';
 import {vec3} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').Measured} Measured
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/measure_types.js').Measured} Measured
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  */
 
 /**

@@ -10,7 +10,7 @@ import {areaOver, planeCsv, planeState, valueText, withInterval} from './work_pl
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./measure.js').Measuring} Measuring
- * @typedef {import('../net/protocol.js').Measured} Measured
+ * @typedef {import('../net/measure_types.js').Measured} Measured
  */
 
 const SVG = 'http://www.w3.org/2000/svg';

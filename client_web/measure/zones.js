@@ -4,9 +4,9 @@
 import {valueText} from './work_plane.js';
 
 /**
- * @typedef {import('../net/protocol.js').Check} Check
- * @typedef {import('../net/protocol.js').Measured} Measured
- * @typedef {import('../net/protocol.js').Verdict} Verdict
+ * @typedef {import('../net/measure_types.js').Check} Check
+ * @typedef {import('../net/measure_types.js').Measured} Measured
+ * @typedef {import('../net/measure_types.js').Verdict} Verdict
  */
 
 /** Signs that do without colour. */

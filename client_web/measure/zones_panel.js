@@ -8,8 +8,8 @@ import {checkText, verdictSign, verdictWords, zoneValues} from './zones.js';
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./measure.js').Measuring} Measuring
  * @typedef {import('./work_plane_panel.js').WorkPlanePanel} WorkPlanePanel
- * @typedef {import('../net/protocol.js').Measured} Measured
- * @typedef {import('../net/protocol.js').Requirement} Requirement
+ * @typedef {import('../net/measure_types.js').Measured} Measured
+ * @typedef {import('../net/measure_types.js').Requirement} Requirement
  */
 
 const NONE = '';

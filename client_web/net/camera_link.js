@@ -7,7 +7,7 @@ import {DEPTH_COLUMNS} from '../picture/depth_warp.js';
 import {FrameThrottle} from '../picture/frame_throttle.js';
 
 /**
- * @typedef {import('./protocol.js').View} View
+ * @typedef {import('./scene_types.js').View} View
  * @typedef {import('./raybundle_client.js').RaybundleClient} RaybundleClient
  */
 

@@ -6,8 +6,8 @@ import {axes} from '../camera/camera.js';
 import {add, dot, scale, sub} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('./depths.js').Depths} Depths
  */
 

@@ -5,7 +5,7 @@ import {byId} from '../ui/elements.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  */
 
 /** Marks of points nearer to the eye's plane are hidden, metres. */

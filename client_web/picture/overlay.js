@@ -5,9 +5,9 @@ import {project} from '../camera/camera.js';
 import {corners, mix} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
  * @typedef {import('../scene/scene_model.js').PlacedObject} PlacedObject
  */
 

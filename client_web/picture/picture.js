@@ -9,7 +9,7 @@ import {cssMatrix, homography} from './view_warp.js';
 
 /** @typedef {import('./depths.js').Depths} Depths */
 /** @typedef {import('../net/protocol.js').Viewport} Viewport */
-/** @typedef {import('../net/protocol.js').View} View */
+/** @typedef {import('../net/scene_types.js').View} View */
 
 /**
  * Side of the small copy that fills what a warped picture leaves open, pixels. So few are soft when they are

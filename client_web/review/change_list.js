@@ -12,9 +12,9 @@ import {completeTransform, length, matrixVector, scale, sub} from '../ui/vector.
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').SceneChanged} SceneChanged
+ * @typedef {import('../net/scene_types.js').SceneChanged} SceneChanged
  * @typedef {import('../scene/scene_model.js').SceneModel} SceneModel
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {object} LogEntry
  * @property {Date} time
  * @property {number} epoch
@@ -237,8 +237,8 @@ function describePresence(scene, {addObject, removeObject, addLuminaire, removeL
 
 /**
  * @param {import('../scene/scene_model.js').PlacedObject | null} object
- * @param {import('../net/protocol.js').MoveObject} to
- * @param {import('../net/protocol.js').MoveObject | undefined} from
+ * @param {import('../net/scene_types.js').MoveObject} to
+ * @param {import('../net/scene_types.js').MoveObject | undefined} from
  * @param {Required<Transform>} [loaded]
  */
 function describeMove(object, to, from, loaded) {
@@ -251,7 +251,7 @@ function describeMove(object, to, from, loaded) {
         return `put back ${object.name}`;
     }
     if (deed === 'resize') {
-        const share = (/** @type {Required<import('../net/protocol.js').Transform>} */ {scale}) =>
+        const share = (/** @type {Required<import('../net/scene_types.js').Transform>} */ {scale}) =>
             Math.round((100 * length(scale)) / (length(object.original.scale) || 1));
         return `resized ${object.name}: ${share(before)} → ${share(after)} %`;
     }
@@ -269,7 +269,7 @@ function describeMove(object, to, from, loaded) {
     return `moved ${object.name} by ${metres(by)}: ${place(before)} → ${place(after)}\u00a0m`;
 }
 
-/** @param {import('../net/protocol.js').SetDaylight} to */
+/** @param {import('../net/scene_types.js').SetDaylight} to */
 function describeDaylight({sky, time}) {
     if (sky === 'loaded' || sky === 'none') {
         return sky === 'none' ? 'took the daylight away' : 'set the daylight as it was';
@@ -278,9 +278,9 @@ function describeDaylight({sky, time}) {
 }
 
 /**
- * @param {import('../net/protocol.js').Light | undefined} light
- * @param {import('../net/protocol.js').SetLight} to
- * @param {import('../net/protocol.js').SetLight | undefined} from
+ * @param {import('../net/scene_types.js').Light | undefined} light
+ * @param {import('../net/scene_types.js').SetLight} to
+ * @param {import('../net/scene_types.js').SetLight | undefined} from
  */
 function describeLight(light, to, from) {
     const name = light?.name || 'a light';
@@ -311,8 +311,8 @@ function describeLight(light, to, from) {
  * What has changed beside the light's own brightness and colour.
  *
  * @param {string} name
- * @param {import('../net/protocol.js').SetLight} to
- * @param {import('../net/protocol.js').SetLight} from
+ * @param {import('../net/scene_types.js').SetLight} to
+ * @param {import('../net/scene_types.js').SetLight} from
  */
 function describeControl(name, to, from) {
     const parts = [];
@@ -344,8 +344,8 @@ const UNITS = {CD_PER_M2: 'cd/m²', CD: 'cd', LX: 'lx', LM: 'lm'};
 
 /**
  * @param {string} name
- * @param {import('../net/protocol.js').SetMaterial | undefined} to
- * @param {import('../net/protocol.js').SetMaterial | undefined} from
+ * @param {import('../net/scene_types.js').SetMaterial | undefined} to
+ * @param {import('../net/scene_types.js').SetMaterial | undefined} from
  */
 function describeMaterial(name, to, from) {
     if (!to || !from) {
@@ -367,11 +367,11 @@ function describeMaterial(name, to, from) {
 /**
  * Reflectances, as the card of a material has them, and the colours where these differ in more.
  *
- * @param {import('../net/protocol.js').Vec3} before
- * @param {import('../net/protocol.js').Vec3} after
+ * @param {import('../net/scene_types.js').Vec3} before
+ * @param {import('../net/scene_types.js').Vec3} after
  */
 function paintText(before, after) {
-    const percent = (/** @type {import('../net/protocol.js').Vec3} */ colour) => (100 * luminance(colour)).toFixed(0);
+    const percent = (/** @type {import('../net/scene_types.js').Vec3} */ colour) => (100 * luminance(colour)).toFixed(0);
     const sameHue = sameColour(scale(before, luminance(after)), scale(after, luminance(before)));
     return sameHue && percent(before) !== percent(after)
         ? `${percent(before)} → ${percent(after)}\u00a0%`
@@ -384,5 +384,5 @@ const SAME = 1e-4;
 /** @type {(a: number, b: number) => boolean} */
 const near = (a, b) => Math.abs(a - b) <= SAME * Math.max(Math.abs(a), Math.abs(b));
 
-/** @type {(a: import('../net/protocol.js').Vec3, b: import('../net/protocol.js').Vec3) => boolean} */
+/** @type {(a: import('../net/scene_types.js').Vec3, b: import('../net/scene_types.js').Vec3) => boolean} */
 const sameColour = (a, b) => near(a.x, b.x) && near(a.y, b.y) && near(a.z, b.z);

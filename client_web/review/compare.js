@@ -12,7 +12,7 @@ import {requestSnapshot} from './snapshot_request.js';
  * @typedef {import('../measure/display_panel.js').DisplayPanel} DisplayPanel
  * @typedef {import('./change_list.js').ChangeList} ChangeList
  * @typedef {import('./change_list.js').LogEntry} LogEntry
- * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/scene_types.js').View} View
  * @typedef {{view: View, epoch: number, exposure: number, name: string}} KeptPicture
  */
 

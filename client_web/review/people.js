@@ -11,7 +11,7 @@ import {remember} from '../camera/walking.js';
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('../picture/marks.js').Marks} Marks
  * @typedef {import('../net/protocol.js').Viewer} Viewer
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('../picture/overlay.js').OverlayFrame} OverlayFrame
  */
 

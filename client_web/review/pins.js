@@ -12,7 +12,7 @@ import {add, matrixPoint, transformPoint} from '../ui/vector.js';
  * @typedef {import('../measure/measure.js').Measuring} Measuring
  * @typedef {import('../camera/pointer_control.js').Point} Point
  * @typedef {import('../net/protocol.js').Pin} Pin
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  */
 
 /** The light at a pin counts as changed from here on. */
@@ -144,7 +144,7 @@ export class Pins {
      */
     #openEditor(at) {
         this.cancel();
-        /** @type {import('../net/protocol.js').ProbeResult | null} */
+        /** @type {import('../net/measure_types.js').ProbeResult | null} */
         let probe = null;
         let asked = false;
         const form = document.createElement('form');
@@ -200,7 +200,7 @@ export class Pins {
         }
         this.#editor = this.marks.add(form, () => probe?.position ?? at, true);
         text.focus({preventScroll: true});
-        const found = (/** @type {import('../net/protocol.js').ProbeResult} */ result) => {
+        const found = (/** @type {import('../net/measure_types.js').ProbeResult} */ result) => {
             probe = result;
             point.disabled = false;
             value.textContent = measured(result.illuminance ?? 0, this.measuring.unit, result.relativeError);

@@ -27,7 +27,7 @@ import {estimated, inUnit, measured, plusMinus} from '../ui/units.js';
  * @property {string} address  link to the view
  * @property {IlluminanceUnit} unit
  * @property {Pin[]} pins
- * @property {{number: number, probe: import('../net/protocol.js').ProbeResult}[]} points
+ * @property {{number: number, probe: import('../net/measure_types.js').ProbeResult}[]} points
  * @property {{object: string, columns: number, rows: number, illuminance: number[], relativeError: number[]} | null} grid
  * @property {import('./change_list.js').LogEntry[]} changes
  * @property {{pin: number, x: number, y: number}[]} pinsInPicture  shares of its width and height

@@ -3,7 +3,7 @@
 // browser sends over the network. A token is never part of a link.
 
 /**
- * @typedef {import('../net/protocol.js').View} View
+ * @typedef {import('../net/scene_types.js').View} View
  * @typedef {import('../measure/display_panel.js').DisplayMode} DisplayMode
  * @typedef {object} Shared
  * @property {View | null} view

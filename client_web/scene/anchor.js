@@ -2,7 +2,7 @@
 // What lies on an object goes where that goes.
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  * @typedef {import('./scene_model.js').SceneModel} SceneModel
  */

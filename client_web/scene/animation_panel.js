@@ -7,8 +7,8 @@ import {NewestOnly} from './surface_change.js';
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./history.js').History} History
- * @typedef {import('../net/protocol.js').Animation} Animation
- * @typedef {import('../net/protocol.js').PlayAnimation} PlayAnimation
+ * @typedef {import('../net/scene_types.js').Animation} Animation
+ * @typedef {import('../net/scene_types.js').PlayAnimation} PlayAnimation
  * @typedef {import('./scene_model.js').SceneModel} SceneModel
  */
 

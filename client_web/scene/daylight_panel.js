@@ -11,7 +11,7 @@ import {NewestOnly} from './surface_change.js';
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./history.js').History} History
- * @typedef {import('../net/protocol.js').SetDaylight} SetDaylight
+ * @typedef {import('../net/scene_types.js').SetDaylight} SetDaylight
  */
 
 const NOON = 720;

@@ -5,8 +5,8 @@ import {turnBetween, turnedAbout} from './placement.js';
 import {length, sub} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  */
 

@@ -20,10 +20,10 @@ import {
 } from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {import('../ui/vector.js').Ray} Ray
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  * @typedef {import('../net/raybundle_client.js').RaybundleClient} RaybundleClient

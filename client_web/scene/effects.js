@@ -6,7 +6,7 @@ import {percent} from '../ui/format.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Effect} Effect
+ * @typedef {import('../net/scene_types.js').Effect} Effect
  */
 
 /** The server's names of effects, which are the field's terms, in plain words. */

@@ -18,8 +18,8 @@ import {add, centre, scale, vec3} from '../ui/vector.js';
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('../picture/overlay.js').OverlayFrame} OverlayFrame
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {'move' | 'turn' | 'size'} GizmoMode
  * @typedef {{x: number, y: number}} Point
  * @typedef {object} HandleDrag

@@ -6,7 +6,7 @@ import {deedOf} from './placement.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {object} Step
  * @property {string} label  what was done, e.g. "move short box"
  * @property {string | string[]} [subject]  what it was done to, of subjectOf()
@@ -158,7 +158,7 @@ export function addHistory(app, history) {
     redo.addEventListener('click', () => history.redo());
     app.mover.addEventListener('done', (event) => {
         const {object, from, to} = /** @type {CustomEvent} */ (event).detail;
-        const move = (/** @type {import('../net/protocol.js').Transform} */ transform) => () => {
+        const move = (/** @type {import('../net/scene_types.js').Transform} */ transform) => () => {
             const now = app.scene?.object(object.id);
             return now ? app.mover.move(now, transform, null) : Promise.resolve();
         };

@@ -6,7 +6,7 @@ import {aimAt} from './light_place.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Light} Light
+ * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
  */
 

@@ -8,7 +8,7 @@ import {LightDetails, hasDetails} from './light_details.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures, sameLight} from './light_values.js';
 
 /**
- * @typedef {import('../net/protocol.js').Light} Light
+ * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {import('./light_values.js').LoadedLight} LoadedLight
  * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
  */

@@ -5,8 +5,8 @@ import {LiveField, field, fieldNote, input} from '../ui/elements.js';
 import {aimOf, anglesOf} from './light_place.js';
 
 /**
- * @typedef {import('../net/protocol.js').Light} Light
- * @typedef {import('../net/protocol.js').SetLight} SetLight
+ * @typedef {import('../net/scene_types.js').Light} Light
+ * @typedef {import('../net/scene_types.js').SetLight} SetLight
  * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
  * @typedef {Omit<SetLight, 'light'>} Values
  * @typedef {object} Deeds

@@ -8,7 +8,7 @@ import {NewestOnly} from './surface_change.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('../net/protocol.js').Light} Light
+ * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {{name: string, lights: Light[]}} Group
  */
 

@@ -13,8 +13,8 @@ import {SurfaceChange} from './surface_change.js';
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./history.js').History} History
- * @typedef {import('../net/protocol.js').Light} Light
- * @typedef {import('../net/protocol.js').Material} Material
+ * @typedef {import('../net/scene_types.js').Light} Light
+ * @typedef {import('../net/scene_types.js').Material} Material
  * @typedef {import('./light_values.js').LoadedLight} LoadedLight
  */
 

@@ -3,7 +3,7 @@
 
 import {length, sub, vec3} from '../ui/vector.js';
 
-/** @typedef {import('../net/protocol.js').Vec3} Vec3 */
+/** @typedef {import('../net/scene_types.js').Vec3} Vec3 */
 
 const DEGREE = Math.PI / 180;
 

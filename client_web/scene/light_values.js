@@ -3,7 +3,7 @@
 
 import {threeDigits} from '../ui/units.js';
 
-/** @typedef {import('../net/protocol.js').Light} Light */
+/** @typedef {import('../net/scene_types.js').Light} Light */
 
 /** A dimmer's lowest step, as a share of the light as loaded; below it, it is off. */
 const DIMMEST = 0.01;
@@ -60,7 +60,7 @@ export function intensityProblem(value) {
     return value < 0 ? 'Enter 0 or more.' : '';
 }
 
-/** @typedef {{intensity: number, colour: import('../net/protocol.js').Vec3}} LoadedLight */
+/** @typedef {{intensity: number, colour: import('../net/scene_types.js').Vec3}} LoadedLight */
 
 /**
  * What the scene file gives a light; of servers that do not tell, what it has now.

@@ -4,7 +4,7 @@
 import {fromHex, luminance, toHex} from '../measure/colour.js';
 import {LiveField, field, input} from '../ui/elements.js';
 
-/** @typedef {import('../net/protocol.js').Material} Material */
+/** @typedef {import('../net/scene_types.js').Material} Material */
 
 /**
  * Materials by name, in their order; those without a name each alone.
@@ -25,9 +25,9 @@ export function byName(materials) {
 /**
  * A colour of another reflectance, as near to its hue as that goes: no part of the light is reflected more than wholly.
  *
- * @param {import('../net/protocol.js').Vec3} colour  linear
+ * @param {import('../net/scene_types.js').Vec3} colour  linear
  * @param {number} share  0..1
- * @returns {import('../net/protocol.js').Vec3}
+ * @returns {import('../net/scene_types.js').Vec3}
  */
 export function reflecting(colour, share) {
     const now = luminance(colour);

@@ -2,7 +2,7 @@
 // Which changes have come of a request, where one request makes several. Knows no page.
 
 /**
- * @typedef {import('../net/protocol.js').SceneChanged} SceneChanged
+ * @typedef {import('../net/scene_types.js').SceneChanged} SceneChanged
  * @typedef {import('../net/raybundle_client.js').RaybundleClient} RaybundleClient
  */
 

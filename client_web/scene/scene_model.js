@@ -22,12 +22,12 @@ import {
 } from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').Transform} Transform
- * @typedef {import('../net/protocol.js').Scene} Scene
- * @typedef {import('../net/protocol.js').SceneObject} SceneObject
- * @typedef {import('../net/protocol.js').SceneChanged} SceneChanged
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Scene} Scene
+ * @typedef {import('../net/scene_types.js').SceneObject} SceneObject
+ * @typedef {import('../net/scene_types.js').SceneChanged} SceneChanged
  */
 
 /**
@@ -343,7 +343,7 @@ export class SceneModel {
         }
     }
 
-    /** @param {import('../net/protocol.js').SetLight | undefined} change */
+    /** @param {import('../net/scene_types.js').SetLight | undefined} change */
     #applyLight(change) {
         const light = this.lights.find(({id}) => id === change?.light);
         if (light && change) {
@@ -382,7 +382,7 @@ export class SceneModel {
         }
     }
 
-    /** @param {import('../net/protocol.js').SetDaylight | undefined} change */
+    /** @param {import('../net/scene_types.js').SetDaylight | undefined} change */
     #applyDaylight(change) {
         if (change) {
             const {lights = [], ...daylight} = change;
@@ -392,7 +392,7 @@ export class SceneModel {
         }
     }
 
-    /** @param {import('../net/protocol.js').SetMaterial | undefined} change */
+    /** @param {import('../net/scene_types.js').SetMaterial | undefined} change */
     #applyMaterial(change) {
         const material = this.materials.find(({id}) => id === change?.material);
         if (material && change) {

@@ -13,7 +13,7 @@ import {centre, completeTransform, sub} from '../ui/vector.js';
  * @typedef {import('./scene_model.js').SceneModel} SceneModel
  * @typedef {import('./scene_model.js').PlacedObject} PlacedObject
  * @typedef {import('./history.js').History} History
- * @typedef {import('../net/protocol.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
  */
 
 /** Share of the size as loaded. */

@@ -95,7 +95,7 @@ export class SurfaceChange {
      * file, which the server has under no name.
      *
      * @param {object} values
-     * @param {import('../net/protocol.js').SceneChanged[]} changes
+     * @param {import('../net/scene_types.js').SceneChanged[]} changes
      */
     #addExchange(values, changes) {
         const before = changes.flatMap(({setLight, lightBefore}) =>

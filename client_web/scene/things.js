@@ -9,7 +9,7 @@ import {shifted} from './scene_model.js';
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('./history.js').History} History
- * @typedef {import('../net/protocol.js').Light} Light
+ * @typedef {import('../net/scene_types.js').Light} Light
  */
 
 /** Space between an object and its copy, metres. */

@@ -2,10 +2,10 @@
 // Vectors, quaternions and axis-aligned boxes. Nothing here changes its arguments.
 
 /**
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Quaternion} Quaternion
- * @typedef {import('../net/protocol.js').Bounds} Bounds
- * @typedef {import('../net/protocol.js').Transform} Transform
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Quaternion} Quaternion
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').Transform} Transform
  * @typedef {{origin: Vec3, direction: Vec3}} Ray
  */
 

@@ -5,8 +5,8 @@ import {add, scale, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('./renderer.js').Renderer} Renderer
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  */
 
 /** Size of the picture that the exposure is found by, pixels. */

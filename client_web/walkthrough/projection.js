@@ -5,9 +5,9 @@ import {axes} from '../camera/camera.js';
 import {diagonal, dot, length, scale, sub, vec3} from '../ui/vector.js';
 
 /**
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Vec3} Vec3
- * @typedef {import('../net/protocol.js').Bounds} Bounds
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').Bounds} Bounds
  */
 
 /** What is nearer to the eye is not drawn: metres, or this share of a smaller scene. */

@@ -8,8 +8,8 @@ import {skyTexture, uploadAlbedos, uploadChunks, uploadSky, uploadTextures} from
 import {ALBEDO_NODES, MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFragment} from './shaders.js';
 
 /**
- * @typedef {import('../net/protocol.js').View} View
- * @typedef {import('../net/protocol.js').Vec3} Vec3
+ * @typedef {import('../net/scene_types.js').View} View
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('./scene_data.js').SceneData} SceneData
  * @typedef {import('./scene_buffers.js').DrawnChunk} DrawnChunk
  * @typedef {import('./gl_program.js').GlProgram} GlProgram
