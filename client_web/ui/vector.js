@@ -97,7 +97,7 @@ export function transformPoint(transform, point) {
 }
 
 /**
- * Takes a point from the parent's space to node space.
+ * Takes a point from the parent's space to node space; along an axis whose scale is 0, to the node's zero.
  *
  * @param {Transform} transform
  * @param {Vec3} point
@@ -106,7 +106,8 @@ export function transformPoint(transform, point) {
 export function inverseTransformPoint(transform, point) {
     const t = completeTransform(transform);
     const conjugate = {x: -t.rotation.x, y: -t.rotation.y, z: -t.rotation.z, w: t.rotation.w};
-    const inverseScale = vec3(1 / t.scale.x, 1 / t.scale.y, 1 / t.scale.z);
+    const inverse = (/** @type {number} */ factor) => (factor === 0 ? 0 : 1 / factor);
+    const inverseScale = vec3(inverse(t.scale.x), inverse(t.scale.y), inverse(t.scale.z));
     return times(inverseScale, rotate(conjugate, sub(point, t.translation)));
 }
 

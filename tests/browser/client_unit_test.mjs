@@ -47,6 +47,23 @@ function close(actual, expected, tolerance = 1e-9) {
     assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
 }
 
+describe('a transform of a node', () => {
+    const turned = {translation: vec3(1, 2, 3), rotation: {x: 0, y: Math.SQRT1_2, z: 0, w: Math.SQRT1_2}};
+
+    it('is undone by its inverse', () => {
+        const transform = {...turned, scale: vec3(2, 0.5, -3)};
+        near(vector.inverseTransformPoint(transform, vector.transformPoint(transform, vec3(4, 5, 6))), vec3(4, 5, 6));
+    });
+
+    it('that flattens has what is nearest for an inverse, and nothing infinite', () => {
+        const flat = {...turned, scale: vec3(2, 0, 3)};
+        near(vector.inverseTransformPoint(flat, vector.transformPoint(flat, vec3(4, 5, 6))), vec3(4, 0, 6));
+        near(vector.inverseTransformPoint({scale: vec3(0, 0, 0)}, vec3(1, 1, 1)), vec3(0, 0, 0));
+        const moved = movedBounds(BOX, flat, {...flat, translation: vec3(1, 2, 4)});
+        assert.ok([moved.min, moved.max].every(({x, y, z}) => [x, y, z].every(Number.isFinite)), JSON.stringify(moved));
+    });
+});
+
 describe('camera', () => {
     it('projects the target to the middle of the picture', () => {
         const {x, y, depth} = camera.project(FRONT, 1.5, FRONT.target);
