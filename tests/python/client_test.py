@@ -401,12 +401,17 @@ class Examples(WithServer):
 
     def test_a_check_ends_by_what_it_has_found(self):
         plane = [[1, 2, 1], [3, 0, 0], [0, 0, 3]]
-        for required, status in ((1, 0), (1e6, 1)):
+        for required, status in ((1, 0), (1e6, 5)):  # as of `raybundle measure`
             with self.subTest(required), tempfile.TemporaryDirectory() as folder:
                 file = Path(folder) / "requirements.json"
                 file.write_text(json.dumps([{"name": "plane", "plane": plane, "grid": [3, 3], "mean": required}]))
                 done = self.run_example("check_lighting.py", self.daemon.address, file, "--error", "0.3")
                 self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "requirements.json"
+            self.assertEqual(self.run_example("check_lighting.py", "127.0.0.1:1", file).returncode, 2)
+            file.write_text("[]")
+            self.assertEqual(self.run_example("check_lighting.py", "127.0.0.1:1", file).returncode, 1)
 
 
 class WithinLimit(unittest.TextTestResult):
