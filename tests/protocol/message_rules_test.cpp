@@ -6,6 +6,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 namespace raybundle {
@@ -42,6 +43,27 @@ TEST(MessageRules, EveryMessageHasOne) {
                                 [number](const MessageRule& rule) { return rule.body == number; }),
                   1)
             << body->field(i)->name();
+    }
+}
+
+/// The row of a role in the table of protocol/README.md.
+std::string row_of_role(const std::string& role) {
+    std::ifstream page(RAYBUNDLE_PROTOCOL_PAGE);
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("| `" + role + "` | ")) {
+            return line;
+        }
+    }
+    return {};
+}
+
+TEST(MessageRules, ThePageOfTheProtocolSaysWhoMaySendWhat) {
+    const auto* const body = v1::ClientMessage::descriptor()->FindOneofByName("body");
+    for (int i = 0; i < body->field_count(); ++i) {
+        const auto number = static_cast<v1::ClientMessage::BodyCase>(body->field(i)->number());
+        const std::string row = row_of_role(v1::Role_Name(required_role(number)));
+        EXPECT_NE(row.find("`" + std::string(body->field(i)->json_name()) + "`"), std::string::npos)
+            << body->field(i)->json_name() << " is not in the row: " << row;
     }
 }
 
