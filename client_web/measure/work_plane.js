@@ -61,7 +61,7 @@ export function valueText(quantity, unit) {
  *
  * @param {Measured} result
  */
-export function planeState({points, columns, rows, spacing, factor, maintained, relativeError}) {
+export function planeState({points, columns, rows, spacing, factor, maintained, direct, relativeError}) {
     const inside = points.filter((point) => point.inside).length;
     const parts = [`${columns} × ${rows} points`];
     if (spacing) {
@@ -73,7 +73,7 @@ export function planeState({points, columns, rows, spacing, factor, maintained, 
     const error = relativeError === undefined || relativeError > 1
         ? ' The values are still uncertain.'
         : ` Values are known within ${threeDigits(100 * relativeError)} % of the mean.`;
-    return `${parts.join(', ')}.${left}${kept}${error}`;
+    return `${parts.join(', ')}.${left}${direct ? ' Direct light only.' : ''}${kept}${error}`;
 }
 
 /** @param {Measured} result @param {string} unit  of the values @returns {string} */

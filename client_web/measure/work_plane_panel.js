@@ -89,7 +89,7 @@ export class WorkPlanePanel {
             relativeError: 0.05,
             keep: true,
             maintained: byId('plane-maintained', HTMLInputElement).checked,
-            ...(quantity === 'UGR' ? {directions: 8} : {}),
+            ...(quantity === 'UGR' ? {directions: 8} : {direct: byId('plane-direct', HTMLInputElement).checked}),
             ...(['VERTICAL', 'SEMICYLINDRICAL'].includes(quantity) ? {direction: this.#heading()} : {}),
         };
     }

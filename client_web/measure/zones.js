@@ -50,7 +50,8 @@ export function zoneValues(zone, unit) {
     const [low, high] = worst ? [zone.maximumLow, zone.maximumHigh] : [zone.meanLow, zone.meanHigh];
     const interval = low === undefined || high === undefined ? '' : ` (${text(low)} to ${text(high)})`;
     const uniformity = worst || zone.uniformity === undefined ? '' : `, Uo ${zone.uniformity.toFixed(2)}`;
-    return `${symbol} ${text(value)}${interval}${worst ? ' where it is worst' : ''}${uniformity}`;
+    const direct = zone.direct ? ', direct light only' : '';
+    return `${symbol} ${text(value)}${interval}${worst ? ' where it is worst' : ''}${uniformity}${direct}`;
 }
 
 /**

@@ -73,6 +73,7 @@
  * @property {number} factor
  * @property {number} [spacing]  m
  * @property {boolean} [maintained]
+ * @property {boolean} [direct]  without light that surfaces have reflected
  * @property {string} [name]  of a zone
  * @property {string} [requirement]  that it is to meet
  * @property {Check[]} [checks]

@@ -127,6 +127,9 @@ std::string zone_section(const ReportZone& zone, const ReportWords& w) {
                        w.quantity(found.quantity()) + ". " + grid_text(zone, w) + ". ";
     html += found.maintained() ? w.of("Maintained values.", "Wartungswerte.")
                                : w.of("Initial values.", "Neuwerte.");
+    if (found.direct()) {
+        html += std::string(" ") + w.of("Direct light only.", "Nur direktes Licht.");
+    }
     html += "</p>\n";
     html += zone_plan(zone, w) + "</div>\n";
     if (found.has_mean()) {

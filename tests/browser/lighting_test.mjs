@@ -137,6 +137,7 @@ describe('a work plane', () => {
         assert.equal(measure.quantity, 'HORIZONTAL');
         assert.equal(measure.grid, 'EN12464');
         assert.ok(measure.keep);
+        assert.equal(measure.direct, false);
         const tile = (/** @type {string} */ name) => page.textContent(`[data-value="plane${name}"]`);
         assert.equal(await tile('Mean'), '500 lx');
         assert.equal(await tile('MeanInterval'), '490 lx to 510 lx');
@@ -145,8 +146,10 @@ describe('a work plane', () => {
         await keepScreenshot(page, 'work_plane');
         say({measured: measured(300)});
         await page.waitForFunction(() => document.querySelector('[data-value="planeMean"]').textContent === '300 lx');
+        await page.check('#plane-direct');
         await page.click('#measure-plane');
         await page.waitForFunction(() => document.querySelector('[data-value="planeMean"]').textContent === '500 lx');
+        assert.equal(sent.findLast((request) => request.measure).measure.direct, true);
         assert.ok(sent.some(({removeMeasurement}) => removeMeasurement?.measurement === 1));
         await page.click('#clear-plane');
         await page.waitForSelector('#plane-result', {state: 'hidden'});

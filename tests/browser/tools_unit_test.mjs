@@ -884,6 +884,7 @@ describe('work plane', () => {
             points: [point(false), point(true)]};
         assert.equal(planeState(result),
             '2 × 1 points. 1 lie in solids and are left out. Maintained: times 0.8. The values are still uncertain.');
+        assert.match(planeState({...result, direct: true}), /left out\. Direct light only\. Maintained/);
         assert.equal(planeCsv(result, 'lx').split('\n')[2], '0.0000,1.0000,0.5000,,,,in a solid');
     });
 });
@@ -896,6 +897,7 @@ describe('zones', () => {
         assert.equal(zoneValues(zone, 'lx'), 'Em 512 lx (505 lx to 519 lx), Uo 0.71');
         assert.equal(zoneValues({...zone, quantity: 'UGR', maximum: 20.24, maximumLow: 20.1, maximumHigh: 20.4}, 'fc'),
             'UGR 20.2 (20.1 to 20.4) where it is worst');
+        assert.match(zoneValues({...zone, direct: true}, 'lx'), /Uo 0\.71, direct light only$/);
         assert.equal(zoneValues({...zone, mean: undefined}, 'lx'), 'Em being measured …');
         const outside = {position: {x: 0, y: 0, z: 0}, inside: false, glare: /** @type {any} */ ({state: 'OUTSIDE'})};
         assert.equal(zoneValues({...zone, quantity: 'UGR', points: [outside]}, 'lx'), 'UGR outside of the method');

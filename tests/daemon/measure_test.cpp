@@ -139,6 +139,8 @@ TEST_F(MeasureTest, EveryQuantityHasItsUnitAndItsDirection) {
     EXPECT_GT(mean("SEMICYLINDRICAL", {{"direction", vec(0, 0, 1)}}), 0.0);
     EXPECT_NEAR(mean("HORIZONTAL", {{"maintained", true}}), 0.8 * up, 0.15 * up);
     EXPECT_LT(mean("HORIZONTAL", {{"direct", true}}), up);
+    const Json direct = {{"quantity", "HORIZONTAL"}, {"points", point}, {"direct", true}};
+    EXPECT_TRUE(viewer_.request({{"measure", direct}}).at("measured").at("direct"));
     EXPECT_LT(mean("DAYLIGHT_FACTOR", Json::object()), 100.0);
 }
 

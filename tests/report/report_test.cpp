@@ -127,6 +127,13 @@ TEST(Report, TellsEverythingAndTrustsNobody) {
     EXPECT_EQ(html.find("http://"), html.find("http://www.w3.org/2000/svg"));  // needs nothing else
 }
 
+TEST(Report, SaysWhereLightIsDirectAlone) {
+    ReportData data = data_of();
+    EXPECT_EQ(report_html(data, {}).find("Direct light only."), std::string::npos);
+    data.zones[0].found.set_direct(true);
+    EXPECT_NE(report_html(data, {}).find("Direct light only."), std::string::npos);
+}
+
 TEST(Report, SpeaksGermanAndFootcandles) {
     const std::string html = report_html(data_of(), {true, true});
     for (const char* text : {"lang=\"de\"", "Leuchten", "Zonen auf einen Blick", "nicht erfüllt",

@@ -188,6 +188,7 @@ void describe(const MeasureRequest& request, v1::Measured* message) {
     message->set_rows(request.grid.rows);
     message->set_factor(static_cast<float>(request.factor));
     message->set_maintained(request.task.maintained || request.factor != 1.0);
+    message->set_direct(request.task.settings.direct);
     if (request.spacing > 0.0) {
         message->set_spacing(static_cast<float>(request.spacing));
     }
