@@ -135,7 +135,6 @@ describe('work on a server that nobody has told to save it', () => {
         await page.click('#tab-measure');
         await page.selectOption('#display-mode', 'FALSE_ILLUMINANCE');
         await page.check('#isolines');
-        await frameWith(page, {settled: 0.85});
         await page.waitForSelector('.isoline-value', {state: 'attached'});
         const values = await page.locator('.isoline-value').allTextContents();
         assert.ok(values.every((text) => /^[125]/.test(text)), values.join());
