@@ -13,12 +13,13 @@ sys.dont_write_bytecode = True  # leave no __pycache__ in the source tree
 from generator.checks import check_files, check_model
 from generator.cornell_box import cornell_box
 from generator.effects import SCENES as EFFECTS
+from generator.examples import SCENES as EXAMPLES
 from generator.gltf import scene_files
 from generator.living_room import living_room
 from generator.overlaps import check_overlaps
 from generator.surface_effects import SCENES as SURFACE_EFFECTS
 
-SCENES = (cornell_box, living_room, *EFFECTS, *SURFACE_EFFECTS)
+SCENES = (cornell_box, living_room, *EFFECTS, *SURFACE_EFFECTS, *EXAMPLES)
 
 
 def write_scene(files: dict[str, bytes], folder: pathlib.Path) -> None:
