@@ -2,6 +2,7 @@
 // What `measure` prints.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands/measure_task.h"
@@ -89,7 +90,10 @@ std::string text_of(const Measurement& points, std::size_t i, const Interval& va
     if (!ratings.empty() && ratings[i].state != State::rated) {
         return ratings[i].state == State::no_source ? "no source" : "outside";
     }
-    return fmt::format("{:.4g} ±{:.2g}", value.value, value.high - value.value);
+    // Direct light of lights without extent is exact: what is left is the rounding of the mean.
+    const double error = value.high - value.value;
+    const bool exact = error <= 1e-12 * std::abs(value.value);
+    return fmt::format("{:.4g} ±{:.2g}", value.value, exact ? 0.0 : error);
 }
 
 void print_values(const MeasureTask& task, const Measurement& points) {
@@ -101,7 +105,7 @@ void print_values(const MeasureTask& task, const Measurement& points) {
         if (i % columns == 0) {
             fmt::print("{:9.3f} {:9.3f} {:9.3f} ", p.x, p.y, p.z);
         }
-        fmt::print("{:>14}", text_of(points, i, values[i], ratings));
+        fmt::print(" {:>13}", text_of(points, i, values[i], ratings));
         if (i % columns == columns - 1) {
             fmt::print("\n");
         }

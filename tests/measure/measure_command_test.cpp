@@ -15,12 +15,12 @@ struct Outcome {
     std::string text;
 };
 
-Outcome measure(const std::string& arguments) {
+Outcome measure(const std::string& arguments, const std::string& scene = "cornell_box") {
     const std::string command =
         "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent "
         "RAYBUNDLE_TEST_CLOCK_MS=20 " RAYBUNDLE_EXECUTABLE
-        " measure --log-level off " RAYBUNDLE_SCENES "/cornell_box.gltf " +
-        arguments + " 2>&1";
+        " measure --log-level off " RAYBUNDLE_SCENES "/" +
+        scene + ".gltf " + arguments + " 2>&1";
     Outcome outcome;
     FILE* const pipe = popen(command.c_str(), "r");
     std::array<char, 4096> part;
@@ -57,6 +57,15 @@ TEST(MeasureCommand, TheTableNamesItsRule) {
     EXPECT_NE(found.text.find("Uo"), std::string::npos);
     EXPECT_EQ(found.text.find("EN 12464"), std::string::npos);
     EXPECT_NE(measure(plane + "--error 0.2").text.find("EN 12464-1: 8 x 8"), std::string::npos);
+}
+
+TEST(MeasureCommand, ExactValuesHaveNoErrorAndKeepApart) {
+    const Outcome found =
+        measure("--plane 0,0.75,0 6,0,0 0,0,5 --direct --patch-size 1", "examples/office");
+    EXPECT_EQ(found.status, 0);
+    EXPECT_EQ(found.text.find("e-"), std::string::npos) << found.text;
+    // The middle of nine columns, and its neighbours.
+    EXPECT_NE(found.text.find(" 640.3 ±0 "), std::string::npos) << found.text;
 }
 
 TEST(MeasureCommand, ItsStatusSaysWhetherTheRequirementIsMet) {
