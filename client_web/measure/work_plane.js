@@ -10,6 +10,9 @@ import {vec3} from '../ui/vector.js';
  * @typedef {import('../net/scene_types.js').Vec3} Vec3
  */
 
+/** Direct light of lamps without extent is known but for rounding. */
+const EXACT = 1e-6;
+
 /**
  * A horizontal area over some bounds.
  *
@@ -72,7 +75,9 @@ export function planeState({points, columns, rows, spacing, factor, maintained, 
     const kept = factor === 1 ? own : ` Maintained: times ${factor}.`;
     const error = relativeError === undefined || relativeError > 1
         ? ' The values are still uncertain.'
-        : ` Values are known within ${threeDigits(100 * relativeError)} % of the mean.`;
+        : relativeError < EXACT
+          ? ' The values are exact.'
+          : ` Values are known within ${threeDigits(100 * relativeError)} % of the mean.`;
     return `${parts.join(', ')}.${left}${direct ? ' Direct light only.' : ''}${kept}${error}`;
 }
 

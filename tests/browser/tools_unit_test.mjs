@@ -884,6 +884,8 @@ describe('work plane', () => {
             points: [point(false), point(true)]};
         assert.equal(planeState(result),
             '2 × 1 points. 1 lie in solids and are left out. Maintained: times 0.8. The values are still uncertain.');
+        assert.match(planeState({...result, relativeError: 0.031}), /Values are known within 3\.10 % of the mean\.$/);
+        assert.match(planeState({...result, relativeError: 1e-9}), /The values are exact\.$/);
         assert.match(planeState({...result, direct: true}), /left out\. Direct light only\. Maintained/);
         assert.equal(planeCsv(result, 'lx').split('\n')[2], '0.0000,1.0000,0.5000,,,,in a solid');
     });
