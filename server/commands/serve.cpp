@@ -17,6 +17,7 @@
 #include "app/scene_opener.h"
 #include "app/scene_watch.h"
 #include "app/signal_watch.h"
+#include "app/span_export.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "journal/redis/redis_log.h"
@@ -97,11 +98,11 @@ class NetworkEnd {
 struct ServedScene {
     ServedScene(const JournalChoice& journals, LoadedScene loaded,
                 const std::shared_ptr<const SceneFolder>& folder,
-                const RenderLoopSettings& settings, Server& server)
+                const RenderLoopSettings& settings, Server& server, const SpanExporter* spans)
         : log(open_change_log(journals, loaded)),
           restored((loaded.scene.folder = folder, log.restore(loaded.scene, loaded.mesh), true)),
           loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log),
-          metrics(server, loop, log) {}
+          metrics(server, loop, log, spans) {}
 
     ChangeLog log;
     bool restored;  // before anything is moved from
@@ -129,10 +130,12 @@ void compile_for_ever() {
 /// Serves one scene after the other.
 class SceneServer {
   public:
-    SceneServer(const Options& options, Server& server, Control& control)
+    /// spans: takes traces; null: nobody wants any.
+    SceneServer(const Options& options, Server& server, Control& control, SpanExporter* spans)
         : options_(options),
           server_(server),
           control_(control),
+          spans_(spans),
           journals_(options),
           context_(create_egl_context({options.device.gpu, false})),
           effect_bench_(options, server) {
@@ -143,6 +146,7 @@ class SceneServer {
         settings_.renderer = context_->renderer();
         settings_.software_rendering = context_->is_software();
         settings_.lost_after_change = injected_fault();
+        settings_.spans = spans;
         settings_.effect_requests = [this](const ClientEvent& request, const Scene& scene,
                                            const PatchMesh& mesh) {
             effect_bench_.measure(request, scene, mesh);
@@ -240,7 +244,7 @@ class SceneServer {
     std::unique_ptr<ServedScene> serve_scene(LoadedScene loaded) {
         auto folder = control_.opener ? control_.opener->folder() : nullptr;
         return std::make_unique<ServedScene>(journals_, std::move(loaded), folder, settings_,
-                                             server_);
+                                             server_, spans_);
     }
 
     /// Viewers that wait hear of it.
@@ -351,6 +355,7 @@ class SceneServer {
     const Options& options_;
     Server& server_;
     Control& control_;
+    SpanExporter* spans_;
     JournalChoice journals_;
     std::optional<EglContext> context_;
     EffectBench effect_bench_;
@@ -395,8 +400,9 @@ int run_serve(const Options& options) {
     if (!options.serve.scenes.empty()) {
         control.opener.emplace(options, server, control.times, leave);
     }
+    const auto spans = make_span_exporter(options);
     const NetworkEnd network_end(control, server);  // before the opener, which uploads use
-    SceneServer(options, server, control).run();
+    SceneServer(options, server, control, spans.get()).run();
     spdlog::info("stopping");
     server.stop();
     return exit_done;

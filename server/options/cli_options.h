@@ -120,6 +120,7 @@ struct ServeOptions {
     /// From the configuration file or the environment only.
     std::string redis_user, redis_password;
     std::string scenes;  ///< folder
+    std::string otlp;    ///< URL of a collector of traces; empty: as the environment says
     double min_frames_per_second = 0.0;
     int max_viewers = 64;
     int max_upload_megabytes = 256;

@@ -9,6 +9,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "telemetry/trace_scope.h"
+
 namespace raybundle {
 namespace {
 
@@ -24,6 +26,21 @@ class JsonMessage : public spdlog::custom_flag_formatter {
     }
     [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
         return std::make_unique<JsonMessage>();
+    }
+};
+
+/// `,"trace_id":"...","span_id":"..."` of a line that belongs to a trace.
+class TraceFields : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& /*line*/, const std::tm& /*time*/,
+                spdlog::memory_buf_t& out) override {
+        if (const auto& trace = current_trace()) {
+            fmt::format_to(std::back_inserter(out), R"(,"trace_id":"{}","span_id":"{}")",
+                           hex_of(trace->trace), hex_of(trace->span));
+        }
+    }
+    [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<TraceFields>();
     }
 };
 
@@ -65,8 +82,8 @@ void set_log(const Options& options) {
     auto formatter = std::make_unique<spdlog::pattern_formatter>(
         json ? spdlog::pattern_time_type::utc : spdlog::pattern_time_type::local);
     if (json) {
-        formatter->add_flag<JsonMessage>('*').set_pattern(
-            R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*})");
+        formatter->add_flag<JsonMessage>('*').add_flag<TraceFields>('J').set_pattern(
+            R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*%J})");
     } else {
         formatter->add_flag<PlainMessage>('*').set_pattern(
             "[%Y-%m-%d %H:%M:%S.%e] [%n] [%^%l%$] %*");

@@ -13,6 +13,7 @@
 
 #include "scene/light/cie_sky.h"
 #include "scene/medium.h"
+#include "telemetry/http_url.h"
 
 namespace raybundle {
 namespace {
@@ -68,6 +69,11 @@ std::string project_problem(const std::string& text) {
                    c == '.';
         });
     return fits ? "" : "'" + text + "' is not a name of at most 64 letters, digits, -, _ and .";
+}
+
+std::string otlp_problem(const std::string& text) {
+    const bool fits = text.empty() || parse_http_url(text).has_value();
+    return fits ? "" : "'" + text + "' is not an address as http://127.0.0.1:4318";
 }
 
 std::string ies_problem(const std::string& text) {
@@ -147,6 +153,10 @@ constexpr std::array serve_table{
               field<&Options::serve, &ServeOptions::max_upload_seconds>(), 0.1, 86400},
     OptionRow{"logFormat", "Log lines as text or as one JSON object each",
               field<&Options::log, &LogOptions::format>(), 0, 0, log_format_problem},
+    OptionRow{"otlp",
+              "Collector of OpenTelemetry that gets a trace of each change, e.g. "
+              "http://127.0.0.1:4318 (OTLP over HTTP; default: OTEL_EXPORTER_OTLP_ENDPOINT)",
+              field<&Options::serve, &ServeOptions::otlp>(), 0, 0, otlp_problem},
     OptionRow{"patchSize", "Target edge of the patches, m (0: about 25 000 patches)",
               field<&Options::scene, &SceneOptions::patch_size>(), 0, no_limit},
     OptionRow{"seed", "Of all random numbers", field<&Options::scene, &SceneOptions::seed>(), 0,

@@ -68,6 +68,7 @@ void RenderLoop::send_solutions() {
     if (services_.status.due()) {
         services_.review.check_pin();
         services_.snapshot_queue.report();
+        services_.traces.expire();
         services_.status.send_solutions();
     }
 }

@@ -6,6 +6,7 @@
 
 #include "scheduling/scheduling_settings.h"
 #include "session/scene_service.h"
+#include "telemetry/span.h"
 #include "transport/solver.h"
 
 namespace raybundle {
@@ -19,6 +20,7 @@ struct RenderLoopSettings {
     bool software_rendering = false;  ///< and that it is no GPU
     /// Fault injection of tests: the GPU is lost so many iterations after a change; 0: never.
     std::uint64_t lost_after_change = 0;
+    SpanSink* spans = nullptr;  ///< takes traces of changes; null: nobody wants any
     SceneService::SceneRequests scene_requests;    ///< empty: there are no scenes to open
     SceneService::EffectRequests effect_requests;  ///< empty: effects are not measured
 };

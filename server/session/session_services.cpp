@@ -10,12 +10,13 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
       snapshots({s.live, snapshot_queue, s.receivers, s.server}),
       lighting({s.live, s.server}),
       animations({s.live, s.viewers, s.server}, s.policy.clock()),
+      traces(settings.spans, s.live.scene().name),
       changes({s.live, s.viewers, s.pictures, s.receivers, snapshot_queue, lighting.scenes(),
-               animations, s.demand, s.policy.changes(), s.server, s.metrics}),
+               animations, s.demand, s.policy.changes(), traces, s.server, s.metrics}),
       errors({s.live, s.viewers, s.policy}),
       solver({s.live, s.viewers, s.receivers, snapshot_queue, changes, errors, s.demand, s.policy,
               s.server, s.metrics, settings.lost_after_change}),
-      frames({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
+      frames({s.live, s.viewers, s.pictures, s.policy, traces, s.server, s.metrics}),
       presence({s.viewers, s.policy, s.live.log(), s.server}),
       light({s.live, s.policy.clock(), s.policy.settings().viewers, s.server, s.metrics}),
       views({s.live, presence, light, s.policy, s.server}),
@@ -44,6 +45,7 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
 
 void SessionServices::forget(SessionState& state, ViewerId viewer) {
     frames.forget(viewer);
+    traces.forget(viewer);
     state.policy.forget(viewer);
     snapshots.forget(viewer);
     measurements.forget(viewer);

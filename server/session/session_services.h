@@ -3,6 +3,7 @@
 
 #include "session/animation/animation_service.h"
 #include "session/changes/change_coordinator.h"
+#include "session/changes/change_traces.h"
 #include "session/changes/lighting_service.h"
 #include "session/changes/project_follower.h"
 #include "session/light/light_service.h"
@@ -38,6 +39,7 @@ struct SessionServices {
     SnapshotService snapshots;
     LightingService lighting;
     AnimationService animations;
+    ChangeTraces traces;
     ChangeCoordinator changes;
     ErrorService errors;
     SolverDriver solver;

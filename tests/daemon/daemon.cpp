@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kStartTime = std::chrono::seconds(300);
 constexpr auto kEndTime = std::chrono::seconds(300);
 constexpr auto kTalkTime = std::chrono::seconds(300);
+constexpr std::string_view kAnnouncement = "raybundle serves ";
 constexpr std::string_view kAddress = "://127.0.0.1:";
 
 }  // namespace
@@ -57,7 +58,9 @@ Daemon::Daemon(Unready /*unready*/, const std::string& scene,
 void Daemon::wait_for_address() {
     const auto end = Clock::now() + kStartTime;
     std::size_t found = 0;
-    while ((found = output_.find(kAddress)) == std::string::npos ||
+    // Other addresses may have been logged before.
+    while ((found = output_.find(kAnnouncement)) == std::string::npos ||
+           (found = output_.find(kAddress, found)) == std::string::npos ||
            output_.find('\n', found) == std::string::npos) {
         if (Clock::now() > end || !read_some(200)) {
             throw std::runtime_error("the server does not start:\n" + output_);

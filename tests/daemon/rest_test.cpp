@@ -8,7 +8,10 @@
 #include <thread>
 
 #include "daemon.h"
+#include "http_receiver.h"
 #include "json_viewer.h"
+#include "otlp_trace.pb.h"
+#include "telemetry/trace_context.h"
 #include "test_folder.h"
 
 namespace raybundle {
@@ -26,23 +29,28 @@ class RestTest : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder_ = std::make_unique<TestFolder>();
+        collector_ = std::make_unique<HttpReceiver>();
         daemon_ = std::make_unique<Daemon>(
             scene_file("cornell_box.gltf"),
-            std::vector<std::string>{"--journal", folder_->path("session.db")});
+            std::vector<std::string>{"--journal", folder_->path("session.db"), "--otlp",
+                                     collector_->url()});
     }
     static void TearDownTestSuite() {
         daemon_.reset();
+        collector_.reset();
         folder_.reset();
     }
 
-    [[nodiscard]] static Answer ask(const std::string& line, const std::string& body = "") {
-        const std::string text = http_exchange(
-            daemon_->port(), line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" +
-                                 (body.empty() ? ""
-                                               : "Content-Type: application/json\r\n"
-                                                 "Content-Length: " +
-                                                     std::to_string(body.size()) + "\r\n") +
-                                 "\r\n" + body);
+    [[nodiscard]] static Answer ask(const std::string& line, const std::string& body = "",
+                                    const std::string& headers = "") {
+        const std::string text =
+            http_exchange(daemon_->port(),
+                          line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" + headers +
+                              (body.empty() ? ""
+                                            : "Content-Type: application/json\r\n"
+                                              "Content-Length: " +
+                                                  std::to_string(body.size()) + "\r\n") +
+                              "\r\n" + body);
         const std::size_t end = text.find("\r\n\r\n");
         return {std::stoi(text.substr(9, 3)), text.substr(0, end), text.substr(end + 4)};
     }
@@ -58,6 +66,34 @@ class RestTest : public testing::Test {
         }
     }
 
+    /// Spans of the trace that a caller has begun, once a frame has shown its change.
+    [[nodiscard]] static std::vector<otlp::v1::Span> spans_of(const std::string& trace) {
+        std::vector<otlp::v1::Span> spans;
+        for (std::size_t requests = 1; spans.empty(); ++requests) {
+            const auto received = collector_->wait_for(requests);
+            if (received.size() < requests) {
+                break;
+            }
+            otlp::v1::ExportTraceServiceRequest read;
+            if (!read.ParseFromString(received[requests - 1].body) ||
+                read.resource_spans().empty()) {
+                ADD_FAILURE() << received[requests - 1].head;
+                break;
+            }
+            for (const auto& span : read.resource_spans(0).scope_spans(0).spans()) {
+                if (hex_of_text(span.trace_id()) == trace) {
+                    spans.push_back(span);
+                }
+            }
+        }
+        return spans;
+    }
+
+    [[nodiscard]] static std::string hex_of_text(const std::string& bytes) {
+        return hex_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    }
+
+    static inline std::unique_ptr<HttpReceiver> collector_;
     static inline std::unique_ptr<TestFolder> folder_;
     static inline std::unique_ptr<Daemon> daemon_;
 };
@@ -146,6 +182,32 @@ TEST_F(RestTest, MeasurementsAndPicturesAreAskedForAgain) {
     EXPECT_NE(taken.json().at("exposure"), 0);
     const Answer picture = ask("GET " + taken.json().at("url").get<std::string>());
     EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
+}
+
+TEST_F(RestTest, AChangeIsOneTrace) {
+    JsonViewer viewer(daemon_->port());
+    viewer.join({}, 32, 24);
+    for (int i = 0; i < 2; ++i) {  // once it is known to acknowledge frames it is waited for
+        viewer.next_frame([](const Json&) { return true; });
+    }
+    const std::string trace = "0af7651916cd43dd8448eb211c80319c";
+    const Answer set = ask("PATCH /api/v1/lights/1?name=Ada", R"({"dim":0.7})",
+                           "traceparent: 00-" + trace + "-b7ad6b7169203331-01\r\n");
+    ASSERT_EQ(set.status, 200) << set.body;
+    const Json epoch = set.json().at("sceneChanged").at("epoch");
+    viewer.next_frame([&](const Json& header) { return header.value("epoch", Json()) == epoch; });
+    const auto spans = spans_of(trace);
+    std::vector<std::string> names;
+    for (const auto& span : spans) {
+        names.push_back(span.name());
+    }
+    const std::vector<std::string> expected{"change setLight", "inbox",         "queue", "record",
+                                            "apply",           "special phase", "frame"};
+    ASSERT_EQ(names, expected);
+    EXPECT_EQ(hex_of_text(spans[0].parent_span_id()), "b7ad6b7169203331");
+
+    collector_->hang();  // which holds nobody up
+    EXPECT_EQ(ask("PATCH /api/v1/lights/1?name=Ada", R"({"dim":0.6})").status, 200);
 }
 
 }  // namespace

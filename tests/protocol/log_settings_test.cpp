@@ -9,6 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "collected_spans.h"
+#include "telemetry/trace.h"
+#include "telemetry/trace_scope.h"
+
 namespace raybundle {
 namespace {
 
@@ -43,7 +47,18 @@ TEST(LogSettings, JsonLinesAreJsonWhateverIsLogged) {
     EXPECT_EQ(text.find('\n'), text.size() - 1);
     const auto line = nlohmann::json::parse(text);
     EXPECT_EQ(line.at("level"), "warning");
+    EXPECT_FALSE(line.contains("trace_id"));
     EXPECT_NE(line.at("message").get<std::string>().find("a\"\\\n[error]"), std::string::npos);
+}
+
+TEST(LogSettings, JsonLinesOfAChangeNameItsTrace) {
+    CollectedSpans sink;
+    const Trace trace(sink, "change x", std::nullopt, Trace::Clock::now());
+    const TraceScope scope(&trace);
+    const auto line = nlohmann::json::parse(logged("json"));
+    EXPECT_EQ(line.at("trace_id"), hex_of(trace.context().trace));
+    EXPECT_EQ(line.at("span_id"), hex_of(trace.context().span));
+    EXPECT_EQ(logged("text").find("trace"), std::string::npos);
 }
 
 }  // namespace

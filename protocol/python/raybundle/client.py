@@ -148,24 +148,27 @@ class Client(Requests):
 
     # ------------------------------------------------------------------ requests
 
-    async def request(self, *, request_key: Optional[str] = None, **body: Any) -> Any:
+    async def request(self, *, request_key: Optional[str] = None, traceparent: Optional[str] = None, **body: Any) -> Any:
         """Sends one message of the protocol and returns its answer, a ServerMessage.
 
         await client.request(set_light=messages.SetLight(light=1, dim=0.5)); a dict stands for a message, too.
         request_key: of a change, any new text of 1 to 64 visible ASCII characters. After ConnectionClosed the same
         request under the same key makes the change if it was not made, and is answered as before if it was.
+        traceparent: of a change, the trace that it is a part of (W3C Trace Context, as OpenTelemetry's propagators write).
         Raises RequestRefused, ConnectionClosed; ValueError and TypeError for what is no message.
         """
-        _, answer = await self.begin_request(request_key=request_key, **body)
+        _, answer = await self.begin_request(request_key=request_key, traceparent=traceparent, **body)
         return await answer
 
-    async def begin_request(self, *, request_key: Optional[str] = None, **body: Any) -> tuple[int, "asyncio.Future[Any]"]:
+    async def begin_request(
+        self, *, request_key: Optional[str] = None, traceparent: Optional[str] = None, **body: Any
+    ) -> tuple[int, "asyncio.Future[Any]"]:
         """The same without waiting: the request's number, and the answer to come."""
         if len(body) != 1:
             raise ValueError("a request has exactly one body")
         if self._failure is not None:
             raise self._failure
-        message: Any = messages.ClientMessage(id=next(self._ids), request_key=request_key, **body)
+        message: Any = messages.ClientMessage(id=next(self._ids), request_key=request_key, traceparent=traceparent, **body)
         name = message.WhichOneof("body")
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         self._waiting[message.id] = answer

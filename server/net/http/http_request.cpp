@@ -62,6 +62,16 @@ std::string request_header(lws* connection, int token) {
     return text;
 }
 
+std::string custom_header(lws* connection, std::string_view name) {
+    const int letters = static_cast<int>(name.size());
+    const int size = lws_hdr_custom_length(connection, name.data(), letters);
+    std::string text(static_cast<std::size_t>(std::max(size, 0)) + 1, '\0');
+    const int length = lws_hdr_custom_copy(connection, text.data(), static_cast<int>(text.size()),
+                                           name.data(), letters);
+    text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    return text;
+}
+
 bool has_large_headers(lws* connection) {
     std::size_t bytes = 0;
     for (int token = 0; token < WSI_TOKEN_COUNT; ++token) {

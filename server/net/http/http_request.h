@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "net/http/http_response.h"
@@ -23,6 +24,10 @@ std::string request_query(lws* connection);
 
 /// Value of a header by its lws_token_indexes; empty where it is absent.
 std::string request_header(lws* connection, int token);
+
+/// Value of a header that libwebsockets does not know, by its name in lower case with the colon;
+/// empty where it is absent.
+std::string custom_header(lws* connection, std::string_view name);
 
 /// Whether the headers that libwebsockets knows by name, the cookie among them, have more than
 /// kMaxHeaderBytes.

@@ -188,7 +188,8 @@ int HttpService::on_rest(lws* connection, HttpMethod method, const std::string& 
                               request_header(connection, WSI_TOKEN_ORIGIN),
                               request_header(connection, WSI_TOKEN_HOST), parse_length(length),
                               !request_header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty(),
-                              request_peer(connection, state_.settings.trusted_proxies)}));
+                              request_peer(connection, state_.settings.trusted_proxies),
+                              custom_header(connection, "traceparent:")}));
 }
 
 /// Answers now or later, or waits for the rest of the request.

@@ -114,6 +114,12 @@ class Writer {
                               {"description", "That others see, unless the token has one."},
                               {"schema", {{"type", "string"}, {"maxLength", 64}}}});
         }
+        if (route.source == RestSource::session && route.method != HttpMethod::get) {
+            result.push_back({{"name", "traceparent"},
+                              {"in", "header"},
+                              {"description", "W3C Trace Context: the trace that it is a part of."},
+                              {"schema", {{"type", "string"}, {"maxLength", 128}}}});
+        }
         return result;
     }
 

@@ -46,6 +46,16 @@ HttpResponse stopping_problem() {
     return problem(v1::Error::UNAVAILABLE, "the server is stopping");
 }
 
+/// A trace that is none is ignored, as everywhere.
+void note_trace(const std::string& traceparent, std::vector<v1::ClientMessage>& messages) {
+    const bool fits = !traceparent.empty() && traceparent.size() <= kMaxTraceparent;
+    for (v1::ClientMessage& message : messages) {
+        if (fits) {
+            message.set_traceparent(traceparent);
+        }
+    }
+}
+
 HttpResponse openapi_response() {
     HttpResponse response;
     response.content_type = "application/json";
@@ -135,6 +145,7 @@ RestService::Outcome RestService::begin(lws* connection, RestHead head) {
     }
     Running running;
     running.method = head.method;
+    running.traceparent = head.traceparent;
     running.has_body = head.length.value_or(0) > 0;
     Outcome refused = examine(head, running);
     if (!running.has_body && refused.response) {
@@ -213,6 +224,7 @@ RestService::Outcome RestService::start(lws* connection) {
     if (auto crowd = refuse_crowd(running)) {
         return answer(std::move(*crowd));
     }
+    note_trace(running.traceparent, std::get<std::vector<v1::ClientMessage>>(messages));
     running.call = std::make_unique<RestCall>(state_, running.match, running.caller,
                                               std::get<std::vector<v1::ClientMessage>>(messages));
     if (running.call->listen()) {

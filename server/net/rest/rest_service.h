@@ -33,6 +33,7 @@ struct RestHead {
     std::optional<std::uint64_t> length{};  ///< of the body; none: there is no body
     bool chunked = false;                   ///< a body without length
     std::string peer;                       ///< who asks, see request_peer()
+    std::string traceparent{};              ///< header of W3C Trace Context
 };
 
 /// Answers what is asked below /api: the interface beside the socket for what is no stream.
@@ -73,6 +74,7 @@ class RestService {
         RestMatch match;
         RestCall::Caller caller;
         std::string peer;  ///< whom its place counts for
+        std::string traceparent;
         HttpMethod method = HttpMethod::get;
         double wait_s = 0.0;
         bool has_body = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct ClientEvent {
     /// It is no viewer but asks over HTTP: it sees no pictures, is told nothing unasked, not even
     /// `welcome` unless its Hello has an id, and nobody hears of it. Not said of `left`.
     bool caller = false;
+    std::chrono::steady_clock::time_point received{};  ///< of a message: when it came
 
     /// Whose share of the time for requests it takes: all callers have one share together.
     [[nodiscard]] ViewerId payer() const { return caller ? 0 : viewer; }

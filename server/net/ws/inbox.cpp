@@ -67,6 +67,7 @@ Inbox::Pushed Inbox::push(ViewerId viewer, v1::ClientMessage message, v1::Role r
     {
         const std::lock_guard lock(mutex_);
         ClientEvent event{viewer, ClientEvent::Kind::message, std::move(message), {}, role, caller};
+        event.received = std::chrono::steady_clock::now();
         if (const auto old = find_mergeable(viewer, event.message); old != events_.end()) {
             event.superseded = std::move(old->superseded);
             if (old->message.has_id()) {

@@ -64,16 +64,19 @@ HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const Clien
     if (recorder_.answer_made(event)) {
         return HandlerResult::answered;
     }
+    std::shared_ptr<Trace> trace = parts_.traces.begin(event);
+    const TraceScope scope(trace.get());
     const v1::SceneChanged change = change_of(event);
     if (change.change_case() != v1::SceneChanged::CHANGE_NOT_SET) {
-        const v1::Error problem = problem_of(parts_.scene.scene(), change);
-        if (problem.code() != v1::Error::CODE_UNSPECIFIED) {
-            parts_.server.reply_error(event, problem.code(), problem.message());
-            return HandlerResult::answered;
+        v1::Error problem = problem_of(parts_.scene.scene(), change);
+        if (problem.code() == v1::Error::CODE_UNSPECIFIED) {
+            problem = problem_of_presence(parts_.scene.scene(), change);
         }
-        const v1::Error gone = problem_of_presence(parts_.scene.scene(), change);
-        if (gone.code() != v1::Error::CODE_UNSPECIFIED) {
-            parts_.server.reply_error(event, gone.code(), gone.message());
+        if (problem.code() != v1::Error::CODE_UNSPECIFIED) {
+            if (trace) {
+                trace->fail(problem.message());
+            }
+            parts_.server.reply_error(event, problem.code(), problem.message());
             return HandlerResult::answered;
         }
     }
@@ -82,8 +85,14 @@ HandlerResult ChangeCoordinator::request(ViewerSession& /*session*/, const Clien
         day_held_ =
             day_by_ == event.viewer && parts_.policy.clock().ms_since(day_told_) < day_pause_ms;
     }
-    queue_.add(event);
+    queue_.add(event, std::move(trace));
     return HandlerResult::answered;
+}
+
+PendingChange ChangeCoordinator::take() {
+    PendingChange next = queue_.take();
+    end_stage(next, "queue");
+    return next;
 }
 
 void ChangeCoordinator::start_pending() {
@@ -97,7 +106,7 @@ void ChangeCoordinator::start_pending() {
     if (queue_.empty()) {
         return;
     }
-    PendingChange first = queue_.take();
+    PendingChange first = take();
     recorder_.renumber(first);
     if (!recorder_.fits_scene(first)) {
         recorder_.refuse_unfit(first);
@@ -107,6 +116,7 @@ void ChangeCoordinator::start_pending() {
         start_several(std::move(first));
         return;
     }
+    const TraceScope scope = scope_of(first);
     const TimePoint begun = parts_.policy.clock().now();
     std::vector<PendingChange> pending;
     pending.push_back(std::move(first));
@@ -116,7 +126,7 @@ void ChangeCoordinator::start_pending() {
     }
     while (!queue_.empty() && fits(queue_.front(), pending, parts_.scene.scene()) &&
            recorder_.fits_scene(queue_.front())) {
-        pending.push_back(queue_.take());
+        pending.push_back(take());
     }
     if (start(std::move(pending))) {
         parts_.policy.note_beginning(parts_.policy.clock().ms_since(begun));
@@ -219,12 +229,15 @@ void ChangeCoordinator::start_several(PendingChange pending) {
                                        parts_.scene.log(), parts_.lighting);
     if (expansion.problem.code() == v1::Error::CODE_UNSPECIFIED) {
         if (expansion.is_answer) {
-            queue_.put_first({expansion.changes.front(), pending.requests, false});
+            PendingChange named{expansion.changes.front(), pending.requests, false};
+            named.traces = pending.traces;
+            queue_.put_first(std::move(named));
         } else {
             queue_.add_expanded(expansion.changes, pending, expansion.made, expansion.fresh);
         }
         return;
     }
+    fail(pending.traces, expansion.problem.message());
     for (const ClientEvent& request : pending.requests) {
         parts_.server.reply_error(request, expansion.problem.code(), expansion.problem.message());
     }
@@ -292,6 +305,8 @@ void ChangeCoordinator::shrink_for_drag() {
 }
 
 void ChangeCoordinator::announce(const PendingChange& pending) {
+    end_stage(pending, "apply");
+    parts_.traces.begin_phase(pending);
     parts_.scene.note_change();
     if (pending.change.has_set_daylight()) {
         day_by_ = pending.change.by();
@@ -327,13 +342,18 @@ void ChangeCoordinator::end_change() {
     }
     const TimePoint now = parts_.policy.clock().now();
     std::vector<ViewerId> watchers;
+    std::vector<ViewerId> followed;
     for (const auto& [id, session] : parts_.viewers) {
         watchers.push_back(id);
+        if (session->acknowledged() && !session->paused() && !session->draws_itself(now)) {
+            followed.push_back(id);
+        }
         if (parts_.policy.phase_of_drag()) {
             session->stay_in_motion(now);
         }
     }
     parts_.policy.end_change(watchers);
+    parts_.traces.end_phase(followed, parts_.scene.epoch());
 }
 
 }  // namespace raybundle

@@ -11,6 +11,7 @@
 #include "session/animation/animation_service.h"
 #include "session/changes/change_queue.h"
 #include "session/changes/change_recorder.h"
+#include "session/changes/change_traces.h"
 #include "session/changes/lighting_scenes.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
@@ -37,6 +38,7 @@ class ChangeCoordinator {
         AnimationService& animations;
         const SolverDemand& demand;
         ChangePolicy& policy;
+        ChangeTraces& traces;
         Server& server;
         LoopMetrics& metrics;
     };
@@ -76,6 +78,7 @@ class ChangeCoordinator {
     void shrink_for_drag();
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
+    PendingChange take();
     void end_change();
 
     Parts parts_;

@@ -57,10 +57,18 @@ bool ChangeQueue::joins_last(const ClientEvent& event) const {
            group_of(pending_.back().requests.front()) == group_of(event);
 }
 
-void ChangeQueue::add(const ClientEvent& event) {
+void ChangeQueue::join(PendingChange& waiting, const ClientEvent& event,
+                       std::shared_ptr<Trace> trace) {
+    waiting.requests.push_back(event);
+    if (trace) {
+        waiting.traces.push_back(std::move(trace));
+    }
+}
+
+void ChangeQueue::add(const ClientEvent& event, std::shared_ptr<Trace> trace) {
     const v1::SceneChanged change = change_of(event);
     if (joins_last(event)) {
-        pending_.back().requests.push_back(event);
+        join(pending_.back(), event, std::move(trace));
         return;
     }
     PendingChange* waiting = nullptr;
@@ -75,12 +83,13 @@ void ChangeQueue::add(const ClientEvent& event) {
     }
     const bool several = change.change_case() == v1::SceneChanged::CHANGE_NOT_SET;
     if (several || waiting == nullptr || waiting->requests.size() >= max_requests) {
-        pending_.push_back({change, {event}});
+        pending_.push_back({change, {}});
+        join(pending_.back(), event, std::move(trace));
         return;
     }
     add_change(change, waiting->change);
     waiting->change.clear_animation();
-    waiting->requests.push_back(event);
+    join(*waiting, event, std::move(trace));
 }
 
 void ChangeQueue::add_expanded(const std::vector<v1::SceneChanged>& changes,
@@ -98,6 +107,7 @@ void ChangeQueue::add_expanded(const std::vector<v1::SceneChanged>& changes,
         }
         part.part = true;
         part.fresh = fresh;
+        part.traces = request.traces;
         pending_.push_front(std::move(part));
     }
 }

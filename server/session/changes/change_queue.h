@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "journal/change_sum.h"
 #include "journal/project_log.h"
 #include "net/ws/client_event.h"
+#include "telemetry/trace.h"
 
 namespace raybundle {
 
@@ -24,6 +26,7 @@ struct PendingChange {
     bool part = false;   ///< of what a request stands for, whose keys it has
     /// A part that nobody else adds under another number: it gets its number when it is its turn.
     bool fresh = false;
+    std::vector<std::shared_ptr<Trace>> traces = {};  ///< of the requests, where somebody wants any
 
     /// An undo, a group of lights, a lighting scene: which changes these are is found out when it
     /// is their turn.
@@ -38,7 +41,7 @@ struct PendingChange {
 class ChangeQueue {
   public:
     /// A request for a change, or for what stands for several.
-    void add(const ClientEvent& event);
+    void add(const ClientEvent& event, std::shared_ptr<Trace> trace = nullptr);
     /// Puts the changes that a request stands for in front, each a part of it with its keys, and
     /// itself, now `expanded`, behind them. made: how many parts of it have been made before, by a
     /// server that has ended since.
@@ -61,6 +64,8 @@ class ChangeQueue {
     std::vector<ClientEvent> take_requests();
 
   private:
+    static void join(PendingChange& waiting, const ClientEvent& event,
+                     std::shared_ptr<Trace> trace);
     [[nodiscard]] bool joins_last(const ClientEvent& event) const;
     [[nodiscard]] std::deque<PendingChange>::iterator behind_recorded();
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/edit/luminaire_edit.h"
+#include "session/changes/change_traces.h"
 #include "session/messages/addition_messages.h"
 #include "session/messages/daylight_messages.h"
 #include "session/messages/light_messages.h"
@@ -54,6 +55,7 @@ std::vector<PendingChange> ChangeRecorder::record(std::vector<PendingChange>& pe
 Recorded ChangeRecorder::record_one(PendingChange& pending) {
     Scene& scene = parts_.scene.scene();
     ChangeLog& log = parts_.scene.log();
+    const TraceScope scope = scope_of(pending);
     if (drop_made(pending) || part_is_over(pending)) {
         return Recorded::no;
     }
@@ -90,6 +92,7 @@ Recorded ChangeRecorder::record_one(PendingChange& pending) {
         describe_sky_lights(scene, pending.change.mutable_set_daylight());
     }
     log.note_answer(keys_of(pending), pending.change);
+    note_recorded(pending);
     return Recorded::yes;
 }
 
@@ -123,6 +126,8 @@ void ChangeRecorder::refuse_unfit(const PendingChange& pending) {
 
 void ChangeRecorder::refuse(const PendingChange& pending, v1::Error::Code code,
                             const std::string& reason) {
+    const TraceScope scope = scope_of(pending);
+    fail(pending.traces, reason);
     if (pending.recorded) {  // it keeps its number
         spdlog::error("change {} of another server does not fit the scene: {}",
                       pending.change.epoch(), reason);
@@ -152,6 +157,18 @@ void ChangeRecorder::renumber(PendingChange& pending) const {
     }
 }
 
+/// For those who look on.
+void ChangeRecorder::note_recorded(const PendingChange& pending) const {
+    const std::uint32_t epoch = parts_.scene.log().epoch();
+    for (const std::shared_ptr<Trace>& trace : pending.traces) {
+        trace->set("raybundle.epoch", std::int64_t{epoch});
+        trace->end_stage("record");
+    }
+    if (!pending.requests.empty()) {
+        spdlog::debug("change {} is viewer {}'s", epoch, pending.change.by());
+    }
+}
+
 /// Gives a change its epoch, in the log.
 Recorded ChangeRecorder::number(PendingChange& pending, const v1::SceneChanged& before) {
     ChangeLog& log = parts_.scene.log();
@@ -166,6 +183,7 @@ Recorded ChangeRecorder::number(PendingChange& pending, const v1::SceneChanged& 
     const Recorded recorded = log.record(pending.change, before, keys_of(pending));
     if (recorded == Recorded::no) {
         some_failed_ = true;
+        fail(pending.traces, not_saved);
         if (played) {
             parts_.animations.note_failure();
         }

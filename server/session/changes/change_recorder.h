@@ -57,6 +57,7 @@ class ChangeRecorder {
     [[nodiscard]] v1::Error problem_now(const PendingChange& pending) const;
     [[nodiscard]] bool part_is_over(const PendingChange& pending) const;
     void sign(PendingChange& pending) const;
+    void note_recorded(const PendingChange& pending) const;
 
     Parts parts_;
     bool some_failed_ = false;

@@ -16,12 +16,13 @@ constexpr int encoder_threads = 1;
 
 FrameDispatcher::FrameDispatcher(const Parts& parts)
     : parts_(parts),
-      encoder_(encoder_threads,
-               [&metrics = parts.metrics, &server = parts.server](const EncodedFrame& frame) {
-                   metrics.count_frame(frame.bytes.size());
-                   server.send_frame(frame.viewer, frame.header, frame.bytes);
-                   server.inbox().interrupt();
-               }) {}
+      encoder_(encoder_threads, [&metrics = parts.metrics, &server = parts.server,
+                                 &traces = parts.traces](const EncodedFrame& frame) {
+          metrics.count_frame(frame.bytes.size());
+          server.send_frame(frame.viewer, frame.header, frame.bytes);
+          traces.note_frame(frame.viewer, frame.header.epoch(), frame.bytes.size());
+          server.inbox().interrupt();
+      }) {}
 
 bool FrameDispatcher::send() {
     const bool collected = collect();

@@ -7,6 +7,7 @@
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
+#include "session/changes/change_traces.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
 #include "session/viewers/viewer_pictures.h"
@@ -23,6 +24,7 @@ class FrameDispatcher {
         const Viewers& viewers;
         ViewerPictures& pictures;
         FramePolicy& policy;
+        ChangeTraces& traces;
         Server& server;
         LoopMetrics& metrics;
     };

@@ -12,10 +12,11 @@
 
 namespace raybundle {
 
-constexpr double kMinLength = 1e-6;   ///< of a direction, an axis, a distance
-constexpr float kMaxTurn = 360.0F;    ///< degrees
-constexpr std::size_t kMaxName = 64;  ///< characters
-constexpr double kMaxNumber = 1e9;    ///< metres, seconds, photometric units: keeps squares finite
+constexpr double kMinLength = 1e-6;           ///< of a direction, an axis, a distance
+constexpr float kMaxTurn = 360.0F;            ///< degrees
+constexpr std::size_t kMaxName = 64;          ///< characters
+constexpr std::size_t kMaxTraceparent = 128;  ///< characters; of version 00 they are 55
+constexpr double kMaxNumber = 1e9;  ///< metres, seconds, photometric units: keeps squares finite
 
 inline glm::dvec3 to_vector(const v1::Vec3& vector) {
     return {vector.x(), vector.y(), vector.z()};

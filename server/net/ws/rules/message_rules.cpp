@@ -23,9 +23,8 @@ using Client = v1::ClientMessage;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-/// Of a request that may be asked for again.
-bool is_request_key(const std::string& text) {
-    return !text.empty() && text.size() <= kMaxName &&
+bool is_visible_ascii(const std::string& text, std::size_t most) {
+    return !text.empty() && text.size() <= most &&
            std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
 }
 
@@ -174,8 +173,11 @@ std::optional<Refusal> refuse_role(const Client& message, v1::Role role) {
 std::optional<Refusal> validate(const Client& message, const WireLimits& limits) {
     MessageChecker checker(limits);
     check_numbers(message, "", checker);
-    checker.require(!message.has_request_key() || is_request_key(message.request_key()),
+    checker.require(!message.has_request_key() || is_visible_ascii(message.request_key(), kMaxName),
                     "requestKey", "must be 1..64 visible ASCII characters");
+    checker.require(
+        !message.has_traceparent() || is_visible_ascii(message.traceparent(), kMaxTraceparent),
+        "traceparent", "must be 1..128 visible ASCII characters");
     if (const MessageRule* const rule = rule_of(message.body_case());
         rule != nullptr && rule->check != nullptr) {
         rule->check(message, checker);
