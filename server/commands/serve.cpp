@@ -33,9 +33,12 @@ namespace raybundle {
 
 namespace {
 
-/// Reads tokens, origins, log level and certificate again. What is wrong is logged and changes
-/// nothing.
+/// Reads tokens, origins, log level and certificate again, and opens the audit log again. What is
+/// wrong is logged and changes nothing.
 void reload_settings(const Options& options, Server& server) {
+    if (AuditLog* const audit = server.audit()) {
+        audit->reopen();
+    }
     try {
         const Options fresh = reread_config(options);
         const ServerSettings settings = server_settings(fresh);
@@ -384,7 +387,9 @@ int run_serve(const Options& options) {
         fmt::print("{}", print_config(options));
         return exit_done;
     }
-    Server server(server_settings(options));
+    ServerSettings settings = server_settings(options);
+    settings.audit = open_audit_log(options);
+    Server server(std::move(settings));
     Control control(server);
     const auto leave = [&] {
         control.leave = true;

@@ -114,6 +114,8 @@ std::string NetworkState::metrics() const {
                 count(counters.rest_requests));
     out.counter("raybundle_wrong_tokens_total", "Wrong tokens, of viewers and of HTTP requests",
                 static_cast<double>(gate.wrong_tokens()));
+    out.counter("raybundle_audit_failures_total", "Lines that could not be added to the audit log",
+                settings.audit ? static_cast<double>(settings.audit->failures()) : 0.0);
     add_queue_delays(viewers, out);
     std::string text = out.text();
     const std::lock_guard lock(metrics_mutex_);

@@ -176,6 +176,10 @@ void Server::reload_certificate() {
     }
 }
 
+AuditLog* Server::audit() const {
+    return impl_->state.settings.audit.get();
+}
+
 void Server::set_ready(bool ready) {
     impl_->state.ready = ready;
 }

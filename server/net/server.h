@@ -99,6 +99,9 @@ class Server {
     /// closed.
     void set_access(Access access);
 
+    /// Null where there is none.
+    [[nodiscard]] AuditLog* audit() const;
+
     /// Reads the certificate files of the settings again. Throws std::runtime_error that names the
     /// file where they cannot be used: the old certificate stays.
     void reload_certificate();

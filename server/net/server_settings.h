@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "net/access/gate.h"
+#include "net/audit/audit_log.h"
 #include "net/ws/wire_codec.h"
 #include "stream/congestion_window.h"
 
@@ -30,6 +32,7 @@ struct ServerSettings {
     std::size_t max_snapshot_bytes = 1U << 30U;  ///< of all snapshots that are kept
     std::vector<std::string> trusted_proxies;    ///< addresses whose X-Forwarded-For is believed
     Access access;
+    std::shared_ptr<AuditLog> audit;  ///< null: there is none
     WireLimits limits;
     CongestionSettings congestion;
 };

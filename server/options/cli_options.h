@@ -104,6 +104,7 @@ struct NetworkOptions {
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;
+    std::string audit_log;            ///< file; empty: none
     std::vector<AccessToken> tokens;  ///< from the configuration file only
     std::optional<JwtOptions> jwt;    ///< likewise
     double max_messages_per_second = 1000.0;

@@ -85,6 +85,16 @@ void check_exposure(const Options& options, const std::string& host) {
 
 }  // namespace
 
+std::shared_ptr<AuditLog> open_audit_log(const Options& options) {
+    try {
+        return options.network.audit_log.empty()
+                   ? nullptr
+                   : std::make_shared<AuditLog>(options.network.audit_log);
+    } catch (const std::runtime_error& error) {
+        throw UsageError(std::string("--audit-log ") + error.what());
+    }
+}
+
 ServerSettings server_settings(const Options& options) {
     const auto [host, port] = parse_address(options.network.listen);
     check_exposure(options, host);

@@ -11,4 +11,7 @@ namespace raybundle {
 /// --allow-remote.
 ServerSettings server_settings(const Options& options);
 
+/// Null where the options name no file. Throws UsageError.
+std::shared_ptr<AuditLog> open_audit_log(const Options& options);
+
 }  // namespace raybundle

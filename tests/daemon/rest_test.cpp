@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -33,7 +36,8 @@ class RestTest : public testing::Test {
         daemon_ = std::make_unique<Daemon>(
             scene_file("cornell_box.gltf"),
             std::vector<std::string>{"--journal", folder_->path("session.db"), "--otlp",
-                                     collector_->url()});
+                                     collector_->url(), "--audit-log",
+                                     folder_->path("audit.jsonl")});
     }
     static void TearDownTestSuite() {
         daemon_.reset();
@@ -91,6 +95,21 @@ class RestTest : public testing::Test {
 
     [[nodiscard]] static std::string hex_of_text(const std::string& bytes) {
         return hex_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    }
+
+    [[nodiscard]] static std::vector<std::string> events_in(const std::string& name) {
+        std::vector<std::string> events;
+        std::ifstream file(folder_->path(name));
+        for (std::string text; std::getline(file, text);) {
+            const Json line = Json::parse(text);
+            EXPECT_EQ(line.at("address"), "127.0.0.1") << text;
+            std::string event = line.at("event");
+            for (const char* key : {"request", "change", "path"}) {
+                event += line.contains(key) ? " " + line.at(key).get<std::string>() : "";
+            }
+            events.push_back(event);
+        }
+        return events;
     }
 
     static inline std::unique_ptr<HttpReceiver> collector_;
@@ -184,7 +203,7 @@ TEST_F(RestTest, MeasurementsAndPicturesAreAskedForAgain) {
     EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
 }
 
-TEST_F(RestTest, AChangeIsOneTrace) {
+TEST_F(RestTest, AChangeIsOneTraceAndOneLineOfTheAuditLog) {
     JsonViewer viewer(daemon_->port());
     viewer.join({}, 32, 24);
     for (int i = 0; i < 2; ++i) {  // once it is known to acknowledge frames it is waited for
@@ -208,6 +227,17 @@ TEST_F(RestTest, AChangeIsOneTrace) {
 
     collector_->hang();  // which holds nobody up
     EXPECT_EQ(ask("PATCH /api/v1/lights/1?name=Ada", R"({"dim":0.6})").status, 200);
+    EXPECT_EQ(ask("GET /report.json").status, 200);
+    std::filesystem::rename(folder_->path("audit.jsonl"), folder_->path("audit.jsonl.1"));
+    daemon_->signal(SIGHUP);
+    ASSERT_TRUE(daemon_->says("settings have been read again"));
+    EXPECT_EQ(ask("GET /api/v1/pins").status, 200);
+    const std::vector<std::string> before = events_in("audit.jsonl.1");
+    const std::vector<std::string> last{"request PATCH /api/v1/lights/1", "change setLight",
+                                        "download /report.json"};
+    ASSERT_GE(before.size(), last.size());
+    EXPECT_EQ(std::vector<std::string>(before.end() - 3, before.end()), last);
+    EXPECT_EQ(events_in("audit.jsonl"), std::vector<std::string>{"request GET /api/v1/pins"});
 }
 
 }  // namespace

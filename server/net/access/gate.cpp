@@ -103,8 +103,12 @@ bool Gate::opens_metrics(std::string_view authorization) const {
 }
 
 std::optional<v1::Role> Gate::role_of(std::string_view authorization) const {
-    const auto pass = pass_for(*access(), token_of(authorization));
+    const auto pass = pass_of(authorization);
     return pass ? std::optional(pass->role) : std::nullopt;
+}
+
+std::optional<Pass> Gate::pass_of(std::string_view authorization) const {
+    return pass_for(*access(), token_of(authorization));
 }
 
 std::variant<Pass, Denial> Gate::admit(std::string_view authorization,

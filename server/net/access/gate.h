@@ -70,6 +70,9 @@ class Gate {
     /// server, or anything where it has none.
     [[nodiscard]] bool opens_metrics(std::string_view authorization) const;
 
+    /// What an HTTP Authorization header is worth; nothing for a wrong token or none.
+    [[nodiscard]] std::optional<Pass> pass_of(std::string_view authorization) const;
+
     /// Role of an HTTP Authorization header, "Bearer TOKEN": EDITOR where the server has no tokens,
     /// nothing for a wrong token or none.
     [[nodiscard]] std::optional<v1::Role> role_of(std::string_view authorization) const;

@@ -21,6 +21,22 @@ bool has_body_without_end(lws* connection, HttpMethod method) {
            (brings && !parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH)));
 }
 
+/// Files that are of the project, not of the page.
+bool is_kept(std::string_view path) {
+    return path.starts_with(SnapshotStore::kFolder) || path == "/photometry";
+}
+
+/// Who knows a snapshot's whole path may fetch it.
+std::string without_secret(std::string_view path) {
+    constexpr std::size_t shown = 8;  // of 64 digits
+    const std::size_t dot = path.rfind('.');
+    if (!path.starts_with(SnapshotStore::kFolder) || dot == std::string_view::npos) {
+        return std::string(path);
+    }
+    return std::string(path.substr(0, SnapshotStore::kFolder.size() + shown)) + "..." +
+           std::string(path.substr(dot));
+}
+
 }  // namespace
 
 bool HttpService::is_event(int reason) {
@@ -84,9 +100,11 @@ bool HttpService::confirm_upgrade(lws* connection) {
         return true;
     }
     ++state_.counters.connections_refused;
+    audit_refusal(connection, {}, request.path,
+                  "a WebSocket from " + (request.origin.empty() ? "nowhere" : request.origin) +
+                      ": status " + std::to_string(refusal->status));
     spdlog::warn("refused a WebSocket connection of {} to {} from origin {}: {}",
-                 request_peer(connection, state_.settings.trusted_proxies), request.path,
-                 request.origin, refusal->status);
+                 peer_of(connection), request.path, request.origin, refusal->status);
     write_refusal(connection, *refusal);
     return false;
 }
@@ -94,12 +112,37 @@ bool HttpService::confirm_upgrade(lws* connection) {
 /// A wrong token is noted, as one in hello is.
 HttpService::Caller HttpService::caller(lws* connection, std::string_view where) {
     const std::string token = request_header(connection, WSI_TOKEN_HTTP_AUTHORIZATION);
-    Caller result{state_.gate.role_of(token)};
+    const auto pass = state_.gate.pass_of(token);
+    Caller result;
+    if (pass) {
+        result.role = pass->role;
+        result.token = pass->token_name;
+    }
     if (!result.role && !token.empty()) {
-        result.delay_ms = state_.gate.note_wrong_token(
-            request_peer(connection, state_.settings.trusted_proxies), where, server_time_ms());
+        result.delay_ms =
+            state_.gate.note_wrong_token(peer_of(connection), where, server_time_ms());
     }
     return result;
+}
+
+void HttpService::audit_refusal(lws* connection, const Caller& client, std::string_view what,
+                                std::string_view reason) {
+    if (state_.settings.audit) {
+        state_.settings.audit->refuse({"", client.role, client.token, peer_of(connection)}, what,
+                                      reason);
+    }
+}
+
+void HttpService::audit_transfer(lws* connection, const Caller& client, bool upload,
+                                 std::string_view path) {
+    if (state_.settings.audit) {
+        state_.settings.audit->transfer({"", client.role, client.token, peer_of(connection)},
+                                        upload, path);
+    }
+}
+
+std::string HttpService::peer_of(lws* connection) const {
+    return request_peer(connection, state_.settings.trusted_proxies);
 }
 
 int HttpService::on_request(lws* connection) {
@@ -138,7 +181,13 @@ int HttpService::on_request(lws* connection) {
         content.known_caller = client.role.has_value();
         content.photometry = content.known_caller ? state_.photometry() : std::nullopt;
     }
-    return answer_in(client.delay_ms, connection, http_response(method, path, content));
+    HttpResponse response = http_response(method, path, content);
+    if (response.status == 401) {
+        audit_refusal(connection, client, path, "needs a token");
+    } else if (response.status == 200 && is_kept(path)) {
+        audit_transfer(connection, client, false, without_secret(path));
+    }
+    return answer_in(client.delay_ms, connection, std::move(response));
 }
 
 /// Whoever may look may read; reviewers bring pins in.
@@ -146,6 +195,7 @@ int HttpService::on_document(lws* connection, HttpMethod method, const std::stri
     const bool put = method == HttpMethod::put;
     const Caller client = caller(connection, path);
     const auto refuse = [&](int status, const std::string& text) {
+        audit_refusal(connection, client, path, text);
         return answer_in(client.delay_ms, connection, text_response({status, text}));
     };
     if (put && path != "/pins.bcf") {
@@ -165,7 +215,11 @@ int HttpService::on_document(lws* connection, HttpMethod method, const std::stri
     auto refusal =
         documents_.begin(connection, {path, request_query(connection), put, {}},
                          parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH)));
-    return refusal ? answer(connection, std::move(*refusal)) : 0;
+    if (refusal) {
+        return answer(connection, std::move(*refusal));
+    }
+    audit_transfer(connection, client, put, path);
+    return 0;
 }
 
 int HttpService::on_upload(lws* connection, const std::string& path) {
@@ -175,7 +229,12 @@ int HttpService::on_upload(lws* connection, const std::string& path) {
         request_header(connection, WSI_TOKEN_HOST), client.role,
         parse_length(request_header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH))};
     auto refusal = uploads_.begin(connection, request);
-    return refusal ? answer_in(client.delay_ms, connection, std::move(*refusal)) : 0;
+    if (refusal) {
+        audit_refusal(connection, client, path, "status " + std::to_string(refusal->status));
+        return answer_in(client.delay_ms, connection, std::move(*refusal));
+    }
+    audit_transfer(connection, client, true, path);
+    return 0;
 }
 
 int HttpService::on_rest(lws* connection, HttpMethod method, const std::string& path) {
@@ -188,8 +247,7 @@ int HttpService::on_rest(lws* connection, HttpMethod method, const std::string& 
                               request_header(connection, WSI_TOKEN_ORIGIN),
                               request_header(connection, WSI_TOKEN_HOST), parse_length(length),
                               !request_header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty(),
-                              request_peer(connection, state_.settings.trusted_proxies),
-                              custom_header(connection, "traceparent:")}));
+                              peer_of(connection), custom_header(connection, "traceparent:")}));
 }
 
 /// Answers now or later, or waits for the rest of the request.

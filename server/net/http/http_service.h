@@ -68,9 +68,14 @@ class HttpService {
 
     struct Caller {
         std::optional<v1::Role> role;  ///< none: a wrong token, or none
+        std::string token;             ///< its name
         double delay_ms = 0.0;         ///< of the answer to a wrong token
     };
     Caller caller(lws* connection, std::string_view where);
+    [[nodiscard]] std::string peer_of(lws* connection) const;
+    void audit_refusal(lws* connection, const Caller& client, std::string_view what,
+                       std::string_view reason);
+    void audit_transfer(lws* connection, const Caller& client, bool upload, std::string_view path);
 
     NetworkState& state_;
     const EncodedFiles encoded_files_{client_files()};

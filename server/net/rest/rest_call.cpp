@@ -45,11 +45,20 @@ RestCall::RestCall(NetworkState& state, RestMatch match, const Caller& caller,
     : state_(state), match_(std::move(match)), last_id_(messages.back().id()) {
     for (const v1::ClientMessage& message : messages) {
         if (auto refusal = refuse_role(message, caller.role)) {
+            if (state.settings.audit) {
+                state.settings.audit->refuse(
+                    {caller.name, caller.role, caller.token, caller.address}, message_name(message),
+                    refusal->text);
+            }
             answer_ = problem(refusal->code, std::move(refusal->text));
             return;
         }
     }
     link_ = state.viewers.add(state.settings.max_queued_bytes, state.settings.congestion);
+    if (state.settings.audit) {
+        state.settings.audit->enter(link_->viewer(),
+                                    {caller.name, caller.role, caller.token, caller.address});
+    }
     v1::ClientMessage hello;
     if (messages.front().has_hello()) {
         hello = std::move(messages.front());
@@ -71,6 +80,9 @@ RestCall::~RestCall() {
 void RestCall::leave() {
     if (link_) {
         state_.inbox.left(link_->viewer());
+        if (state_.settings.audit) {
+            state_.settings.audit->leave(link_->viewer());
+        }
         state_.viewers.remove(link_->viewer());
         link_.reset();
     }

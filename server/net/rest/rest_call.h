@@ -19,7 +19,9 @@ class RestCall {
   public:
     struct Caller {
         v1::Role role = v1::VIEWER;
-        std::string name;  ///< that others see
+        std::string name;     ///< that others see
+        std::string token;    ///< name of its token; empty: none
+        std::string address;  ///< see request_peer()
     };
 
     /// messages: with ids; the answer to the last one is that to the request.

@@ -72,6 +72,10 @@ std::optional<RestService::Outcome> RestService::examine_caller(const RestHead& 
     auto entered = state_.gate.admit(head.authorization, name);
     if (auto* const denial = std::get_if<Denial>(&entered)) {
         const bool wrong = denial->refusal.code == v1::Error::UNAUTHENTICATED;
+        if (state_.settings.audit) {
+            state_.settings.audit->refuse({name, std::nullopt, "", head.peer}, head.path,
+                                          denial->refusal.text);
+        }
         const double delay_ms =
             wrong && !head.authorization.empty()
                 ? state_.gate.note_wrong_token(head.peer, head.path, server_time_ms())
@@ -84,8 +88,19 @@ std::optional<RestService::Outcome> RestService::examine_caller(const RestHead& 
     const Pass& pass = std::get<Pass>(entered);
     running.caller.role = pass.role;
     running.caller.name = !pass.token_name.empty() ? pass.token_name : name;
+    running.caller.token = pass.token_name;
+    running.caller.address = head.peer;
     running.peer = pass.token_name.empty() ? head.peer : "token " + pass.token_name;
     return std::nullopt;
+}
+
+/// Who asks again for an answer has been named when it asked first.
+void RestService::audit(const RestHead& head, const Running& running) const {
+    const RestCall::Caller& who = running.caller;
+    if (state_.settings.audit && running.match.route->source != RestSource::requests) {
+        state_.settings.audit->request({who.name, who.role, who.token, who.address},
+                                       std::string(method_name(head.method)) + " " + head.path);
+    }
 }
 
 /// The refusal of what can be refused before the body is there, or an empty outcome.
@@ -119,6 +134,7 @@ RestService::Outcome RestService::examine(const RestHead& head, Running& running
         return refuse(400, "wait: must be 0..30 seconds");
     }
     running.wait_s = *wait_s;
+    audit(head, running);
     if (running.match.route->body != RestBody::none && running.has_body &&
         !is_json(head.content_type)) {
         return refuse(415, "Content-Type: must be application/json");

@@ -86,6 +86,7 @@ class RestService {
     Outcome examine(const RestHead& head, Running& running);
     std::optional<Outcome> examine_caller(const RestHead& head, Running& running,
                                           const std::string& name);
+    void audit(const RestHead& head, const Running& running) const;
     Outcome start(lws* connection);
     HttpResponse answer_request(const Running& running);
     HttpResponse answer_photometry() const;

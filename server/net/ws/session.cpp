@@ -60,6 +60,9 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
     } else if (!pass_) {
         refuse({v1::Error::UNAUTHENTICATED, "hello must come first", id});
     } else if (const auto refusal = refuse_role(message, pass_->role)) {
+        if (audit_ != nullptr) {
+            audit_->refuse(link_.viewer(), message_name(message), refusal->text);
+        }
         refuse(*refusal);
     } else if (message.has_ack()) {
         link_.on_ack(message.ack(), now_ms);
@@ -83,6 +86,9 @@ void Session::on_message(v1::ClientMessage message, double now_ms) {
         answer.mutable_pong()->set_server_time_ms(server_time_ms());
         link_.send(answer);
     } else {
+        if (audit_ != nullptr && is_audited(message)) {
+            audit_->request(link_.viewer(), message_name(message));
+        }
         const auto pushed = inbox_.push(link_.viewer(), std::move(message), pass_->role);
         if (!pushed) {
             refuse({v1::Error::RESOURCE_EXHAUSTED, "too many requests wait for an answer", id});
@@ -132,6 +138,10 @@ void Session::on_hello(v1::ClientMessage message, double now_ms) {
     if (auto* denial = std::get_if<Denial>(&answer)) {
         denial->refusal.id = id;
         const bool wrong = denial->refusal.code == v1::Error::UNAUTHENTICATED;
+        if (audit_ != nullptr) {
+            audit_->refuse({message.hello().name(), std::nullopt, "", peer_}, "hello",
+                           denial->refusal.text);
+        }
         on_denied(*denial, wrong && !message.hello().token().empty(), now_ms);
         return;
     }
@@ -144,6 +154,10 @@ void Session::on_hello(v1::ClientMessage message, double now_ms) {
     spdlog::info("viewer {} from {} is '{}', {}{}", link_.viewer(), peer_, message.hello().name(),
                  v1::Role_Name(pass_->role),
                  pass_->token_name.empty() ? "" : " by the token '" + pass_->token_name + "'");
+    if (audit_ != nullptr) {
+        audit_->connect(link_.viewer(),
+                        {message.hello().name(), pass_->role, pass_->token_name, peer_});
+    }
     message.mutable_hello()->clear_token();  // nobody behind the gate needs it
     inbox_.joined(link_.viewer(), std::move(message), pass_->role);
 }
@@ -198,6 +212,9 @@ void Session::on_hello_timeout() {
 void Session::on_closed() {
     if (pass_) {
         gate_.leave();
+        if (audit_ != nullptr) {
+            audit_->disconnect(link_.viewer());
+        }
         inbox_.left(link_.viewer());
     }
 }

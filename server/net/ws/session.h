@@ -8,6 +8,7 @@
 
 #include "net/access/gate.h"
 #include "net/access/token_bucket.h"
+#include "net/audit/audit_log.h"
 #include "net/ws/inbox.h"
 #include "net/ws/protocol_version.h"
 #include "net/ws/viewer_link.h"
@@ -22,14 +23,15 @@ namespace raybundle {
 class Session {
   public:
     Session(ViewerLink& link, Inbox& inbox, Gate& gate, const WireLimits& limits,
-            double messages_per_second, std::string peer = "unknown")
+            double messages_per_second, std::string peer = "unknown", AuditLog* audit = nullptr)
         : link_(link),
           inbox_(inbox),
           gate_(gate),
           limits_(limits),
           messages_(messages_per_second, 2.0 * messages_per_second),
           complaints_(1.0, 1.0),
-          peer_(std::move(peer)) {}
+          peer_(std::move(peer)),
+          audit_(audit) {}
 
     /// Part of a WebSocket message, as it arrives.
     void on_fragment(std::string_view bytes, bool first, bool last, bool binary, double now_ms);
@@ -79,6 +81,7 @@ class Session {
     std::optional<Pass> pass_;            ///< once hello has been accepted
     int wrong_tokens_ = 0;
     std::string peer_;  ///< for the log
+    AuditLog* audit_;   ///< null: there is none
     struct Held {
         Denial denial;
         double until_ms = 0.0;

@@ -38,7 +38,7 @@ ViewerConnection::ViewerConnection(lws* connection, NetworkState& state, std::st
       state_(state),
       link_(state.viewers.add(state.settings.max_queued_bytes, state.settings.congestion)),
       session_(*link_, state.inbox, state.gate, state.settings.limits,
-               state.settings.max_messages_per_second, peer),
+               state.settings.max_messages_per_second, peer, state.settings.audit.get()),
       peer_(std::move(peer)),
       hello_deadline_ms_(server_time_ms() + 1000.0 * state.settings.hello_timeout_s) {
     set_timer();

@@ -164,6 +164,13 @@ void ChangeRecorder::note_recorded(const PendingChange& pending) const {
         trace->set("raybundle.epoch", std::int64_t{epoch});
         trace->end_stage("record");
     }
+    // Of an animation the first of its changes says enough.
+    const bool goes_on =
+        pending.change.has_animation() && pending.change.animation().first_epoch() != epoch;
+    AuditLog* const audit = parts_.server.audit();
+    if (audit != nullptr && !pending.recorded && !goes_on) {
+        audit->change(pending.change, epoch);
+    }
     if (!pending.requests.empty()) {
         spdlog::debug("change {} is viewer {}'s", epoch, pending.change.by());
     }
