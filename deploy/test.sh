@@ -20,7 +20,7 @@ packages=(
     # the Python client and its test
     python3-matplotlib python3-numpy python3-pil python3-pip python3-protobuf python3-setuptools python3-venv
     python3-websockets python3-wheel
-    haproxy redis-server # of tests/cluster
+    haproxy python3-yaml redis-server # of tests/cluster
 )
 min_node_version=18
 passed=0
