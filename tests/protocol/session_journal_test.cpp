@@ -256,7 +256,7 @@ TEST_F(SessionJournalTest, AChangeThatCannotBeReadIsLostAlone) {
 }
 
 TEST_F(SessionJournalTest, AFullDiskIsAnErrorAndChangesNothing) {
-    settings_.max_bytes = 10 * 4096;
+    settings_.max_bytes = 14 * 4096;
     SessionJournal journal(settings_);
     std::uint32_t epoch = 0;
     bool full = false;
