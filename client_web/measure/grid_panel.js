@@ -8,7 +8,7 @@ import {
     carriedGrid, faceName, gridCsv, gridOn, intervalsOf, mainFace, measuredAgain, pointsOf, spreadOver, summaryOf,
     typicalError, uniformityText,
 } from './grid.js';
-import {SETTLED} from '../scene/light_state.js';
+import {SETTLED} from '../lights/light_state.js';
 import {Anchor} from '../scene/anchor.js';
 import {NOT_YET, UNCERTAIN, estimated, inUnit, plusMinus} from '../ui/units.js';
 import {corners, length, sub} from '../ui/vector.js';

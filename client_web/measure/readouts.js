@@ -5,7 +5,7 @@
 import {announce, byId, showValue} from '../ui/elements.js';
 import {drawErrorPlot} from './error_plot.js';
 import {count, darkerThan, interval, milliseconds, percent, pictureError, progress, rate} from '../ui/format.js';
-import {lightState} from '../scene/light_state.js';
+import {lightState} from '../lights/light_state.js';
 import {ErrorHistory, RateMeter, Samples} from './meters.js';
 
 /**

@@ -13,7 +13,7 @@ import {ErrorHistory, RateMeter, Samples} from '../../client_web/measure/meters.
 import {outlinePath, visibleEdges} from '../../client_web/picture/overlay.js';
 import {pickByBounds} from '../../client_web/scene/picking.js';
 import {fitViewport} from '../../client_web/picture/picture.js';
-import {loadedLight, sameLight} from '../../client_web/scene/light_values.js';
+import {loadedLight, sameLight} from '../../client_web/lights/light_values.js';
 import {snapshotSize} from '../../client_web/review/snapshot_panel.js';
 import {progressText} from '../../client_web/review/snapshot_request.js';
 import {retryDelay} from '../../client_web/net/raybundle_client.js';

@@ -7,7 +7,7 @@ import {aimOf, anglesOf} from './light_place.js';
 /**
  * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {import('../net/scene_types.js').SetLight} SetLight
- * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
+ * @typedef {import('../scene/surface_change.js').SurfaceChange} SurfaceChange
  * @typedef {Omit<SetLight, 'light'>} Values
  * @typedef {object} Deeds
  * @property {() => void} aim  the next click in the picture says where it is aimed at

@@ -4,7 +4,7 @@
 import {LiveField, byId, field, input, listRow, replaceRows, smallButton} from '../ui/elements.js';
 import {ServerError} from '../net/protocol.js';
 import {sentence} from '../ui/status.js';
-import {NewestOnly} from './surface_change.js';
+import {NewestOnly} from '../scene/surface_change.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp

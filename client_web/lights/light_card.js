@@ -10,7 +10,7 @@ import {dimmerPosition, dimmerShare, intensityProblem, lightFigures, sameLight} 
 /**
  * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {import('./light_values.js').LoadedLight} LoadedLight
- * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
+ * @typedef {import('../scene/surface_change.js').SurfaceChange} SurfaceChange
  */
 
 const UNITS = {CD_PER_M2: 'cd/m²', CD: 'cd', LX: 'lx', LM: 'lm'};

@@ -7,7 +7,7 @@ import {aimAt} from './light_place.js';
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('../net/scene_types.js').Light} Light
- * @typedef {import('./surface_change.js').SurfaceChange} SurfaceChange
+ * @typedef {import('../scene/surface_change.js').SurfaceChange} SurfaceChange
  */
 
 export class LightAiming {

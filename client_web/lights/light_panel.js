@@ -7,12 +7,12 @@ import {sentence} from '../ui/status.js';
 import {LightAiming} from './light_aiming.js';
 import {LightCard, lightName} from './light_card.js';
 import {lampless, loadedLight} from './light_values.js';
-import {byName, materialCard} from './material_card.js';
-import {SurfaceChange} from './surface_change.js';
+import {byName, materialCard} from '../scene/material_card.js';
+import {SurfaceChange} from '../scene/surface_change.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
- * @typedef {import('./history.js').History} History
+ * @typedef {import('../scene/history.js').History} History
  * @typedef {import('../net/scene_types.js').Light} Light
  * @typedef {import('../net/scene_types.js').Material} Material
  * @typedef {import('./light_values.js').LoadedLight} LoadedLight
@@ -28,7 +28,7 @@ export class LightPanel {
     /**
      * @param {RaybundleApp} app
      * @param {History} history
-     * @param {{things: import('./things.js').Things, luminaires: import('./luminaires.js').Luminaires}} presence
+     * @param {{things: import('../scene/things.js').Things, luminaires: import('../scene/luminaires.js').Luminaires}} presence
      * @param {() => void} open  shows this panel
      */
     constructor(app, history, presence, open) {
