@@ -23,10 +23,10 @@ Json place(double x, double y, double z) {
     return {{"x", x}, {"y", y}, {"z", z}};
 }
 
-Json zone(const std::string& name, double height = 3.0) {
+Json zone(const std::string& name, double above = 3.0) {
     return {{"measure",
              {{"quantity", "HORIZONTAL"},
-              {"outline", {place(1, height, 1), place(4, height, 1), place(4, height, 4)}},
+              {"outline", {place(1, above, 1), place(4, above, 1), place(4, above, 4)}},
               {"columns", 4},
               {"rows", 4},
               {"keep", true},

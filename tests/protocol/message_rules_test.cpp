@@ -65,6 +65,8 @@ TEST(MessageRules, ThePageOfTheProtocolSaysWhoMaySendWhat) {
         EXPECT_NE(row.find("`" + std::string(body->field(i)->json_name()) + "`"), std::string::npos)
             << body->field(i)->json_name() << " is not in the row: " << row;
     }
+}
+
 TEST(MessageValidation, WhatMayStandBesideTheMessage) {
     expect_case(R"({"requestKey":"a b","undo":{}})", "requestKey");
     expect_case(R"({"traceparent":"no trace","undo":{}})", "traceparent");
