@@ -113,33 +113,33 @@ ReportService::~ReportService() {
 void ReportService::step() {
     if (!registered_) {
         registered_ = true;
-        parts_.server.set_document_source(this, [inbox = inbox_, &server = parts_.server](
-                                                    DocumentRequest request, Done done) {
-            const char* problem = nullptr;
-            {
-                const std::lock_guard lock(inbox->mutex);
-                if (inbox->closed) {
-                    problem = "Another scene is being opened; try again later\n";
-                } else if (inbox->unanswered >= max_documents) {
-                    problem = "Other documents are being made; try again later\n";
-                } else {
-                    ++inbox->unanswered;
-                    inbox->waiting.emplace_back(
-                        std::move(request), [inbox, done = std::move(done)](DocumentResult result) {
-                            {
-                                const std::lock_guard answered(inbox->mutex);
-                                --inbox->unanswered;
-                            }
-                            done(std::move(result));
-                        });
+        parts_.server.set_document_source(
+            this, [inbox = inbox_, &server = parts_.server](DocumentRequest request, Done done) {
+                const char* problem = nullptr;
+                {
+                    const std::lock_guard lock(inbox->mutex);
+                    if (inbox->closed) {
+                        problem = "Another scene is being opened; try again later\n";
+                    } else if (inbox->unanswered >= max_documents) {
+                        problem = "Other documents are being made; try again later\n";
+                    } else {
+                        ++inbox->unanswered;
+                        inbox->waiting.emplace_back(
+                            std::move(request), [inbox, done](DocumentResult result) {
+                                {
+                                    const std::lock_guard answered(inbox->mutex);
+                                    --inbox->unanswered;
+                                }
+                                done(std::move(result));
+                            });
+                    }
                 }
-            }
-            if (problem != nullptr) {
-                done({503, plain_text, problem, {}});
-            } else {
-                server.inbox().interrupt();
-            }
-        });
+                if (problem != nullptr) {
+                    done({503, plain_text, problem, {}});
+                } else {
+                    server.inbox().interrupt();
+                }
+            });
     }
     std::deque<std::pair<DocumentRequest, Done>> asked;
     {
