@@ -16,7 +16,7 @@ TEXT
 
 packages=(
     g++ cmake ninja-build pkg-config ccache
-    libcli11-dev libdraco-dev libegl-dev libembree-dev libepoxy-dev libglm-dev
+    libcli11-dev libcurl4-openssl-dev libdraco-dev libegl-dev libembree-dev libepoxy-dev libglm-dev
     libhiredis-dev
     libmeshoptimizer-dev libopenimageio-dev libpng-dev libprotobuf-dev libspdlog-dev
     libsqlite3-dev libssl-dev libtbb-dev libtinygltf-dev libturbojpeg0-dev libwebsockets-dev

@@ -2,6 +2,8 @@
 // The estimated error over the time since the last change, both logarithmic: a straight fall by half
 // a decade each decade of time is what sampling promises. With its 95 % band and the target.
 
+import {svgElement} from '../ui/svg.js';
+
 /**
  * @typedef {object} PlotSample
  * @property {number} seconds  since the last change, above 0
@@ -100,13 +102,7 @@ export function drawErrorPlot(svg, samples, target) {
     for (const name of /** @type {const} */ (['grid', 'band', 'target', 'line'])) {
         svg.querySelector(`.${name}`)?.setAttribute('d', plot[name]);
     }
-    const texts = plot.labels.map(({x, y, text, anchor}) => {
-        const element = document.createElementNS('http://www.w3.org/2000/svg', 'text');
-        element.setAttribute('x', x.toFixed(1));
-        element.setAttribute('y', y.toFixed(1));
-        element.setAttribute('text-anchor', anchor);
-        element.textContent = text;
-        return element;
-    });
+    const texts = plot.labels.map(({x, y, text, anchor}) =>
+        svgElement('text', {x: x.toFixed(1), y: y.toFixed(1), 'text-anchor': anchor}, text));
     svg.querySelector('.labels')?.replaceChildren(...texts);
 }

@@ -4,6 +4,7 @@
 import {ServerError} from '../net/protocol.js';
 import {byId} from '../ui/elements.js';
 import {sentence} from '../ui/status.js';
+import {svgElement} from '../ui/svg.js';
 import {threeDigits} from '../ui/units.js';
 import {valueText} from './work_plane.js';
 
@@ -13,8 +14,6 @@ import {valueText} from './work_plane.js';
  */
 
 const NEAR = 0.02;
-const SVG = 'http://www.w3.org/2000/svg';
-
 /**
  * @param {string} quantity  UGR or DGP
  * @param {MeasuredPoint} point
@@ -119,7 +118,7 @@ export class GlarePanel {
             if (depth <= NEAR) {
                 return [];
             }
-            const mark = document.createElementNS(SVG, 'text');
+            const mark = svgElement('text');
             mark.setAttribute('x', x.toFixed(1));
             mark.setAttribute('y', y.toFixed(1));
             mark.textContent = `${Math.round(100 * share)} %`;

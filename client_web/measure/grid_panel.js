@@ -10,6 +10,7 @@ import {
 } from './grid.js';
 import {SETTLED} from '../lights/light_state.js';
 import {Anchor} from '../scene/anchor.js';
+import {svgElement} from '../ui/svg.js';
 import {NOT_YET, UNCERTAIN, estimated, inUnit, plusMinus} from '../ui/units.js';
 import {corners, length, sub} from '../ui/vector.js';
 
@@ -38,7 +39,6 @@ const PLACES_PER_SIDE = 6;
 const RENEW_MS = 2000;
 /** What moves by less has not moved, metres. */
 const STILL = 1e-6;
-const SVG = 'http://www.w3.org/2000/svg';
 const NOTHING =
     'There is no surface yet: select an object, or choose Measure below the picture and click the surface.';
 
@@ -269,7 +269,7 @@ export class GridPanel {
             const top = scale ?? Math.max(...result.illuminance, 1e-3);
             const points = pointsOf(grid);
             while (group.childElementCount < points.length) {
-                group.append(document.createElementNS(SVG, 'circle'));
+                group.append(svgElement('circle'));
             }
             while (group.childElementCount > points.length) {
                 group.lastElementChild?.remove();

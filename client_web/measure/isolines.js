@@ -5,9 +5,9 @@
 import {sameView} from '../camera/camera.js';
 import {turboColour, valueOnScale} from './colour.js';
 import {levelsOf} from './display_panel.js';
+import {svgElement} from '../ui/svg.js';
 import {LUX_PER_FOOTCANDLE, oneDigit} from '../ui/units.js';
 
-const SVG = 'http://www.w3.org/2000/svg';
 /** Pixels that are looked at in a row. */
 const COLUMNS = 96;
 const COLOURS = Array.from({length: 129}, (_, i) => turboColour(i / 128));
@@ -157,7 +157,7 @@ export class IsolineNumbers {
         }));
         const middle = {x: clientWidth / 2, y: clientHeight / 2};
         const texts = chosenLabels(candidates, middle).map(({level, x, y}) => {
-            const text = document.createElementNS(SVG, 'text');
+            const text = svgElement('text');
             text.setAttribute('class', 'isoline-value');
             text.setAttribute('x', x.toFixed(1));
             text.setAttribute('y', y.toFixed(1));

@@ -4,6 +4,7 @@
 
 import {GLARE_LIMITS, glareColour, gridCells, nameSpot, partBeforeEye, pathOf, zoneLabel} from './outlines.js';
 import {byId} from '../ui/elements.js';
+import {svgElement} from '../ui/svg.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -12,22 +13,6 @@ import {byId} from '../ui/elements.js';
  * @typedef {import('./work_plane_panel.js').WorkPlanePanel} WorkPlanePanel
  * @typedef {import('./zones_panel.js').ZonesPanel} ZonesPanel
  */
-
-const SVG = 'http://www.w3.org/2000/svg';
-
-/**
- * @param {string} name
- * @param {Record<string, string>} attributes
- * @param {string} [text]
- */
-function shape(name, attributes, text = '') {
-    const element = document.createElementNS(SVG, name);
-    for (const [key, value] of Object.entries(attributes)) {
-        element.setAttribute(key, value);
-    }
-    element.textContent = text;
-    return element;
-}
 
 export class OutlinesLayer {
     #wanted = byId('zones-in-picture', HTMLInputElement);
@@ -85,10 +70,10 @@ export class OutlinesLayer {
             return [];
         }
         const path = pathOf(corners);
-        const group = shape('g', {class: kind});
-        group.append(shape('path', {class: 'halo', d: path}), shape('path', {class: 'stroke', d: path}));
+        const group = svgElement('g', {class: kind});
+        group.append(svgElement('path', {class: 'halo', d: path}), svgElement('path', {class: 'stroke', d: path}));
         if (label) {
-            group.append(shape('text', {x: spot.x.toFixed(1), y: spot.y.toFixed(1)}, label));
+            group.append(svgElement('text', {x: spot.x.toFixed(1), y: spot.y.toFixed(1)}, label));
         }
         return [group];
     }
@@ -106,7 +91,7 @@ export class OutlinesLayer {
             }
             // Where nothing glares, any limit is kept; outside of the method nothing is known.
             const rating = glare?.state === 'NO_SOURCE' ? 0 : value;
-            return [shape('path', rating === undefined
+            return [svgElement('path', rating === undefined
                 ? {d: path, class: 'unrated'}
                 : {d: path, fill: glareColour(rating)})];
         });

@@ -6,6 +6,7 @@ import {ServerError} from '../net/protocol.js';
 import {byId, fileName, saveFile, showValue} from '../ui/elements.js';
 import {sentence} from '../ui/status.js';
 import {areaOver, planeCsv, planeState, valueText, withInterval} from './work_plane.js';
+import {svgElement} from '../ui/svg.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -13,7 +14,6 @@ import {areaOver, planeCsv, planeState, valueText, withInterval} from './work_pl
  * @typedef {import('../net/measure_types.js').Measured} Measured
  */
 
-const SVG = 'http://www.w3.org/2000/svg';
 /** Strip along walls that EN 12464-1 leaves out of a room's area, metres. */
 const MARGIN = 0.5;
 /** Points nearer to the eye's plane are not drawn, metres. */
@@ -188,7 +188,7 @@ export class WorkPlanePanel {
             if (depth <= NEAR || inside || value === undefined) {
                 return [];
             }
-            const mark = document.createElementNS(SVG, numbers ? 'text' : 'circle');
+            const mark = svgElement(numbers ? 'text' : 'circle');
             mark.setAttribute(numbers ? 'x' : 'cx', x.toFixed(1));
             mark.setAttribute(numbers ? 'y' : 'cy', y.toFixed(1));
             if (numbers) {

@@ -4,6 +4,7 @@
 import {Arrivals, nameOf} from './arrivals.js';
 import {axes, framedFov} from '../camera/camera.js';
 import {byId, listRow, replaceRows, smallButton} from '../ui/elements.js';
+import {svgElement} from '../ui/svg.js';
 import {add, length, scale, sub} from '../ui/vector.js';
 import {remember} from '../camera/walking.js';
 
@@ -27,7 +28,6 @@ export const PEOPLE_COLOURS = Object.freeze([
     '#8c8f3a',
 ]);
 
-const SVG = 'http://www.w3.org/2000/svg';
 /** Size of the pyramid that stands for a camera, as a share of the distance to what it looks at. */
 const FRUSTUM_SHARE = 0.2;
 const LARGEST_FRUSTUM = 0.6;
@@ -337,7 +337,7 @@ export class People {
         const paths = others.map((viewer) => {
             const {eye, corners} = frustumOf(viewer);
             const points = [eye, ...corners].map(place);
-            const path = document.createElementNS(SVG, 'path');
+            const path = svgElement('path');
             if (points.every(({depth}) => depth > 0.05)) {
                 const [tip, a, b, c, d] = points.map(({x, y}) => `${x.toFixed(1)} ${y.toFixed(1)}`);
                 const sides = [a, b, c, d].map((corner) => `M${tip}L${corner}`).join('');

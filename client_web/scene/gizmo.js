@@ -12,6 +12,7 @@ import {
     turnedAbout,
 } from './placement.js';
 import {shifted} from './scene_model.js';
+import {svgElement} from '../ui/svg.js';
 import {add, centre, scale, vec3} from '../ui/vector.js';
 
 /**
@@ -31,7 +32,6 @@ import {add, centre, scale, vec3} from '../ui/vector.js';
  * @property {Vec3} pivot
  */
 
-const SVG = 'http://www.w3.org/2000/svg';
 /** Length of an arrow and radius of the ring, CSS pixels. */
 const REACH = 72;
 const RING_POINTS = 48;
@@ -95,7 +95,7 @@ export class Gizmo {
     /** @param {string} name */
     #addHandle(name) {
         const parts = ['grip', 'shape'].map((kind) => {
-            const path = document.createElementNS(SVG, 'path');
+            const path = svgElement('path');
             path.setAttribute('class', `${kind} ${name}`);
             path.dataset.handle = name;
             this.group.append(path);

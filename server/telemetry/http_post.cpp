@@ -1,71 +1,119 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemetry/http_post.h"
 
-#include <openssl/err.h>
-#include <openssl/ssl.h>
+#include <curl/curl.h>
 
-#include <charconv>
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
-
-#include "telemetry/http_connection.h"
 
 namespace raybundle {
 namespace {
 
-/// Of "HTTP/1.1 200 OK"; 0 where it is no such line.
-int status_of(std::string_view head) {
-    constexpr std::size_t place = 9;  // of the number
-    int status = 0;
-    if (head.starts_with("HTTP/1.") && head.size() > place + 3) {
-        std::from_chars(head.data() + place, head.data() + place + 3, status);
+constexpr int slice_ms = 50;  ///< of a wait, after which the deadline is asked for again
+
+template <auto free>
+struct Deleter {
+    void operator()(auto* owned) const { free(owned); }
+};
+using Transfer = std::unique_ptr<CURL, Deleter<&curl_easy_cleanup>>;
+using Transfers = std::unique_ptr<CURLM, Deleter<&curl_multi_cleanup>>;
+using HeaderList = std::unique_ptr<curl_slist, Deleter<&curl_slist_free_all>>;
+
+void add_header(HeaderList& list, const std::string& line) {
+    curl_slist* const longer = curl_slist_append(list.get(), line.c_str());
+    if (longer == nullptr) {
+        throw std::bad_alloc();
     }
-    return status;
+    static_cast<void>(list.release());
+    list.reset(longer);
+}
+
+std::size_t pass_over(char* /*bytes*/, std::size_t size, std::size_t count, void* /*unused*/) {
+    return size * count;
+}
+
+/// How the only transfer of `handles` has ended.
+CURLcode outcome(CURLM* handles) {
+    int waiting = 0;
+    const CURLMsg* const message = curl_multi_info_read(handles, &waiting);
+    return message != nullptr && message->msg == CURLMSG_DONE ? message->data.result
+                                                              : CURLE_RECV_ERROR;
 }
 
 }  // namespace
 
-void HttpPost::ContextDeleter::operator()(ssl_ctx_st* context) const {
-    SSL_CTX_free(context);
-}
-
-HttpPost::HttpPost(HttpUrl url, Headers headers, const std::string& ca_file)
-    : url_(std::move(url)), headers_(std::move(headers)) {
-    if (!url_.tls) {
-        return;
+HttpPost::HttpPost(HttpUrl url, Headers headers, std::string ca_file)
+    : url_(std::move(url)), headers_(std::move(headers)), ca_file_(std::move(ca_file)) {
+    static const CURLcode initialised = curl_global_init(CURL_GLOBAL_DEFAULT);
+    if (initialised != CURLE_OK) {
+        throw std::runtime_error(std::string("libcurl: ") + curl_easy_strerror(initialised));
     }
-    tls_.reset(SSL_CTX_new(TLS_client_method()));
-    const bool trusting =
-        tls_ != nullptr && SSL_CTX_set_min_proto_version(tls_.get(), TLS1_2_VERSION) == 1 &&
-        (ca_file.empty()
-             ? SSL_CTX_set_default_verify_paths(tls_.get()) == 1
-             : SSL_CTX_load_verify_locations(tls_.get(), ca_file.c_str(), nullptr) == 1);
-    ERR_clear_error();
-    if (!trusting) {
-        throw std::runtime_error(ca_file.empty() ? "TLS cannot be set up"
-                                                 : ca_file + ": holds no PEM certificates");
+    if (url_.tls && !ca_file_.empty() && !std::ifstream(ca_file_)) {
+        throw std::runtime_error(ca_file_ + ": cannot be read");
     }
-    SSL_CTX_set_verify(tls_.get(), SSL_VERIFY_PEER, nullptr);
 }
-
-HttpPost::~HttpPost() = default;
 
 PostResult HttpPost::send(std::string_view content_type, std::string_view body,
                           const Deadline& deadline) const {
-    std::string head =
-        "POST " + url_.path + " HTTP/1.1\r\nHost: " + url_.authority() +
-        "\r\nUser-Agent: raybundle/" RAYBUNDLE_VERSION "\r\nConnection: close\r\nContent-Type: " +
-        std::string(content_type) + "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n";
+    HeaderList headers;
+    add_header(headers, "Content-Type: " + std::string(content_type));
     for (const auto& [name, value] : headers_) {
-        head += name + ": " + value + "\r\n";
+        // A header without a value ends with a semicolon in libcurl.
+        add_header(headers, name + (value.empty() ? ";" : ": " + value));
     }
-    HttpConnection connection(tls_.get(), deadline);
-    if (!connection.open(url_) || !connection.write(head + "\r\n") || !connection.write(body)) {
-        return {0, connection.problem()};
+    std::array<char, CURL_ERROR_SIZE> problem{};
+    const Transfer post(curl_easy_init());
+    const Transfers handles(curl_multi_init());
+    if (!post || !handles) {
+        throw std::bad_alloc();
     }
-    const std::optional<std::string> answer = connection.read_head();
-    const int status = answer ? status_of(*answer) : 0;
-    return {status, status > 0 ? "" : answer ? "the answer is no HTTP" : connection.problem()};
+    const auto set = [&post](CURLoption option, auto value) {
+        curl_easy_setopt(post.get(), option, value);
+    };
+    set(CURLOPT_URL, url_.text().c_str());
+    set(CURLOPT_PROXY, "");  // none of the environment: collectors stand nearby
+    set(CURLOPT_HTTPHEADER, headers.get());
+    set(CURLOPT_USERAGENT, "raybundle/" RAYBUNDLE_VERSION);
+    set(CURLOPT_POSTFIELDS, body.data());
+    set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+    set(CURLOPT_WRITEFUNCTION, &pass_over);
+    set(CURLOPT_ERRORBUFFER, problem.data());
+    set(CURLOPT_SSLVERSION, long{CURL_SSLVERSION_TLSv1_2});
+    set(CURLOPT_NOSIGNAL, 1L);
+    set(CURLOPT_QUICK_EXIT, 1L);  // a name that is being looked up holds up nobody
+    if (!ca_file_.empty()) {
+        set(CURLOPT_CAINFO, ca_file_.c_str());
+        set(CURLOPT_CAPATH, nullptr);
+    }
+    curl_multi_add_handle(handles.get(), post.get());
+    PostResult result;
+    for (int running = 1;;) {
+        curl_multi_perform(handles.get(), &running);
+        if (running == 0) {
+            break;
+        }
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline() - Clock::now());
+        if (left.count() <= 0) {
+            result.problem = "no answer in time";
+            break;
+        }
+        curl_multi_poll(handles.get(), nullptr, 0,
+                        static_cast<int>(std::min<long>(left.count(), slice_ms)), nullptr);
+    }
+    if (result.problem.empty()) {
+        const CURLcode code = outcome(handles.get());
+        long status = 0;
+        curl_easy_getinfo(post.get(), CURLINFO_RESPONSE_CODE, &status);
+        result.status = code == CURLE_OK ? static_cast<int>(status) : 0;
+        if (code != CURLE_OK) {
+            result.problem = problem[0] != '\0' ? problem.data() : curl_easy_strerror(code);
+        }
+    }
+    curl_multi_remove_handle(handles.get(), post.get());
+    return result;
 }
 
 }  // namespace raybundle

@@ -59,7 +59,7 @@ SpanExporter::Figures SpanExporter::figures() const {
 }
 
 void SpanExporter::run() {
-    sigset_t broken_pipe{};  // OpenSSL writes to sockets without MSG_NOSIGNAL
+    sigset_t broken_pipe{};  // OpenSSL, under libcurl, writes without MSG_NOSIGNAL
     sigemptyset(&broken_pipe);
     sigaddset(&broken_pipe, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);

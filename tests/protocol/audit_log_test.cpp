@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "net/audit/audit_log.h"
+#include "../daemon/test_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -21,16 +22,6 @@ using Line = nlohmann::json;
 
 class AuditLogTest : public testing::Test {
   protected:
-    AuditLogTest() {
-        std::string pattern = std::filesystem::temp_directory_path() / "raybundle_audit_XXXXXX";
-        folder_ = mkdtemp(pattern.data());
-        file_ = folder_ / "audit.jsonl";
-    }
-    ~AuditLogTest() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-
     [[nodiscard]] static std::vector<std::string> texts(const std::string& file) {
         std::vector<std::string> result;
         std::ifstream stream(file);
@@ -48,8 +39,8 @@ class AuditLogTest : public testing::Test {
     }
 
     const AuditIdentity ada_{"Ada \"\n\xff", v1::EDITOR, "office", "10.0.0.7"};
-    std::filesystem::path folder_;
-    std::string file_;
+    const TestFolder folder_;
+    const std::string file_ = folder_.path("audit.jsonl");
 };
 
 v1::SceneChanged dimmed_by(ViewerId viewer) {
@@ -109,7 +100,7 @@ TEST_F(AuditLogTest, LivesThroughRotation) {
     EXPECT_EQ(texts(file_ + ".1").size(), 2U);
     ASSERT_EQ(lines().size(), 1U);
     EXPECT_EQ(lines()[0].at("request"), "d");
-    std::filesystem::remove_all(folder_);
+    std::filesystem::remove_all(folder_.path());
     audit.reopen();  // there is no folder any more: the old file stays
     audit.request(ada_, "e");
     EXPECT_EQ(audit.failures(), 0U);
@@ -190,10 +181,21 @@ TEST_F(AuditLogTest, HearsOfAllThatAViewerMayAndMayNot) {
     EXPECT_EQ(lines().at(2).at("token"), "guest");
 }
 
+TEST_F(AuditLogTest, NamesWhatIsRemoved) {
+    AuditLog audit(file_);
+    v1::SceneChanged change;
+    change.mutable_remove_object()->set_object(5);
+    audit.change(change, 1);
+    change.mutable_remove_light()->set_light(6);
+    audit.change(change, 2);
+    EXPECT_EQ(lines().at(0).at("object"), 5);
+    EXPECT_EQ(lines().at(1).at("light"), 6);
+}
+
 TEST_F(AuditLogTest, AFileThatCannotBeWrittenKeepsTheServerFromStarting) {
     Options options;
     EXPECT_EQ(open_audit_log(options), nullptr);
-    options.network.audit_log = folder_ / "missing" / "audit.jsonl";
+    options.network.audit_log = folder_.path("missing/audit.jsonl");
     EXPECT_THROW(open_audit_log(options), UsageError);
     options.network.audit_log = file_;
     EXPECT_NE(open_audit_log(options), nullptr);

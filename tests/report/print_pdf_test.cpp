@@ -12,6 +12,8 @@
 #include <future>
 #include <thread>
 
+#include "../daemon/test_folder.h"
+
 namespace raybundle {
 namespace {
 
@@ -21,22 +23,17 @@ namespace fs = std::filesystem;
 class HangingBrowser {
   public:
     HangingBrowser() : path_(std::getenv("PATH")) {
-        std::string name = (fs::temp_directory_path() / "raybundle-browser-XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-        const fs::path program = folder_ / "chromium";
+        const fs::path program = folder_.path("chromium");
         std::ofstream(program) << "#!/bin/sh\necho $$ > " << started() << "\nsleep 50\n";
         fs::permissions(program, fs::perms::owner_all);
-        setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
+        setenv("PATH", (folder_.path() + ":" + path_).c_str(), 1);
     }
-    ~HangingBrowser() {
-        setenv("PATH", path_.c_str(), 1);
-        fs::remove_all(folder_);
-    }
-    [[nodiscard]] std::string started() const { return (folder_ / "started").string(); }
+    ~HangingBrowser() { setenv("PATH", path_.c_str(), 1); }
+    [[nodiscard]] std::string started() const { return folder_.path("started"); }
 
   private:
     std::string path_;
-    fs::path folder_;
+    TestFolder folder_;
 };
 
 TEST(Printing, EndsAtOnceWhereItIsToStop) {

@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "../daemon/test_folder.h"
 #include "scene/gltf/gltf_loader.h"
 
 namespace raybundle {
@@ -15,12 +16,7 @@ namespace fs = std::filesystem;
 
 class PhotometryFolder : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raybundle-folder-XXXXXX").string();
-        root = mkdtemp(name.data());
-        fs::create_directories(root / "photometry");
-    }
-    void TearDown() override { fs::remove_all(root); }
+    void SetUp() override { fs::create_directories(root / "photometry"); }
 
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(root / "photometry" / name) << text;
@@ -34,7 +30,8 @@ class PhotometryFolder : public testing::Test {
         }
     }
 
-    fs::path root;
+    const TestFolder folder_;
+    const fs::path root = folder_.path();
 };
 
 TEST_F(PhotometryFolder, AFileThatIsNoneIsReadOnceUntilItIsAnother) {

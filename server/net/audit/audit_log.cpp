@@ -39,10 +39,14 @@ Subject subject_of_change(const v1::SceneChanged& change) {
             return {"object", change.move_object().object()};
         case v1::SceneChanged::kAddObject:
             return {"object", change.add_object().object()};
+        case v1::SceneChanged::kRemoveObject:
+            return {"object", change.remove_object().object()};
         case v1::SceneChanged::kSetLight:
             return {"light", change.set_light().light()};
         case v1::SceneChanged::kAddLuminaire:
             return {"light", change.add_luminaire().light()};
+        case v1::SceneChanged::kRemoveLight:
+            return {"light", change.remove_light().light()};
         case v1::SceneChanged::kSetMaterial:
             return {"material", change.set_material().material()};
         default:
@@ -185,12 +189,6 @@ bool is_audited(const v1::ClientMessage& message) {
         default:
             return required_role(message.body_case()) >= v1::REVIEWER;
     }
-}
-
-std::string message_name(const v1::ClientMessage& message) {
-    const auto* const field =
-        v1::ClientMessage::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
-    return field == nullptr ? "message" : field->json_name();
 }
 
 }  // namespace raybundle

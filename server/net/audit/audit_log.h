@@ -83,7 +83,4 @@ class AuditLog {
 /// change of the scene, which gets a line when it is recorded.
 bool is_audited(const v1::ClientMessage& message);
 
-/// Name of the message, "addPin".
-std::string message_name(const v1::ClientMessage& message);
-
 }  // namespace raybundle

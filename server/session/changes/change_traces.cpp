@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "net/ws/rules/message_rules.h"
+
 namespace raybundle {
 
 std::shared_ptr<Trace> ChangeTraces::begin(const ClientEvent& request) const {
@@ -14,9 +16,7 @@ std::shared_ptr<Trace> ChangeTraces::begin(const ClientEvent& request) const {
     if (parent && !parent->sampled) {
         return nullptr;
     }
-    const auto* const field = v1::ClientMessage::descriptor()->FindFieldByNumber(
-        static_cast<int>(request.message.body_case()));
-    const std::string kind = field == nullptr ? "message" : field->json_name();
+    const std::string kind = message_name(request.message);
     auto trace = std::make_shared<Trace>(*sink_, "change " + kind, parent, request.received);
     trace->set("raybundle.change", kind);
     trace->set("raybundle.viewer", std::int64_t{request.viewer});

@@ -152,6 +152,12 @@ const MessageRule* rule_of(Client::BodyCase body) {
     return found == std::end(rules) ? nullptr : found;
 }
 
+std::string message_name(const Client& message) {
+    const auto* const field =
+        Client::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
+    return field == nullptr ? "message" : field->json_name();
+}
+
 v1::Role required_role(Client::BodyCase body) {
     const MessageRule* const rule = rule_of(body);
     return rule == nullptr ? v1::VIEWER : rule->role;
@@ -162,11 +168,9 @@ std::optional<Refusal> refuse_role(const Client& message, v1::Role role) {
     if (role >= needed) {
         return std::nullopt;
     }
-    const auto* const field =
-        Client::descriptor()->FindFieldByNumber(static_cast<int>(message.body_case()));
     return Refusal{v1::Error::PERMISSION_DENIED,
-                   (field == nullptr ? "message" : field->json_name()) + ": needs the role " +
-                       v1::Role_Name(needed) + ", this viewer has " + v1::Role_Name(role),
+                   message_name(message) + ": needs the role " + v1::Role_Name(needed) +
+                       ", this viewer has " + v1::Role_Name(role),
                    message.has_id() ? std::optional(message.id()) : std::nullopt};
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "net/ws/wire_codec.h"
 
@@ -31,6 +32,9 @@ std::span<const MessageRule> message_rules();
 
 /// Null where there is none.
 const MessageRule* rule_of(v1::ClientMessage::BodyCase body);
+
+/// Name of a message as JSON has it, "addPin".
+std::string message_name(const v1::ClientMessage& message);
 
 /// Lowest role that may send a message of this kind.
 v1::Role required_role(v1::ClientMessage::BodyCase body);
