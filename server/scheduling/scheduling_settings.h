@@ -77,6 +77,7 @@ struct SnapshotPaceSettings {
     double max_credit_ms = 500.0;    ///< that may be saved up
     double cost_smoothing = 0.1;     ///< weight of the newest iteration in the usual cost
     double earlier_slice_ms = 40.0;  ///< of iterations of an earlier scene at once
+    double longest_turn_ms = 500.0;  ///< the same where all rest and nobody asks for anything
     double earlier_kept_s = 120.0;   ///< an earlier scene is kept after its last picture
     double max_time_s = 3600.0;      ///< of one snapshot, then it is delivered as it is
     double statistics_interval_s = 0.1;

@@ -243,7 +243,16 @@ bool SnapshotQueue::prepare_earlier() {
     return earlier_ != nullptr;
 }
 
-/// Some iterations of the earlier scene, as far as there is time for them.
+/// How long the earlier scene may iterate at once, ms: where all rest, as long as the present one
+/// has since. Who compares waits for it as others wait for their pictures to refine.
+double SnapshotQueue::earlier_turn_ms() const {
+    return undisturbed_ ? std::clamp(clock_.ms_since(earlier_used_), pace_.earlier_slice_ms,
+                                     pace_.longest_turn_ms)
+                        : pace_.earlier_slice_ms;
+}
+
+/// Some iterations of the earlier scene, as far as there is time for them. Whoever asks for
+/// anything meanwhile does not wait longer than a slice.
 void SnapshotQueue::work_on_earlier() {
     if (!picture_.image) {
         if (!prepare_earlier() ||
@@ -252,8 +261,10 @@ void SnapshotQueue::work_on_earlier() {
         }
         picture_.apart = true;
     }
-    earlier_used_ = clock_.now();
+    const double turn_ms = earlier_turn_ms();
+    const auto begun = clock_.now();
     try {
+        double spent_ms = 0.0;
         do {
             const auto start = clock_.now();
             if (!picture_.image->smoothed()) {
@@ -263,13 +274,15 @@ void SnapshotQueue::work_on_earlier() {
             refresh_statistics();
             charge_since(start);
             if (earlier_->between_groups() && finish_earlier()) {
-                return;
+                break;
             }
-        } while ((undisturbed_ || share_.may()) &&
-                 clock_.ms_since(earlier_used_) < pace_.earlier_slice_ms);
+            spent_ms = clock_.ms_since(begun);
+        } while ((undisturbed_ || share_.may()) && spent_ms < turn_ms &&
+                 (spent_ms < pace_.earlier_slice_ms || server_.inbox().size() == 0));
     } catch (const GpuError& error) {
         drop(error);
     }
+    earlier_used_ = clock_.now();
 }
 
 /// Delivers the picture where it is done. True if it has been.

@@ -114,6 +114,7 @@ class SnapshotQueue {
     bool begin(const GpuScene& scene, const RadianceStore& store, const ViewPrograms& programs);
     [[nodiscard]] bool wants_earlier(std::uint32_t epoch) const;
     bool prepare_earlier();
+    [[nodiscard]] double earlier_turn_ms() const;
     void work_on_earlier();
     bool finish_earlier();
     void refresh_statistics();
@@ -131,7 +132,7 @@ class SnapshotQueue {
     MakeEarlier make_earlier_;
     std::deque<Request> requests_;           ///< the first one is being rendered
     std::unique_ptr<EarlierScene> earlier_;  ///< kept for a while: who compares looks around
-    TimePoint earlier_used_;
+    TimePoint earlier_used_;                 ///< end of its last turn
     Picture picture_;
     bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
     TimePoint last_report_;
