@@ -228,10 +228,10 @@ export class LocalDrawing extends EventTarget {
         this.#show();
     }
 
-    /** Whether the drawing is exposed as a frame is. @param {FrameHeader} frame */
-    #isLike({exposure, scaleMaximum, scaleLinear, scaleIlluminance}) {
+    /** Whether the drawing is exposed as a frame of the same scene from the same place. @param {FrameHeader} frame */
+    #isLike({epoch, cameraId, exposure, scaleMaximum, scaleLinear, scaleIlluminance}) {
         const like = this.#like;
-        return like !== null && like.exposure === exposure && like.scaleMaximum === scaleMaximum &&
+        return like !== null && like.epoch === epoch && like.cameraId === cameraId && like.exposure === exposure && like.scaleMaximum === scaleMaximum &&
             like.scaleLinear === scaleLinear && like.scaleIlluminance === scaleIlluminance;
     }
 

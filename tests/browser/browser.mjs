@@ -13,6 +13,9 @@ const SCREENSHOTS = process.env.RAYBUNDLE_SCREENSHOTS ?? path.join(ROOT, 'build/
 /** Patience with software rendering on a busy machine, milliseconds. */
 export const PATIENCE_MS = Number(process.env.RAYBUNDLE_PATIENCE_MS ?? 400000);
 
+/** WebGL on the processor. */
+export const SOFTWARE_GL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
 /**
  * Starts Chromium.
  *
@@ -29,7 +32,8 @@ export async function launchBrowser(more = []) {
     if (!existsSync(CHROMIUM)) {
         throw new Error(`${CHROMIUM} is missing: install chromium, or name it in CHROMIUM`);
     }
-    const args = [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), ...more];
+    // Chromium ends its process that draws when it has not answered for some seconds, as on a slow machine.
+    const args = ['--disable-gpu-watchdog', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), ...more];
     return playwright.chromium.launch({executablePath: CHROMIUM, args, timeout: PATIENCE_MS});
 }
 

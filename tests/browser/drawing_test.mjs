@@ -9,11 +9,9 @@ import {after, before, describe, it} from 'node:test';
 
 import {inverse, matrixOf, product} from '../../client_web/drawing/object_places.js';
 import {blockValues} from '../../client_web/walkthrough/light_blocks.js';
-import {PATIENCE_MS, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
+import {PATIENCE_MS, SOFTWARE_GL, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
 import {Daemon, ROOT} from './daemon.mjs';
 
-/** WebGL on the processor. */
-const SOFTWARE_GL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 const OPTIONS = {viewport: {width: 900, height: 640}};
 /** No two display frames may differ more in their mean luminance. */
 const MOST_STEP = 0.03;
@@ -151,7 +149,7 @@ describe('drawing here', () => {
         await opened.page.waitForFunction(
             () => {
                 const {frame} = window.raybundle ?? {};
-                return frame && frame.iterations >= 250 && window.raybundleParts.drawing.light?.complete;
+                return frame && frame.iterations >= 200 && window.raybundleParts.drawing.light?.complete;
             },
             null, {timeout: PATIENCE_MS, polling: 100});
         return opened;
@@ -201,7 +199,7 @@ describe('drawing here', () => {
         await record(page);
         // Turns by so little that what comes into the picture does not count, however few display frames there are.
         await page.evaluate(async () => {
-            for (let i = 0; i < 30; ++i) {
+            for (let i = 0; i < 12; ++i) {
                 window.raybundle.camera.turn(0.0001, 0);
                 await new Promise(requestAnimationFrame);
             }
@@ -261,6 +259,7 @@ describe('drawing here', () => {
         const late = await open();
         const drawn = (/** @type {import('playwright-core').Page} */ p) => p.evaluate(() => {
             const {drawing} = window.raybundleParts;
+            window.raybundle.camera.turn(0.0001, 0);  // it takes over from the picture
             drawing.redrawNow();
             const small = new OffscreenCanvas(64, 48).getContext('2d');
             small.drawImage(drawing.canvas, 0, 0, 64, 48);
