@@ -385,7 +385,7 @@ describe('a review', () => {
 
     it('flags a pin where the light has changed', async () => {
         const {page} = ann;
-        await frameWith(page, {settled: 0.9});
+        await frameWith(page, {settled: 0.8});
         await page.evaluate(({x, z}) => {
             const {scene} = window.raybundle;
             const box = scene.objects.find(({name}) => name === 'tall box');

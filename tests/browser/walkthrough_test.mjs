@@ -12,7 +12,7 @@ import {onScale, scaleColour, turboColour} from '../../client_web/measure/colour
 import {distanceOf, exposureOf} from '../../client_web/walkthrough/off_screen.js';
 import {depthRange, projectionOf} from '../../client_web/walkthrough/projection.js';
 import {problemOf} from '../../client_web/walkthrough/scene_data.js';
-import {PATIENCE_MS, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
+import {PATIENCE_MS, SOFTWARE_GL, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
 import {ROOT} from './daemon.mjs';
 import {readExr} from './exr.mjs';
 import {serveFolder} from './static_server.mjs';
@@ -22,8 +22,6 @@ const SCENES = ['cornell_box', 'living_room'];
 const SOLVE = ['--iterations', '16', '--seed', '5', '--patch-size', '0.3'];
 const SIZE = {width: 160, height: 120};
 const OPTIONS = {viewport: {width: 900, height: 700}};
-/** WebGL on the processor. */
-const SOFTWARE_GL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 /** @param {string[]} args */
 function raybundle(args) {
@@ -81,7 +79,7 @@ describe('a walkthrough', () => {
         servers.push(server);
         const opened = await openClient(browser, server.url, options);
         await opened.page.waitForFunction(() => window.raybundleWalkthrough?.picture.frames > 0 ||
-            /cannot|could not|longer|shorter/.test(document.getElementById('state').textContent));
+            !/^(Loading.*)?$/.test(document.getElementById('state').textContent.trim()), null, {polling: 100});
         return {...opened, server};
     }
 
@@ -173,7 +171,7 @@ describe('a walkthrough', () => {
     });
 
     it('is walked through by the keys of the live page, as fine as the display', async () => {
-        const {page, faults, context} = await open('living_room', {viewport: {width: 360, height: 480}, deviceScaleFactor: 1.5, colorScheme: 'dark'});
+        const {page, faults, context} = await open('living_room', {viewport: {width: 360, height: 320}, deviceScaleFactor: 1.5, colorScheme: 'dark'});
         const eye = () => page.evaluate(() => window.raybundleWalkthrough.camera.view.eye);
         const start = await eye();
         await page.focus('#picture');

@@ -157,6 +157,7 @@ void expect_as_fresh(Hall& hall, const char* what) {
 }
 
 class LampChanges : public testing::TestWithParam<Kind> {};
+class PlacedLamps : public testing::TestWithParam<Kind> {};
 
 TEST_P(LampChanges, EqualAFreshFirstShot) {
     Hall hall(lit_hall(GetParam()));
@@ -183,7 +184,7 @@ TEST_P(LampChanges, EqualAFreshFirstShot) {
 
 /// Light is taken back by the maps of where lamps were, and added by those of where they are: only
 /// these are drawn.
-TEST_P(LampChanges, PlacedLampsAloneAreShotAnew) {
+TEST_P(PlacedLamps, AloneAreShotAnew) {
     Hall hall(lit_hall(GetParam()));
     const std::vector<double> before = light_of(hall);
     const auto home_of = [&hall](std::size_t lamp) {
@@ -212,7 +213,7 @@ TEST_P(LampChanges, PlacedLampsAloneAreShotAnew) {
 }
 
 /// Of more than half of the lights all light is found anew, by new maps of these.
-TEST_P(LampChanges, ManyPlacedAtOnceAreFoundAnew) {
+TEST_P(PlacedLamps, ManyAtOnceAreFoundAnew) {
     Hall hall(lit_hall(GetParam()));
     for (std::size_t lamp = 1; lamp < lamps; ++lamp) {
         LightPlace place = place_of(hall.b.scene.punctual_lights[lamp]);
@@ -233,6 +234,11 @@ INSTANTIATE_TEST_SUITE_P(Halls, LampChanges,
                          testing::Values(Kind{"Glossy", true, false}, Kind{"Sun", false, true}),
                          case_name);
 INSTANTIATE_TEST_SUITE_P(HeavyHalls, LampChanges, testing::Values(Kind{"Lambert", false, false}),
+                         case_name);
+INSTANTIATE_TEST_SUITE_P(Halls, PlacedLamps, testing::Values(Kind{"Sun", false, true}), case_name);
+INSTANTIATE_TEST_SUITE_P(HeavyHalls, PlacedLamps,
+                         testing::Values(Kind{"Glossy", true, false},
+                                         Kind{"Lambert", false, false}),
                          case_name);
 
 /// What a light of a million times the others leaves behind where it goes out is nothing.
