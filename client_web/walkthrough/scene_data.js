@@ -71,12 +71,13 @@ export class SceneDataError extends Error {}
 
 /**
  * @param {string} file
+ * @param {AbortSignal} [signal]
  * @returns {Promise<Response>}
  */
-async function get(file) {
+async function get(file, signal) {
     let response;
     try {
-        response = await fetch(file);
+        response = await fetch(file, {signal});
     } catch {
         throw new SceneDataError(`${file} could not be loaded: the server does not answer.`);
     }
@@ -91,10 +92,11 @@ async function get(file) {
  *
  * @param {{file: string, bytes: number}} description
  * @param {(bytes: number) => void} arrived  so many more
+ * @param {AbortSignal} signal
  * @returns {Promise<ArrayBuffer>}
  */
-async function getBinary({file, bytes}, arrived) {
-    const {body} = await get(file);
+async function getBinary({file, bytes}, arrived, signal) {
+    const {body} = await get(file, signal);
     const whole = new Uint8Array(bytes);
     let at = 0;
     const reader = body?.getReader();
@@ -147,10 +149,11 @@ export function problemOf(manifest) {
 
 /**
  * @param {string} file
+ * @param {AbortSignal} signal
  * @returns {Promise<ImageBitmap>}
  */
-async function getTexture(file) {
-    const blob = await (await get(file)).blob();
+async function getTexture(file, signal) {
+    const blob = await (await get(file, signal)).blob();
     return createImageBitmap(blob, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
 }
 
@@ -172,16 +175,28 @@ export async function loadScene(progress, folder = '') {
     let there = 0;
     const {file, bytes} = manifest.light;
     const all = manifest.geometry.bytes + (file === null ? 0 : bytes);
-    const arrived = (/** @type {number} */ more) => progress((there += more) / all);
-    const text = async (/** @type {string} */ name) => (await get(`${folder}shaders/${name}.glsl`)).text();
+    // Where one of them fails, the others stop and say nothing more.
+    const stop = new AbortController();
+    const {signal} = stop;
+    const arrived = (/** @type {number} */ more) => {
+        there += more;
+        if (!signal.aborted) {
+            progress(there / all);
+        }
+    };
+    const text = async (/** @type {string} */ name) => (await get(`${folder}shaders/${name}.glsl`, signal)).text();
     const binary = (/** @type {{file: string, bytes: number}} */ part) =>
-        getBinary({file: folder + part.file, bytes: part.bytes}, arrived);
-    const [geometry, light, textures, toneCurve, falseColour] = await Promise.all([
-        binary(manifest.geometry),
-        file === null ? new ArrayBuffer(bytes) : binary({file, bytes}),
-        Promise.all(manifest.textures.map((texture) => getTexture(folder + texture.file))),
-        text('tone_curve'),
-        text('false_colour'),
-    ]);
-    return {manifest, geometry, light, textures, shaders: {toneCurve, falseColour}};
+        getBinary({file: folder + part.file, bytes: part.bytes}, arrived, signal);
+    try {
+        const [geometry, light, textures, toneCurve, falseColour] = await Promise.all([
+            binary(manifest.geometry),
+            file === null ? new ArrayBuffer(bytes) : binary({file, bytes}),
+            Promise.all(manifest.textures.map((texture) => getTexture(folder + texture.file, signal))),
+            text('tone_curve'),
+            text('false_colour'),
+        ]);
+        return {manifest, geometry, light, textures, shaders: {toneCurve, falseColour}};
+    } finally {
+        stop.abort();
+    }
 }
