@@ -39,6 +39,7 @@ import {reportHtml} from './review/report.js';
 import {SavingState} from './ui/saving.js';
 import {SceneFiles} from './scene/scene_files.js';
 import {ScenePanel} from './scene/scene_panel.js';
+import {SceneSaving} from './scene/scene_saving.js';
 import {fromHash, toHash} from './review/share.js';
 import {SnapshotPanel} from './review/snapshot_panel.js';
 import {Things} from './scene/things.js';
@@ -104,6 +105,7 @@ new MeasuredStrip(app, measuring, () => {
 new ScenePanel(app, grabbing, history);
 const plans = new Plans(app, collisions);
 const saving = new SavingState(app);
+new SceneSaving(app);
 new SceneFiles(app, () => ({changes: changes.entries.length || (app.scene?.epoch ?? 0), pins: pins.pins.size, forgets: saving.forgets}));
 new SnapshotPanel(app);
 const things = new Things(app, history);

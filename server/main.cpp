@@ -51,6 +51,8 @@ int run(const Options& options, const CLI::App& app) {
             return raybundle::run_render(options);
         case Options::Command::export_scene:
             return raybundle::run_export(options);
+        case Options::Command::save:
+            return raybundle::run_save(options);
         case Options::Command::accuracy:
             return raybundle::run_accuracy(options);
         case Options::Command::inspect:

@@ -19,6 +19,7 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
 int run_render_patches(const StrategyProbabilities& probabilities, glm::uvec2 size,
                        const Options& options);
 int run_export(const Options& options);
+int run_save(const Options& options);
 int run_accuracy(const Options& options);
 int run_inspect(const Options& options);
 int run_bench(const Options& options);

@@ -27,6 +27,7 @@ constexpr CommandRow command_table[] = {
     {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
     {"export", "Write a walkthrough for any web server, and glTF with the light baked in",
      Options::Command::export_scene, true},
+    {"save", "Write the scene as it has been edited as one GLB file", Options::Command::save, true},
     {"accuracy", "Measure error over time of several methods against a reference",
      Options::Command::accuracy, true},
     {"inspect", "Report on a scene: size, objects, lights, defects", Options::Command::inspect,
@@ -172,6 +173,17 @@ void add_export(CLI::App& app, Options& o) {
         ->check(relative_error());
 }
 
+void add_save(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output.file, "GLB file to write, with all that it needs")
+        ->required();
+    app.add_option(
+        "--journal", o.serve.journal,
+        "Journal of serve with the changes; none: the scene as its file has it (default: "
+        "that of the scene in ~/.local/state/raybundle)");
+    app.add_option("--scenes", o.serve.scenes,
+                   "Folder that serve had, of photometric files and objects that were added");
+}
+
 void add_render(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output.file, "Picture to write: .exr (linear, cd/m²) or .png")
         ->required();
@@ -271,6 +283,8 @@ void define_options(CLI::App& app, Options& options) {
             add_render(*command, options);
         } else if (row.command == Options::Command::export_scene) {
             add_export(*command, options);
+        } else if (row.command == Options::Command::save) {
+            add_save(*command, options);
         } else if (row.command == Options::Command::accuracy) {
             add_accuracy(*command, options);
         } else if (row.command == Options::Command::measure) {

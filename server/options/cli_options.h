@@ -216,6 +216,7 @@ struct Options {
         serve,
         render,
         export_scene,
+        save,
         accuracy,
         inspect,
         bench,
@@ -239,7 +240,7 @@ struct Options {
 
     CameraOptions camera;  // render, export, accuracy
     StopOptions stop;      // render, export, accuracy, inspect, bench, measure
-    OutputOptions output;  // render, export, accuracy, bench, selftest
+    OutputOptions output;  // render, export, save, accuracy, bench, selftest
     RenderOptions render;
     ExportOptions export_scene;
     AccuracyOptions accuracy;

@@ -19,6 +19,7 @@ class Environment;
 class SceneFolder;
 struct AddedObject;
 struct SceneAnimations;
+struct SceneSource;
 
 /// Axis-aligned box; empty while min > max.
 struct Bounds {
@@ -136,6 +137,7 @@ struct Object {
     glm::mat4 world_from_parent{1.0F};         ///< fixed: product of the ancestors' matrices
     Bounds bounds;                             ///< object space, of its triangles
     std::shared_ptr<const AddedObject> added;  ///< null: it is of the scene's file
+    int node = -1;                             ///< of the scene's file; -1: it has been added
     bool removed = false;                      ///< it has its number, but takes part in nothing
 
     /// Where it is, or would be if it had not been removed.
@@ -205,6 +207,19 @@ struct DaylightSetting {
     std::string time;                ///< as parse_time() takes it
 };
 
+/// How lamps are set, under a name, as a file has it.
+struct SavedLightingScene {
+    struct Lamp {
+        std::uint32_t light = 0;  ///< Light::id
+        glm::vec3 colour{1.0F};
+        float intensity = 0.0F;  ///< as LightEdit has it
+        float dim = 1.0F;
+        bool on = true;
+    };
+    std::string name, by_name;
+    std::vector<Lamp> lamps;
+};
+
 /// One triangle of the file, in the space of its object. Indices into Scene::vertices.
 struct Triangle {
     std::uint32_t vertex[3] = {0, 0, 0};
@@ -248,6 +263,8 @@ struct Scene {
     DaylightSetting daylight;
     std::shared_ptr<const Sky> loaded_sky;  ///< once daylight has been set: that of the beginning
     std::shared_ptr<const SceneAnimations> animations;  ///< none where nothing is animated
+    std::vector<SavedLightingScene> lighting_scenes;    ///< of the file
+    std::shared_ptr<const SceneSource> source;          ///< how it was read; for saving it
     std::shared_ptr<const SceneFolder> folder;          ///< what can be added to it; null: nothing
     Bounds bounds;                                      ///< world space
     glm::dvec3 origin{0.0};                             ///< m, where the file has this scene's zero

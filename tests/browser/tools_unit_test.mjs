@@ -30,6 +30,7 @@ import {changeOf} from '../../client_web/review/pins.js';
 import * as placement from '../../client_web/scene/placement.js';
 import {escaped, reportHtml} from '../../client_web/review/report.js';
 import {progressText, timeText} from '../../client_web/scene/opening.js';
+import {savedText} from '../../client_web/scene/scene_saving.js';
 import {listTag, namesText, openingQuestion, refusalOf, sizeText, uploadProblem} from '../../client_web/scene/scene_files.js';
 import {Anchor} from '../../client_web/scene/anchor.js';
 import {PlacedObject, SceneModel} from '../../client_web/scene/scene_model.js';
@@ -52,6 +53,8 @@ describe('files of scenes', () => {
         assert.equal(uploadProblem({name: 'a.GLB', size: 10}, 10), '');
         assert.match(uploadProblem({name: 'a.obj', size: 10}, 10), /not a \.glb file/);
         assert.match(uploadProblem({name: 'a.glb', size: 2e6}, 1e6), /2\.0 MB.*1\.0 MB/);
+        assert.equal(savedText(2.5e6, null), 'Saved, 2.5 MB.');
+        assert.match(savedText(1, 'T%C3%BCr stays; 100%25'), /lacks something: Tür stays; 100%\./);
         assert.equal(sizeText(1), '1 kB');
     });
 

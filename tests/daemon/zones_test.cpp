@@ -266,6 +266,56 @@ TEST(Documents, AreMadeOfWhatIsKept) {
     EXPECT_EQ(http(daemon.port(), "PUT /report.html", "x").status, 405);
 }
 
+/// The scene as it has been edited, which another server opens as it was; `raybundle save` writes
+/// the same of the journal.
+TEST(Documents, AreTheSceneAsItIsNow) {
+    const TestFolder folder;
+    const std::string journal = folder.path("journal.sqlite");
+    std::string bytes;
+    Json before;
+    {
+        Daemon daemon(scene_file("cornell_box.gltf"), {"--journal", journal});
+        JsonViewer viewer(daemon.port());
+        const Json scene = viewer.join().at("welcome").at("scene");
+        Json box;
+        for (const Json& object : scene.at("objects")) {
+            box = object.at("movable").get<bool>() ? object : box;
+        }
+        box["transform"]["translation"]["x"] = 0.3;
+        viewer.request(
+            {{"moveObject",
+              {{"object", box.at("id")}, {"transform", box.at("transform")}, {"final", true}}}});
+        viewer.request({{"setLight", {{"light", 1}, {"dim", 0.4}, {"group", "ceiling"}}}});
+        viewer.request({{"saveLightingScene", {{"name", "evening"}}}});
+        const Http saved = http(daemon.port(), "GET /scene.glb");
+        ASSERT_EQ(saved.status, 200) << saved.body;
+        EXPECT_TRUE(has(saved.head, "model/gltf-binary")) << saved.head;
+        bytes = saved.body;
+        EXPECT_EQ(http(daemon.port(), "PUT /scene.glb", "x").status, 405);
+        JsonViewer late(daemon.port());
+        before = late.join().at("welcome").at("scene");
+    }
+    const std::string file = folder.path("cornell_box.glb");
+    std::ofstream(file, std::ios::binary) << bytes;
+    Daemon other(file, {"--journal", "none"});
+    JsonViewer viewer(other.port());
+    const Json after = viewer.join().at("welcome").at("scene");
+    for (const char* what : {"name", "objects", "materials", "cameras", "groups", "daylight",
+                             "lightingScenes", "animations"}) {
+        EXPECT_EQ(after.at(what), before.at(what)) << what;
+    }
+    for (const char* what : {"intensity", "colour", "dim", "on", "group"}) {
+        EXPECT_EQ(after.at("lights")[0].at(what), before.at("lights")[0].at(what)) << what;
+    }
+    const std::string again = folder.path("again.glb");
+    const std::string command = std::string(RAYBUNDLE_EXECUTABLE) + " save " +
+                                scene_file("cornell_box.gltf") + " --journal " + journal + " -o " +
+                                again + " 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(cert-env33-c)
+    std::ifstream stream(again, std::ios::binary);
+    EXPECT_TRUE(std::string(std::istreambuf_iterator<char>(stream), {}) == bytes);
+}
+
 /// Where Chromium is installed it prints; elsewhere the answer says so.
 TEST(Documents, PdfOrWords) {
     Daemon daemon(scene_file("cornell_box.gltf"), {"--journal", "none"});

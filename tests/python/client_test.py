@@ -361,6 +361,8 @@ class Shell(WithServer):
         self.assertGreaterEqual(len(self.run_client("changes")["changes"]), 3)
         self.assertGreater(self.run_client("undo", "0")["epoch"], 3)
         with tempfile.TemporaryDirectory() as folder:
+            self.run_client("save", "-o", f"{folder}/a.glb")
+            self.assertEqual(Path(f"{folder}/a.glb").read_bytes()[:4], b"glTF")
             self.run_client("picture", "--error", "0.5", "-o", f"{folder}/a.jpg")
             self.run_client("snapshot", "--error", "0.5", "-o", f"{folder}/a.exr")
             self.assertEqual(raybundle.read_exr(Path(f"{folder}/a.exr").read_bytes()).shape, (64, 96, 3))

@@ -69,6 +69,10 @@ async def _snapshot(client: Client, wanted: argparse.Namespace) -> None:
     _print(shot.ready)
 
 
+async def _save(client: Client, wanted: argparse.Namespace) -> None:
+    Path(wanted.output).write_bytes(await client.save_scene())
+
+
 async def _settle(client: Client, wanted: argparse.Namespace) -> None:
     await _look(client, wanted)
     _print(await client.settled(wanted.error or 0.05, wanted.timeout))
@@ -171,6 +175,8 @@ def _parser() -> argparse.ArgumentParser:
         add_view(command)
         if name != "settle":
             command.add_argument("-o", "--output", required=True, metavar="FILE")
+    save = add("save", _save, "saves the scene as it is now as a .glb file")
+    save.add_argument("-o", "--output", required=True, metavar="FILE")
     move = add("move", _move, "moves an object")
     move.add_argument("object", type=_key, help="number or name")
     move.add_argument("to", type=_numbers, help="X,Y,Z in its parent's space, m")

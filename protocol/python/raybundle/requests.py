@@ -112,6 +112,10 @@ class Requests:
         encoded = await asyncio.to_thread(fetch, self.address + ready.url, self.token, self.ssl)
         return Snapshot(ready, encoded)
 
+    async def save_scene(self) -> bytes:
+        """The scene as it is now, a GLB file with lights, photometry, groups and daylight in it."""
+        return await asyncio.to_thread(fetch, self.address + "/scene.glb", self.token, self.ssl)
+
     # ------------------------------------------------------------------ changes
 
     async def move(self, thing: Key, translation: Optional[Numbers] = None, rotation: Optional[Numbers] = None,

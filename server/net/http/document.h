@@ -19,6 +19,7 @@ struct DocumentResult {
     const char* content_type = "text/plain; charset=utf-8";  ///< text that lives for ever
     std::string body;
     std::string file_name;  ///< for who saves it; empty: none
+    std::string notes{};    ///< what it lacks, in words
 };
 
 /// Makes documents. Called on the network thread, returns at once; `done` is called once, on any
@@ -29,7 +30,7 @@ using DocumentSource =
 /// Whether a path is one of documents.
 inline bool is_document(const std::string& path) {
     return path == "/report.html" || path == "/report.pdf" || path == "/report.csv" ||
-           path == "/report.json" || path == "/pins.bcf";
+           path == "/report.json" || path == "/pins.bcf" || path == "/scene.glb";
 }
 
 }  // namespace raybundle

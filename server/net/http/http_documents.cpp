@@ -14,6 +14,26 @@ DocumentResult stopping_result() {
     return {503, "text/plain; charset=utf-8", "The server is stopping\n", {}};
 }
 
+/// Printable ASCII: what is not is escaped with "%", as in a URI.
+std::string header_text(const std::string& text) {
+    constexpr std::size_t longest = 2000;
+    constexpr const char* digits = "0123456789ABCDEF";
+    std::size_t length = std::min(text.size(), longest);
+    while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80U) {
+        --length;  // whole characters alone
+    }
+    std::string result;
+    for (const char c : text.substr(0, length)) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x20 && byte < 0x7f && c != '%') {
+            result += c;
+        } else {
+            result += {'%', digits[byte >> 4U], digits[byte & 15U]};
+        }
+    }
+    return result;
+}
+
 HttpResponse document_response(DocumentResult result) {
     HttpResponse response;
     response.status = result.status;
@@ -25,6 +45,9 @@ HttpResponse document_response(DocumentResult result) {
                                   "base-uri 'none'; form-action 'none'; frame-ancestors 'self'");
     if (result.status == 503) {
         response.headers.emplace_back("retry-after:", retry_after_s);
+    }
+    if (!result.notes.empty()) {
+        response.headers.emplace_back("x-raybundle-notes:", header_text(result.notes));
     }
     if (!result.file_name.empty()) {
         response.headers.emplace_back("content-disposition:",

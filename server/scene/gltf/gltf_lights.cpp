@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -68,10 +69,35 @@ class LightReader {
                 add_profile(n, *use);
             }
         }
+        sort_saved();
         return std::move(sources_);
     }
 
   private:
+    /// Lights of a saved scene have the order that they had.
+    void sort_saved() {
+        std::vector<std::size_t> order(sources_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+            return sources_[a].number < sources_[b].number;
+        });
+        std::vector<LightSource> sources;
+        std::vector<PunctualLight> lights;
+        for (const std::size_t i : order) {
+            sources.push_back(sources_[i]);
+            lights.push_back(std::move(scene_.punctual_lights[i]));
+        }
+        sources_ = std::move(sources);
+        scene_.punctual_lights = std::move(lights);
+    }
+
+    /// Takes up what a saved scene says of the light that has been read last.
+    void restore(std::size_t node, const char* key, PunctualLight& light) {
+        const SavedState& saved = document_.saved();
+        sources_.back().number = saved_light_number(saved, static_cast<int>(node), key);
+        restore_light(saved, static_cast<int>(node), key, light);
+    }
+
     void add(std::size_t node, std::size_t definition) {
         const std::string path = item_path("nodes", node) + ".extensions.KHR_lights_punctual.light";
         check_index(path, definition, definitions_.size());
@@ -86,7 +112,10 @@ class LightReader {
             }
         }
         set_intensity(value_or(source, "intensity", 1.0F), colour, light);
-        sources_.push_back({node, definition, value_or(source, "intensity", 1.0F), colour});
+        LightSource of_file{node, definition};
+        of_file.intensity = value_or(source, "intensity", 1.0F);
+        of_file.colour = colour;
+        sources_.push_back(of_file);
         if (light.kind == PunctualKind::spot) {
             read_cone(source, definition, light);
         }
@@ -95,6 +124,7 @@ class LightReader {
             document_.note("the range of lights cuts nothing off: light reaches as far as it does");
         }
         place(node, light);
+        restore(node, SavedLight::punctual, light);
         scene_.punctual_lights.push_back(std::move(light));
     }
 
@@ -116,6 +146,7 @@ class LightReader {
         light.photometry = file_name(value_or<std::string>(profiles_[index], "uri", ""));
         sources_.push_back({node, std::nullopt});
         place(node, light);
+        restore(node, SavedLight::photometric, light);
         scene_.punctual_lights.push_back(std::move(light));
     }
 

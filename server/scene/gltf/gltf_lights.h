@@ -15,9 +15,10 @@ namespace raybundle {
 /// Where a punctual light comes from.
 struct LightSource {
     std::size_t node = 0;
-    std::optional<std::size_t> definition;  ///< entry of KHR_lights_punctual's lights
-    float intensity = 1.0F;                 ///< as the file has it
-    glm::vec3 colour{1.0F};                 ///< likewise
+    std::optional<std::size_t> definition;   ///< entry of KHR_lights_punctual's lights
+    std::size_t number = SavedObject::last;  ///< of a saved scene: its place among the lights
+    float intensity = 1.0F;                  ///< as the file has it
+    glm::vec3 colour{1.0F};                  ///< likewise
 };
 
 /// Adds the KHR_lights_punctual and EXT_lights_ies lights of the shown scene's visible nodes to

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "scene/contact/solid_shells.h"
 #include "scene/gltf/animation/animation_links.h"
@@ -21,6 +22,9 @@
 #include "scene/gltf/gltf_primitive.h"
 #include "scene/gltf/lone_object.h"
 #include "scene/gltf/material/gltf_material.h"
+#include "scene/gltf/saved/saved_lighting.h"
+#include "scene/gltf/saved/saved_state.h"
+#include "scene/gltf/saved/scene_source.h"
 #include "scene/light/environment.h"
 #include "scene/light/lights.h"
 #include "scene/material/specular_surface.h"
@@ -89,6 +93,8 @@ void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
     } else if (daylight.given()) {
         apply_daylight(daylight, scene);
+    } else if (const auto saved = saved_sky_luminance(document.saved())) {
+        scene.sky_radiance = glm::vec3(*saved);
     } else if (!has_emitter(scene)) {
         scene.sky_radiance = glm::vec3(settings.default_sky_luminance);
         document.note(
@@ -118,7 +124,68 @@ void note_materials(GltfDocument& document, const Scene& scene) {
     }
 }
 
-Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
+/// See SceneSource::entangled. plans: of the objects, which more than one may share.
+std::vector<bool> find_entangled(const GltfDocument& document, const GltfNodeTree& tree,
+                                 const std::vector<LightSource>& light_sources,
+                                 const Scene& scene) {
+    constexpr int nobody = -1;
+    std::vector<int> owner(tree.nodes.size(), nobody);  // object whose node is the nearest above
+    std::vector<bool> entangled(scene.objects.size(), false);
+    for (const Object& object : scene.objects) {
+        int& first = owner[static_cast<std::size_t>(object.node)];
+        first = first == nobody ? static_cast<int>(object.id) - 1 : first;
+    }
+    const auto mark_above = [&](int node) {
+        for (; node >= 0; node = tree.nodes[static_cast<std::size_t>(node)].parent) {
+            if (const int object = owner[static_cast<std::size_t>(node)]; object != nobody) {
+                entangled[static_cast<std::size_t>(object)] = true;
+            }
+        }
+    };
+    for (const int index : tree.order) {
+        const tinygltf::Node& node = item(document.model().nodes, index);
+        const int parent = tree.nodes[static_cast<std::size_t>(index)].parent;
+        mark_above(node.camera >= 0 || node.skin >= 0                 ? index
+                   : owner[static_cast<std::size_t>(index)] != nobody ? parent
+                                                                      : -1);
+    }
+    for (std::size_t i = 0; i < light_sources.size(); ++i) {
+        if (scene.punctual_lights[i].object == PunctualLight::no_object) {
+            mark_above(static_cast<int>(light_sources[i].node));
+        }
+    }
+    return entangled;
+}
+
+/// What saving the scene needs to know of how it was read.
+std::shared_ptr<const SceneSource> source_of(const GltfDocument& document, const GltfNodeTree& tree,
+                                             const SceneSettings& settings, const FileMark& mark,
+                                             const std::vector<LightSource>& light_sources,
+                                             const Scene& scene) {
+    SceneSource source;
+    source.file = mark;
+    source.metres_per_unit = settings.metres_per_unit;
+    source.ies = settings.ies;
+    if (!settings.sky_luminance) {
+        source.daylight = overlaid(document.daylight(), settings.daylight);
+    }
+    source.sky_luminance = source.daylight.given() ? 0.0F : scene.sky_radiance.g;
+    source.materials = scene.materials;
+    for (const Object& object : scene.objects) {
+        source.transforms.push_back(object.transform);
+    }
+    source.lights.assign(
+        scene.punctual_lights.begin(),
+        scene.punctual_lights.begin() + static_cast<std::ptrdiff_t>(light_sources.size()));
+    source.light_sources = light_sources;
+    source.entangled = find_entangled(document, tree, light_sources, scene);
+    return std::make_shared<const SceneSource>(std::move(source));
+}
+
+Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMark& mark) {
+    const float saved_unit = saved_metres_per_unit(document.saved());
+    settings.metres_per_unit =
+        settings.metres_per_unit == 1.0F ? saved_unit : settings.metres_per_unit;
     Scene scene;
     scene.path = document.path();
     scene.name = std::filesystem::path(scene.path).stem().string();
@@ -143,7 +210,8 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     drop_unused_default_material(scene, default_material);
     scene.lights = find_lights(scene);
     name_materials(scene);
-    if (split_lone_object(scene) > 1 && plans.size() == 1) {
+    const bool whole = plans.front().whole;
+    if (!whole && split_lone_object(scene) > 1 && plans.size() == 1) {
         document.note(fmt::format("the only object is divided into {} connected parts",
                                   scene.objects.size()));
     }
@@ -153,8 +221,12 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
     link_animations(document, animations,
                     {tree, settings.metres_per_unit, geometries, plans, light_sources}, scene);
     note_materials(document, scene);
+    restore_area_lights(document.saved(), scene);
     set_sky(document, settings, scene);
     scene.sky_light = find_sky_light(scene);
+    scene.source = source_of(document, tree, settings, mark, light_sources, scene);
+    restore_daylight(document.saved(), scene);
+    scene.lighting_scenes = saved_lighting_scenes(document.saved(), light_sources, scene);
     if (scene.cameras.empty()) {
         scene.cameras = default_cameras(scene);
         document.note("the file has no usable camera: default ones are used");
@@ -168,8 +240,10 @@ Scene load_checked(GltfDocument& document, const SceneSettings& settings) {
 template <typename Read>
 Scene load(const std::string& path, const SceneSettings& settings, const Read& read) {
     try {
-        GltfDocument document(path, read());
-        return load_checked(document, settings);
+        GltfContainer container = read();
+        const FileMark mark = container.mark;
+        GltfDocument document(path, std::move(container));
+        return load_checked(document, settings, mark);
     } catch (const std::bad_alloc&) {
         throw SceneError(path, "", "not enough memory to load the scene");
     } catch (const std::length_error& error) {

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/gtx/matrix_decompose.hpp>
+#include <limits>
 #include <utility>
 
 namespace raybundle {
@@ -64,6 +65,12 @@ void read_matrix(const GltfDocument& document, const std::vector<double>& matrix
     decompose(node);
 }
 
+/// What is of length 1 within the rounding of its square keeps its bits.
+glm::quat unit(const glm::quat& q) {
+    constexpr float square_rounding = 4.0F * std::numeric_limits<float>::epsilon();
+    return std::abs(glm::dot(q, q) - 1.0F) <= square_rounding ? q : glm::normalize(q);
+}
+
 void read_transform(GltfDocument& document, const tinygltf::Node& source, const std::string& path,
                     float metres_per_unit, GltfNode& node) {
     if (!source.matrix.empty()) {
@@ -78,7 +85,7 @@ void read_transform(GltfDocument& document, const tinygltf::Node& source, const 
     if (glm::length(xyzw) < 1e-6F) {
         document.fail(path + ".rotation", "is zero, not a unit quaternion");
     }
-    node.transform.rotation = glm::normalize(glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z));
+    node.transform.rotation = unit(glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z));
     node.parent_from_node = glm::dmat4(node.transform.matrix());
     node.parent_from_node[3] = glm::dvec4(translation, 1.0);
 }

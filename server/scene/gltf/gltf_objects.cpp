@@ -85,7 +85,7 @@ class Planner {
             if (!at(node).bearing) {
                 continue;
             }
-            if (!is_divided(node)) {
+            if (at(node).saved || !is_divided(node)) {
                 std::vector<int> apart;
                 const std::vector<std::size_t> own = subtree_geometries(node, apart);
                 if (!own.empty()) {
@@ -100,6 +100,10 @@ class Planner {
             const std::vector<int>& children = tree_.nodes[index(node)].children;
             pending.insert(pending.end(), children.rbegin(), children.rend());
         }
+        std::stable_sort(plans_.begin(), plans_.end(),
+                         [this](const ObjectPlan& a, const ObjectPlan& b) {
+                             return number_of(a.node) < number_of(b.node);
+                         });
         return std::move(plans_);
     }
 
@@ -107,7 +111,8 @@ class Planner {
     struct NodeInfo {
         std::optional<std::size_t> geometry;
         std::optional<bool> movable;  // extras.movable
-        bool bearing = false;         // geometry in the subtree
+        std::optional<SavedObject> saved;
+        bool bearing = false;  // geometry in the subtree
         bool bearing_child = false;
         bool decided_below = false;  // extras.movable in a proper descendant with geometry
         Bounds bounds;               // world, of the subtree
@@ -115,6 +120,10 @@ class Planner {
 
     static std::size_t index(int node) { return static_cast<std::size_t>(node); }
     NodeInfo& at(int node) { return info_[index(node)]; }
+
+    std::size_t number_of(int node) {
+        return at(node).saved ? at(node).saved->number : SavedObject::last;
+    }
 
     /// Whether an animation moves a node or one above it.
     [[nodiscard]] bool is_carried(int node) const {
@@ -139,11 +148,13 @@ class Planner {
             if (extras.Has("movable") && extras.Get("movable").IsBool()) {
                 info.movable = extras.Get("movable").Get<bool>();
             }
+            info.saved = saved_object(document_.saved(), *it);
             const int parent = tree_.nodes[index(*it)].parent;
             if (parent >= 0 && info.bearing) {
                 NodeInfo& above = at(parent);
                 above.bearing = above.bearing_child = true;
-                above.decided_below |= info.decided_below || info.movable.has_value();
+                above.decided_below |=
+                    info.decided_below || info.movable.has_value() || info.saved.has_value();
                 unite(above.bounds, info.bounds);
             }
         }
@@ -157,15 +168,16 @@ class Planner {
         return info.decided_below || axes_spanned(info.bounds, scene_bounds_, group_span) >= 2;
     }
 
-    /// apart: gets nodes below that an animation moves, unless the whole is one thing to move.
+    /// apart: gets nodes below that are saved objects, or that an animation moves, unless the whole
+    /// is one thing to move.
     std::vector<std::size_t> subtree_geometries(int root, std::vector<int>& apart) {
-        const bool whole = at(root).movable.value_or(false);
+        const bool whole = at(root).saved || at(root).movable.value_or(false);
         std::vector<std::size_t> found;
         std::vector<int> pending{root};
         while (!pending.empty()) {
             const int node = pending.back();
             pending.pop_back();
-            if (node != root && moved_[index(node)] && !whole) {
+            if (node != root && (at(node).saved || (moved_[index(node)] && !whole))) {
                 apart.push_back(node);
                 continue;
             }
@@ -192,6 +204,13 @@ class Planner {
         plan.movable =
             is_carried(node) || at(node).movable.value_or(!is_shell(bounds, scene_bounds_));
         plan.geometries = std::move(geometries);
+        if (const std::optional<SavedObject>& saved = at(node).saved) {
+            plan.name = saved->name.value_or(plan.name);
+            plan.kind = saved->kind.value_or(plan.kind);
+            plan.movable = saved->movable.value_or(plan.movable);
+            plan.path = saved->path.value_or(plan.path);
+            plan.whole = saved->whole;
+        }
         plans_.push_back(std::move(plan));
     }
 

@@ -17,6 +17,7 @@ struct ObjectPlan {
     ObjectKind kind = ObjectKind::thing;
     std::vector<std::string> path;        ///< names of the nodes above, the outermost first
     std::vector<std::size_t> geometries;  ///< indices into the geometry list
+    bool whole = false;                   ///< not to be divided into its parts
 };
 
 /// Divides the scene into objects that are not nested in one another. A node with
@@ -24,6 +25,9 @@ struct ObjectPlan {
 /// most of the scene is one (a table with its legs); groups and rooms that span it are divided
 /// further. Objects are movable unless they belong to the enclosing shell (floor, walls, ceiling,
 /// judged by their size and place) or `extras.movable` is false.
+///
+/// Nodes that a saved scene says were objects are those, in the order that they had; what is not
+/// below them is divided as above.
 ///
 /// moved: of each node, whether an animation moves it. Such a node is an object of its own and
 /// movable, unless it is part of one that `extras.movable` makes a whole.

@@ -12,10 +12,11 @@ namespace raybundle {
 
 /// How an object was made that has been added.
 struct AddedObject {
-    std::uint32_t copy_of = 0;  ///< Object::id; 0: of a file
-    std::string library;        ///< that file, of SceneFolder
-    std::string name;           ///< empty: that of what is copied, or of the file
-    Transform transform;        ///< as Object::transform
+    std::uint32_t copy_of = 0;          ///< Object::id; 0: of a file
+    std::string library;                ///< that file, of SceneFolder
+    std::string name;                   ///< empty: that of what is copied, or of the file
+    Transform transform;                ///< as Object::transform
+    std::vector<Material> materials{};  ///< of the file, as Scene::materials got them
 };
 
 constexpr std::size_t max_added_objects = 1024;

@@ -111,6 +111,7 @@ Object new_object(const Scene& scene, Object object, const AddedObject& added) {
     object.id = static_cast<std::uint32_t>(scene.objects.size()) + 1;
     object.name = added.name.empty() ? object.name : added.name;
     object.transform = added.transform;
+    object.node = -1;
     object.movable = true;
     object.added = std::make_shared<const AddedObject>(added);
     object.removed = true;
@@ -153,12 +154,14 @@ void add_file(Scene& scene, PatchMesh& mesh, const AddedObject& added) {
         shift_textures(material, static_cast<int>(scene.textures.size()));
         scene.materials.push_back(std::move(material));
     }
+    AddedObject of_file = added;
+    of_file.materials.assign(scene.materials.begin() + first_material, scene.materials.end());
     scene.textures.insert(scene.textures.end(), std::make_move_iterator(file.textures.begin()),
                           std::make_move_iterator(file.textures.end()));
     append_triangles(file.vertices, file.triangles, first_material, scene);
     Object object = file.objects.front();
     object.name = file.name;
-    scene.objects.push_back(new_object(scene, object, added));
+    scene.objects.push_back(new_object(scene, object, of_file));
     append_part(std::move(part), first_material, scene, mesh);
 }
 

@@ -6,9 +6,13 @@
 #include <utility>
 
 #include "session/messages/light_messages.h"
+#include "session/messages/scene_messages.h"
 
 namespace raybundle {
 namespace {
+
+/// The number of what the journal does not hold.
+constexpr std::uint32_t of_file = 0;
 
 /// Lamps: sky and sun go by the day.
 bool in_lighting_scenes(const Scene& scene, std::uint32_t id) {
@@ -41,6 +45,37 @@ LightingScenes::LightingScenes(ChangeLog& log) : log_(log) {
             scenes_[name] = std::move(content);
         }
     }
+}
+
+void LightingScenes::take_up(const Scene& scene) {
+    for (const SavedLightingScene& loaded : scene.lighting_scenes) {
+        v1::JournalLightingScene content;
+        content.mutable_scene()->set_name(loaded.name);
+        content.mutable_scene()->set_by_name(loaded.by_name);
+        for (const SavedLightingScene::Lamp& lamp : loaded.lamps) {
+            v1::SetLight& light = *content.add_lights();
+            light.set_light(lamp.light);
+            light.set_intensity(lamp.intensity);
+            to_message(lamp.colour, light.mutable_colour());
+            light.set_on(lamp.on);
+            light.set_dim(lamp.dim);
+        }
+        scenes_.emplace(loaded.name, std::move(content));
+    }
+}
+
+std::vector<SavedLightingScene> LightingScenes::saved() const {
+    std::vector<SavedLightingScene> result;
+    for (const auto& [name, content] : scenes_) {
+        SavedLightingScene& one = result.emplace_back();
+        one.name = name;
+        one.by_name = content.scene().by_name();
+        for (const v1::SetLight& light : content.lights()) {
+            one.lamps.push_back({light.light(), from_message(light.colour()), light.intensity(),
+                                 light.has_dim() ? light.dim() : 1.0F, light.on()});
+        }
+    }
+    return result;
 }
 
 v1::ServerMessage LightingScenes::follow(std::uint32_t number, const std::string& body) {
@@ -78,7 +113,7 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
                       "saveLightingScene: there are 64, remove some");
     }
     v1::JournalLightingScene saved;
-    const auto number = known == scenes_.end()
+    const auto number = known == scenes_.end() || known->second.number() == of_file
                             ? log_.new_number(NoteKind::lighting_scene, next_number_)
                             : std::optional(known->second.number());
     saved.set_number(number.value_or(0));
@@ -104,7 +139,8 @@ bool LightingScenes::remove(const std::string& name) {
         return refuse(v1::Error::NOT_FOUND,
                       "removeLightingScene.name: no lighting scene '" + name + "'");
     }
-    if (!log_.keep_note(NoteKind::lighting_scene, known->second.number(), {})) {
+    if (known->second.number() != of_file &&
+        !log_.keep_note(NoteKind::lighting_scene, known->second.number(), {})) {
         refusal_ = log_.refusal("the removal could not be saved");
         return false;
     }

@@ -23,6 +23,12 @@ class LightingScenes {
     /// Takes up what the journal holds.
     explicit LightingScenes(ChangeLog& log);
 
+    /// Takes up those of the scene's file, as far as the journal holds none of the name. They are
+    /// not in the journal before somebody saves them there.
+    void take_up(const Scene& scene);
+    /// All of them, for a file.
+    [[nodiscard]] std::vector<SavedLightingScene> saved() const;
+
     /// Keeps the lights as they are, in place of what has that name. False where there are too many
     /// or it cannot be stored; the reason is in refusal().
     bool save(const std::string& name, const std::string& by_name, const Scene& scene);

@@ -16,7 +16,9 @@ class LightingService {
         LiveScene& scene;
         Server& server;
     };
-    explicit LightingService(const Parts& parts) : parts_(parts), scenes_(parts.scene.log()) {}
+    explicit LightingService(const Parts& parts) : parts_(parts), scenes_(parts.scene.log()) {
+        scenes_.take_up(parts.scene.scene());
+    }
 
     HandlerResult save(ViewerSession& session, const ClientEvent& event);
     HandlerResult remove(ViewerSession& session, const ClientEvent& event);

@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <filesystem>
 #include <sstream>
 
 #include "report/bcf.h"
 #include "report/print_pdf.h"
 #include "report/report_html.h"
+#include "scene/gltf/gltf_loader.h"
 #include "session/messages/scene_messages.h"
 #include "session/unix_time.h"
 
@@ -19,6 +21,7 @@ namespace raybundle {
 namespace {
 
 constexpr const char* plain_text = "text/plain; charset=utf-8";
+constexpr const char* scene_path = "/scene.glb";
 
 /// "2026-06-21", or Unix time in ms.
 double parse_since(const std::string& text) {
@@ -54,6 +57,38 @@ DocumentResult write_document(const ReportData& data, const DocumentRequest& req
     auto pdf = print_pdf(report_html(data, options), reason, stop);
     return pdf ? DocumentResult{200, "application/pdf", std::move(*pdf), "report.pdf"}
                : DocumentResult{501, plain_text, "There is no PDF: " + reason + "\n", {}};
+}
+
+/// What is wrong, without where the server keeps its files.
+std::string without_folder(const SceneError& error) {
+    std::string text = error.what();
+    const std::string folder = std::filesystem::path(error.file()).parent_path().string() + "/";
+    for (std::size_t at = text.find(folder); folder.size() > 1 && at != std::string::npos;
+         at = text.find(folder, at)) {
+        text.erase(at, folder.size());
+    }
+    return text;
+}
+
+/// A file that is too large is for `raybundle save`: several may be on their way at once.
+DocumentResult write_scene(const SceneToSave& scene) {
+    constexpr std::size_t most_bytes = std::size_t{512} << 20U;
+    try {
+        SavedFile file = save_scene(scene);
+        if (file.bytes.size() > most_bytes) {
+            return {413,
+                    plain_text,
+                    "The scene has more than 512 MiB: `raybundle save` writes it\n",
+                    {}};
+        }
+        std::string notes;
+        for (const std::string& note : file.notes) {
+            notes += (notes.empty() ? "" : "; ") + note;
+        }
+        return {200, "model/gltf-binary", std::move(file.bytes), "scene.glb", notes};
+    } catch (const SceneError& error) {
+        return {409, plain_text, "The scene cannot be saved: " + without_folder(error) + "\n", {}};
+    }
 }
 
 }  // namespace
@@ -155,13 +190,21 @@ void ReportService::step() {
         pins.done(parts_.review.import_pins(pins.topics));
     }
     std::shared_ptr<const ReportData> data;
+    std::shared_ptr<const SceneToSave> scene;
     for (auto& [request, done] : asked) {
-        if (!request.put) {
+        Job job{nullptr, nullptr, std::move(request), std::move(done)};
+        if (job.request.path == scene_path) {
+            scene = scene ? scene
+                          : std::make_shared<const SceneToSave>(
+                                scene_to_save(parts_.scene.scene(), parts_.lighting.saved()));
+            job.scene = scene;
+        } else if (!job.request.put) {
             data = data ? data : collect();
+            job.data = data;
         }
         {
             const std::lock_guard lock(mutex_);
-            jobs_.push_back({request.put ? nullptr : data, std::move(request), std::move(done)});
+            jobs_.push_back(std::move(job));
         }
         wake_.notify_one();
     }
@@ -196,7 +239,9 @@ std::shared_ptr<const ReportData> ReportService::collect() const {
 void ReportService::make(Job job) {
     DocumentResult result{500, plain_text, "The document could not be made\n", {}};
     try {
-        if (job.data) {
+        if (job.scene) {
+            result = write_scene(*job.scene);
+        } else if (job.data) {
             result = write_document(*job.data, job.request, printing_.get_token());
         } else {
             std::string reason;

@@ -13,6 +13,7 @@
 
 #include "net/server.h"
 #include "report/report_data.h"
+#include "scene/gltf/saved/scene_to_save.h"
 #include "session/changes/lighting_scenes.h"
 #include "session/live_scene.h"
 #include "session/measure/measure_service.h"
@@ -20,8 +21,9 @@
 
 namespace raybundle {
 
-/// Makes the documents that are asked for over HTTP: report.html, .pdf, .csv, .json and pins.bcf;
-/// takes pins in. The render thread copies what is known, a thread of its own writes it.
+/// Makes the documents that are asked for over HTTP: report.html, .pdf, .csv, .json, pins.bcf and
+/// scene.glb, the scene as it has been edited; takes pins in. The render thread copies what is
+/// known, a thread of its own writes it.
 class ReportService {
   public:
     /// Documents that are asked for and not made: with those whose askers have gone, which
@@ -58,7 +60,8 @@ class ReportService {
         Done done;
     };
     struct Job {
-        std::shared_ptr<const ReportData> data;  ///< null: pins are to be read
+        std::shared_ptr<const ReportData> data;
+        std::shared_ptr<const SceneToSave> scene;  ///< both null: pins are to be read
         DocumentRequest request;
         Done done;
     };

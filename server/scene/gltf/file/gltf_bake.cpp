@@ -80,6 +80,7 @@ class Baker {
         object_.movable = plan.movable;
         object_.kind = plan.kind;
         object_.path = plan.path;
+        object_.node = plan.node;
         object_.transform = node(plan.node).transform;
         const int parent = node(plan.node).parent;
         if (parent >= 0) {

@@ -7,7 +7,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <span>
+#include <string_view>
 #include <unordered_set>
 
 #include "scene/gltf/gltf_loader.h"
@@ -220,10 +222,14 @@ GltfContainer read_gltf_container(const std::string& path) {
 }
 
 GltfContainer parse_gltf_container(const std::string& path, std::span<const std::uint8_t> file) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    const FileMark mark{file.size(), std::hash<std::string_view>()(text)};
     if (file.size() >= 4 && little_endian_u32(file, 0) == glb_magic) {
-        return read_glb(path, file);
+        GltfContainer container = read_glb(path, file);
+        container.mark = mark;
+        return container;
     }
-    return {parse_json(path, file), std::nullopt};
+    return {parse_json(path, file), std::nullopt, mark};
 }
 
 }  // namespace raybundle

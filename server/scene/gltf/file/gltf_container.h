@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,10 +12,17 @@
 
 namespace raybundle {
 
+/// Size and hash of a file's bytes, to notice that it has become another one.
+struct FileMark {
+    std::size_t bytes = 0, hash = 0;
+    bool operator==(const FileMark&) const = default;
+};
+
 /// What a .gltf or .glb file holds, before anything in it is interpreted.
 struct GltfContainer {
     Json json;
     std::optional<std::vector<std::uint8_t>> binary;  ///< the BIN chunk of a .glb
+    FileMark mark{};                                  ///< of the file's bytes
 };
 
 /// Reads the file and parses its JSON; told apart by content, not by file name. Throws SceneError.

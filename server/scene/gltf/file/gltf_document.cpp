@@ -62,11 +62,12 @@ void check_item_count(const std::string& path, const Json& json) {
 
 /// Moves what the model is made from out of the JSON.
 tinygltf::Model read_checked_model(const std::string& path, Json& json, Daylight& daylight,
-                                   std::optional<Medium>& air) {
+                                   std::optional<Medium>& air, SavedState& saved) {
     check_item_count(path, json);
     check_schema(path, json);
     daylight = read_daylight(path, json);
     air = read_air(path, json);
+    saved = read_saved_state(json);
     check_max_phong(path, json);
     // Before any buffer is read: an unreadable extension is the better message than its symptoms.
     check_required_extensions(path, json);
@@ -80,7 +81,7 @@ GltfDocument::GltfDocument(const std::string& path)
 
 GltfDocument::GltfDocument(const std::string& path, GltfContainer container)
     : path_(path),
-      model_(read_checked_model(path, container.json, daylight_, air_)),
+      model_(read_checked_model(path, container.json, daylight_, air_, saved_)),
       extensions_(value_or(container.json, "extensions", Json(Json::object()))),
       animations_(array_or_empty(container.json, "animations")),
       buffers_(path, array_or_empty(container.json, "buffers"), std::move(container.binary),

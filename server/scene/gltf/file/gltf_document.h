@@ -10,6 +10,7 @@
 
 #include "scene/gltf/file/gltf_buffers.h"
 #include "scene/gltf/file/gltf_model.h"
+#include "scene/gltf/saved/saved_state.h"
 #include "scene/light/daylight.h"
 #include "scene/medium.h"
 
@@ -45,6 +46,8 @@ class GltfDocument {
     /// Daylight as the file asks for it.
     [[nodiscard]] const Daylight& daylight() const { return daylight_; }
     [[nodiscard]] const std::optional<Medium>& air() const { return air_; }
+    /// What a saved scene says beside glTF.
+    [[nodiscard]] const SavedState& saved() const { return saved_; }
 
     /// Adds a notice for the user, once.
     void note(const std::string& text);
@@ -68,6 +71,7 @@ class GltfDocument {
     std::string path_;
     Daylight daylight_;
     std::optional<Medium> air_;
+    SavedState saved_;
     tinygltf::Model model_;
     Json extensions_;
     Json animations_;

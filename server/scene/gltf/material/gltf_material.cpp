@@ -132,10 +132,19 @@ class MaterialReader {
             }
         }
         note_unused(source);
+        restore(source, static_cast<int>(index), material);
         scene_.materials.push_back(std::move(material));
     }
 
   private:
+    void restore(const tinygltf::Material& source, int index, Material& material) {
+        const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+        restore_surface(document_.saved(), index,
+                        glm::vec3(vector_or(pbr.baseColorFactor, glm::vec4(1.0F))),
+                        static_cast<float>(pbr.metallicFactor),
+                        static_cast<float>(pbr.roughnessFactor), material);
+    }
+
     void read_base(const tinygltf::Material& source, Material& material) {
         glm::vec4 colour(1.0F);
         if (const tinygltf::Value* diffuse = specular_glossiness(source)) {
