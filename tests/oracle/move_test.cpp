@@ -59,13 +59,13 @@ TEST(Move, PatchesThatNoLineThroughTheBoxReachesKeepTheirBits) {
     EXPECT_EQ(changed, 0U);
 }
 
-TEST(Move, ThereAndBackTwentyTimesEndsWhereItBegan) {
+void expect_where_it_began(int times) {
     const SceneBuilder b = room_with_box(first_place);
     Solver fresh(b.scene, b.mesh, quick(5));
     iterate(fresh, 1024);
     Solver solver(b.scene, b.mesh, quick(1));
     iterate(solver, 256);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < times; ++i) {
         move_box(solver, second_place);
         move_box(solver, first_place);
     }
@@ -75,6 +75,14 @@ TEST(Move, ThereAndBackTwentyTimesEndsWhereItBegan) {
         ASSERT_TRUE(std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z));
     }
     EXPECT_LT(relative_difference(irradiance, fresh.store().read_irradiance()), 0.08);
+}
+
+TEST(Move, ThereAndBackEndsWhereItBegan) {
+    expect_where_it_began(5);
+}
+
+TEST(HeavyMove, ThereAndBackTwentyTimesEndsWhereItBegan) {
+    expect_where_it_began(20);
 }
 
 TEST(Move, OutOfTheSceneScaledToNothingAndThroughAWallStaysFinite) {
