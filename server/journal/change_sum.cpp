@@ -28,6 +28,11 @@ ChangeSubject subject_of(const v1::SceneChanged& change) {
     return {kind, 0};
 }
 
+bool sets_light(const v1::SetLight& set) {
+    return set.has_intensity() || set.has_flux() || set.has_colour() ||
+           set.has_colour_temperature() || set.has_on() || set.has_dim() || set.has_photometry();
+}
+
 namespace {
 
 /// Removes what a newer change replaces: one of two ways to say the same, and vectors, of which
@@ -44,6 +49,9 @@ void clear_replaced(const v1::SetLight& newer, v1::SetLight* sum) {
     if (newer.has_photometry()) {  // comes with its own flux
         sum->clear_intensity();
         sum->clear_flux();
+    }
+    if (sets_light(newer)) {
+        sum->clear_fade_seconds();
     }
     if (newer.has_position()) {
         sum->clear_position();

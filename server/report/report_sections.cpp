@@ -204,6 +204,13 @@ std::string named_object(const v1::SceneChanged& change, const ReportData& data)
                                                                 : ": " + escaped(found->second);
 }
 
+/// How long a light takes for it.
+std::string fade_text(const v1::SetLight& set, const ReportWords& w) {
+    return set.fade_seconds() > 0.0F
+               ? fmt::format("{}{:.1f} s", w.of(", over ", ", in "), set.fade_seconds())
+               : "";
+}
+
 /// What a change has done, in words.
 std::string change_text(const v1::SceneChanged& change, const ReportData& data,
                         const ReportWords& w) {
@@ -212,7 +219,8 @@ std::string change_text(const v1::SceneChanged& change, const ReportData& data,
         case v1::SceneChanged::kMoveObject:
             return w.of("object moved", "Objekt bewegt") + named_object(change, data);
         case v1::SceneChanged::kSetLight:
-            return w.of("light", "Licht") + named(scene.lights(), change.set_light().light());
+            return w.of("light", "Licht") + named(scene.lights(), change.set_light().light()) +
+                   fade_text(change.set_light(), w);
         case v1::SceneChanged::kSetMaterial:
             return w.of("material", "Material") +
                    named(scene.materials(), change.set_material().material());

@@ -2,6 +2,9 @@
 #include "session/live_scene.h"
 
 #include <utility>
+#include <vector>
+
+#include "scene/edit/surface_edit.h"
 
 namespace raybundle {
 
@@ -12,6 +15,21 @@ LiveScene::LiveScene(Scene scene, PatchMesh mesh, const SolverSettings& settings
       log_(log),
       solver_(std::make_unique<Solver>(scene_, mesh_, settings)),
       programs_(std::make_unique<ViewPrograms>(solver_->scene())) {}
+
+PatchMesh LiveScene::settled_mesh() const {
+    PatchMesh mesh = mesh_;
+    std::vector<std::uint32_t> materials;
+    for (const std::uint32_t lamp : fades_.lamps()) {
+        if (const std::uint32_t material = material_of_light(scene_, lamp);
+            material != no_material) {
+            materials.push_back(material);
+        }
+    }
+    if (!materials.empty()) {
+        refresh_surfaces(scene_, materials, mesh);
+    }
+    return mesh;
+}
 
 std::unique_ptr<ViewerImage> LiveScene::make_picture(glm::uvec2 size) const {
     const Solver& solver = *solver_;

@@ -9,6 +9,7 @@
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "session/changes/change_log.h"
+#include "session/light_fades.h"
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
@@ -25,6 +26,10 @@ class LiveScene {
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const PatchMesh& mesh() const { return mesh_; }
+    /// Lamps that fade: the scene has them as they are set, the solution and the mesh as shown.
+    [[nodiscard]] const LightFades& fades() const { return fades_; }
+    /// The mesh with all lamps as they are set.
+    [[nodiscard]] PatchMesh settled_mesh() const;
     [[nodiscard]] const Solver& solver() const { return *solver_; }
     [[nodiscard]] const ViewPrograms& programs() const { return *programs_; }
     [[nodiscard]] const ChangeLog& log() const { return log_; }
@@ -48,6 +53,7 @@ class LiveScene {
     // For those who write it.
     [[nodiscard]] Scene& scene() { return scene_; }
     [[nodiscard]] PatchMesh& mesh() { return mesh_; }
+    [[nodiscard]] LightFades& fades() { return fades_; }
     [[nodiscard]] Solver& solver() { return *solver_; }
     [[nodiscard]] ChangeLog& log() { return log_; }
     void note_change() { iterations_at_change_ = solver_->iterations(); }
@@ -58,6 +64,7 @@ class LiveScene {
     std::mutex geometry_mutex_;
     Scene scene_;
     PatchMesh mesh_;
+    LightFades fades_;
     SolverSettings settings_;
     ChangeLog& log_;
     std::unique_ptr<Solver> solver_;

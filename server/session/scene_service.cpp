@@ -15,7 +15,7 @@ HandlerResult SceneService::request_scene(ViewerSession& session, const ClientEv
 
 HandlerResult SceneService::measure_effects(ViewerSession& /*session*/, const ClientEvent& event) {
     if (parts_.effect_requests) {
-        parts_.effect_requests(event, parts_.scene.scene(), parts_.scene.mesh());
+        parts_.effect_requests(event, parts_.scene.scene(), parts_.scene.settled_mesh());
     } else {
         parts_.server.reply_error(event, v1::Error::NOT_FOUND, "this server measures no effects");
     }

@@ -39,7 +39,8 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 s.server,
                 s.metrics,
                 {settings.renderer, settings.software_rendering,
-                 static_cast<bool>(settings.scene_requests)}}),
+                 static_cast<bool>(settings.scene_requests)},
+                s.policy.clock()}),
       status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
       follower({s.live, changes, lighting, review, views, measurements}) {}
 

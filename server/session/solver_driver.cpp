@@ -59,6 +59,7 @@ void SolverDriver::choose_receivers() {
     // Who watches a picture at rest waits for it as whoever has asked for a snapshot does.
     const bool undisturbed =
         !watched || parts_.policy.moving_frames_ms(loads) == 0.0 || parts_.demand.nobody_waits();
+    parts_.snapshots.hold(parts_.scene.fades().running());
     ViewerImage* const snapshot = parts_.snapshots.next_receiver(
         solver.scene(), solver.store(), parts_.scene.programs(), parts_.scene.epoch(), undisturbed);
     if (snapshot != nullptr) {

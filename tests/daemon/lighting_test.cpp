@@ -3,9 +3,12 @@
 // of them are set.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
+#include <thread>
 
 #include "daemon.h"
 #include "json_viewer.h"
@@ -30,6 +33,17 @@ Json light_in(const Json& scene, const std::string& name) {
         }
     }
     return {};
+}
+
+/// Whether something comes true. False: only what hangs takes so long.
+bool eventually(const std::function<bool()>& true_now) {
+    for (int i = 0; i < 3000; ++i) {
+        if (true_now()) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
 }
 
 /// A viewer of the five lamps over a floor; looks straight down from 1.9 m at z = 2.
@@ -88,6 +102,18 @@ TEST_F(Lighting, LuminaireIsPlacedAndAimed) {
                 1.0);
     EXPECT_NEAR(below(0.5, -0.5), 1000.0, 10.0);
     EXPECT_EQ(light_now("downlight").at("position"), Json({{"x", 0.5}, {"y", 1.0}, {"z", -0.5}}));
+    // It is set so at once, and shown on its way; the newer setting wins.
+    ASSERT_TRUE(set("downlight", {{"dim", 0.0}, {"fadeSeconds", 60.0}}).contains("sceneChanged"));
+    EXPECT_GT(below(0.5, -0.5), 0.0);
+    EXPECT_EQ(light_now("downlight").at("dim"), 0.0);
+    EXPECT_EQ(scene_now().at("fades").at(0).at("light"), light_in(scene_, "downlight").at("id"));
+    ASSERT_TRUE(eventually([&] { return below(0.5, -0.5) < 990.0; }));
+    ASSERT_TRUE(set("downlight", {{"dim", 1.0}}).contains("sceneChanged"));
+    EXPECT_NEAR(below(0.5, -0.5), 1000.0, 10.0);
+    ASSERT_TRUE(set("downlight", {{"dim", 0.5}, {"fadeSeconds", 0.2}}).contains("sceneChanged"));
+    ASSERT_TRUE(eventually([&] { return scene_now().value("fades", Json::array()).empty(); }));
+    ASSERT_TRUE(eventually([&] { return std::abs(below(0.5, -0.5) - 500.0) < 5.0; }));
+    set("downlight", {{"dim", 1.0}});
     ASSERT_TRUE(
         set("downlight", {{"aim", {{"x", 1.0}, {"y", 0.0}, {"z", 0.0}}}}).contains("sceneChanged"));
     EXPECT_NEAR(below(0.5, -0.5), 0.0, 5.0);
@@ -107,6 +133,9 @@ TEST_F(Lighting, SaysWhyALightCannotBePlaced) {
     EXPECT_NE(problem("panel", aim).find("is a surface"), std::string::npos);
     EXPECT_NE(problem("sun", {{"position", {{"x", 1.0}}}}).find("no position"), std::string::npos);
     EXPECT_NE(problem("sun", {{"flux", 100.0}}).find("setLight.flux: "), std::string::npos);
+    EXPECT_EQ(problem("sun", {{"aim", {{"x", 1.0}}}, {"on", true}, {"fadeSeconds", 1.0}})
+                  .find("setLight.fadeSeconds: "),
+              0U);
     EXPECT_NE(problem("bulb", {{"outerCone", 20.0}}).find("only spots have cones"),
               std::string::npos);
 }

@@ -141,8 +141,15 @@ class Requests(WithServer):
         await client.save_lighting_scene("dim")
         self.assertEqual([scene.name for scene in client.scene.lighting_scenes], ["dim"])
         await client.set_light("lamp", dim=1.0)
-        await client.apply_lighting_scene("dim")
+        await client.apply_lighting_scene("dim", fade_seconds=60.0)
         self.assertAlmostEqual(client.state.light("lamp").dim, 0.5)
+        late = await self.connect()
+        self.assertEqual([fade.light for fade in late.scene.fades], [client.state.light("lamp").id])
+        await client.set_group("all", dim=1.0, lights=["lamp"], fade_seconds=0.0)
+        self.assertAlmostEqual(client.state.light("lamp").dim, 1.0)
+        with self.assertRaises(raybundle.RequestRefused) as caught:
+            await client.set_group("all", dim=0.5, fade_seconds=61.0)
+        self.assertIn("setGroup.fadeSeconds", caught.exception.message)
 
     async def test_daylight_by_the_clock(self):
         client = await self.connect()

@@ -134,23 +134,26 @@ class Requests:
                         colour: Optional[Numbers] = None, position: Optional[Numbers] = None,
                         aim: Optional[Numbers] = None, **fields: Any) -> Any:
         """intensity in the light's unit; position in metres; aim: direction; further fields as in messages.SetLight
-        (flux lm, dim 0..1, rotation and cones in degrees, colour_temperature K, group). Returns SceneChanged."""
+        (flux lm, dim 0..1, rotation and cones in degrees, colour_temperature K, group; fade_seconds: its light takes so
+        long to change, 0..60). Returns SceneChanged."""
         body = messages.SetLight(light=self.state.light(light).id, intensity=intensity, on=on,
                                  colour=optional_vec3(colour), position=optional_vec3(position),
                                  aim=optional_vec3(aim), **fields)
         return (await self.request(set_light=body)).scene_changed
 
     async def set_group(self, group: str, *, dim: Optional[float] = None, on: Optional[bool] = None,
-                        lights: Sequence[Key] = ()) -> None:
-        """Dims or switches all lights of a group; `lights` belong to it from now on."""
-        await self.request(set_group=messages.SetGroup(group=group, dim=dim, on=on,
+                        lights: Sequence[Key] = (), fade_seconds: Optional[float] = None) -> None:
+        """Dims or switches all lights of a group; `lights` belong to it from now on. fade_seconds: their light takes so
+        long to change, 0..60. Returns when they are set, not when they are faded."""
+        await self.request(set_group=messages.SetGroup(group=group, dim=dim, on=on, fade_seconds=fade_seconds,
                                                        lights=[self.state.light(key).id for key in lights]))
 
     async def save_lighting_scene(self, name: str) -> None:
         await self.request(save_lighting_scene=messages.SaveLightingScene(name=name))
 
-    async def apply_lighting_scene(self, name: str) -> None:
-        await self.request(apply_lighting_scene=messages.ApplyLightingScene(name=name))
+    async def apply_lighting_scene(self, name: str, *, fade_seconds: Optional[float] = None) -> None:
+        """fade_seconds: as of set_group."""
+        await self.request(apply_lighting_scene=messages.ApplyLightingScene(name=name, fade_seconds=fade_seconds))
 
     async def set_material(self, material: Key, *, base_colour: Optional[Numbers] = None,
                            roughness: Optional[float] = None, metallic: Optional[float] = None) -> Any:

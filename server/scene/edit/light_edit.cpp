@@ -236,6 +236,25 @@ const LightControl* control_of(const Scene& scene, std::uint32_t light) {
     return is_sky_light(scene, light) ? nullptr : &scene.lights[light - 1].control;
 }
 
+bool is_lamp(const Scene& scene, std::uint32_t light) {
+    if (const auto punctual = punctual_index(scene, light)) {
+        return !scene.punctual_lights[*punctual].of_sky;
+    }
+    return light >= 1 && light <= scene.lights.size() && scene.lights[light - 1].material >= 0;
+}
+
+glm::vec3 lamp_output(const Scene& scene, std::uint32_t light) {
+    const auto punctual = punctual_index(scene, light);
+    return punctual ? scene.punctual_lights[*punctual].intensity
+                    : scene.materials[material_of_light(scene, light)].emission;
+}
+
+void set_lamp_output(Scene& scene, std::uint32_t light, const glm::vec3& output) {
+    const auto punctual = punctual_index(scene, light);
+    (punctual ? scene.punctual_lights[*punctual].intensity
+              : scene.materials[material_of_light(scene, light)].emission) = output;
+}
+
 double flux_per_intensity(const Scene& scene, std::uint32_t light) {
     if (const auto punctual = punctual_index(scene, light)) {
         PunctualLight one = scene.punctual_lights[*punctual];

@@ -60,6 +60,15 @@ std::uint32_t material_of_light(const Scene& scene, std::uint32_t light);
 /// What a light has beside its light; null for the sky. light: a number without problem.
 const LightControl* control_of(const Scene& scene, std::uint32_t light);
 
+/// Whether a number is that of a light that can be changed, and neither the sky nor one of its
+/// suns, which go by the day.
+bool is_lamp(const Scene& scene, std::uint32_t light);
+/// What a lamp shines with, dimmed and switched as it is: PunctualLight::intensity, or
+/// Material::emission of the surface. light: a number for which is_lamp().
+glm::vec3 lamp_output(const Scene& scene, std::uint32_t light);
+/// Has a lamp shine otherwise, whatever it is set to.
+void set_lamp_output(Scene& scene, std::uint32_t light, const glm::vec3& output);
+
 /// Luminous flux in lm of an intensity of 1, in the light's own unit; 0 where lights have none, as
 /// the sky. light: a number without problem.
 double flux_per_intensity(const Scene& scene, std::uint32_t light);

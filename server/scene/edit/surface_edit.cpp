@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/edit/surface_edit.h"
 
-#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "scene/material/base_colour.h"
 #include "scene/mesh/patch_colour.h"
@@ -58,9 +58,13 @@ std::uint32_t apply(Scene& scene, const MaterialEdit& edit) {
 
 void refresh_surfaces(const Scene& scene, std::span<const std::uint32_t> materials,
                       PatchMesh& mesh) {
+    std::vector<bool> changed(scene.materials.size(), false);
+    for (const std::uint32_t material : materials) {
+        changed[material] = true;
+    }
     for (std::size_t i = 0; i < mesh.side_count(); ++i) {
         const std::uint32_t index = mesh.triangle_material[mesh.side_triangle[i]];
-        if (std::find(materials.begin(), materials.end(), index) == materials.end()) {
+        if (!changed[index]) {
             continue;
         }
         const PatchColour colour = colour_of(scene, scene.materials[index], mesh, i);

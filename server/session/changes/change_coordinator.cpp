@@ -7,14 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "scene/edit/daylight_edit.h"
-#include "scene/edit/light_edit.h"
 #include "session/changes/change_expansion.h"
-#include "session/changes/changed_materials.h"
 #include "session/changes/special_settings.h"
 #include "session/messages/addition_messages.h"
-#include "session/messages/daylight_messages.h"
-#include "session/messages/light_messages.h"
 #include "session/messages/scene_messages.h"
 
 namespace raybundle {
@@ -103,6 +98,10 @@ void ChangeCoordinator::start_pending() {
     if (!queue_.has_steps()) {
         queue_.add_steps(parts_.animations.step());
     }
+    if (fades_are_next()) {
+        step_fades();
+        return;
+    }
     if (queue_.empty()) {
         return;
     }
@@ -137,6 +136,7 @@ void ChangeCoordinator::start_pending() {
 /// False: nothing could be saved, so nothing has changed.
 bool ChangeCoordinator::start(std::vector<PendingChange> pending) {
     const v1::SceneChanged& first = pending.front().change;
+    fade_waits_ = true;  // changes of objects do not take fades along
     const bool made = grows(parts_.scene.scene(), first) ? start_growth(pending)
                       : is_move(first)                   ? start_moves(pending)
                                                          : start_surfaces(pending);
@@ -166,45 +166,6 @@ bool ChangeCoordinator::start_moves(std::vector<PendingChange>& pending) {
         shrink_for_drag();
     }
     parts_.scene.solver().move_objects(moves, parts_.receivers.list());
-    return true;
-}
-
-/// Whether somebody holds the slider of the day, or an animation plays: all is redrawn at every
-/// step, which takes its time.
-bool ChangeCoordinator::goes_on(const std::vector<PendingChange>& pending) const {
-    return std::any_of(pending.begin(), pending.end(), [this](const PendingChange& p) {
-        return p.change.has_animation() || (p.change.has_set_daylight() && day_held_);
-    });
-}
-
-/// Keeps of `pending` what could be saved.
-bool ChangeCoordinator::start_surfaces(std::vector<PendingChange>& pending) {
-    ChangedMaterials changed(parts_.scene.scene(), pending);
-    const std::vector<float> cones = outer_cones(parts_.scene.scene());
-    const bool held = goes_on(pending);
-    queue_.put_back(recorder_.record(pending));
-    if (pending.empty()) {
-        return false;
-    }
-    changed.look_again(parts_.scene.scene(), pending);
-    LiveScene& live = parts_.scene;
-    const bool covered =
-        same_cones(live.scene(), cones) && live.solver().covers_lights(live.scene()) &&
-        std::all_of(
-            changed.reflecting().begin(), changed.reflecting().end(),
-            [&](std::uint32_t material) { return live.solver().covers(live.scene(), material); });
-    if (covered) {
-        gather_all();
-        begin_phase(live.solver(), held);
-        if (held) {
-            shrink_for_drag();
-        }
-        live.solver().change_surfaces(live.scene(), live.mesh(), changed.all(),
-                                      changed.reflecting(), parts_.receivers.list());
-    } else {
-        refresh_surfaces(live.scene(), changed.all(), live.mesh());
-        replan(changed.reflecting());
-    }
     return true;
 }
 
@@ -240,27 +201,6 @@ void ChangeCoordinator::start_several(PendingChange pending) {
     fail(pending.traces, expansion.problem.message());
     for (const ClientEvent& request : pending.requests) {
         parts_.server.reply_error(request, expansion.problem.code(), expansion.problem.message());
-    }
-}
-
-/// Daylight comes with its sky and suns undimmed: that they were not so is a change of its own,
-/// which an undo takes back.
-void ChangeCoordinator::undim_sky(std::vector<PendingChange>& pending) const {
-    const Scene& scene = parts_.scene.scene();
-    if (!daylight_dimmed(scene)) {
-        return;
-    }
-    v1::SetDaylight sky;
-    describe_sky_lights(scene, &sky);
-    for (const v1::Light& light : sky.lights()) {
-        PendingChange undimmed;
-        undimmed.change.set_by(pending.back().change.by());
-        v1::SetLight& set = *undimmed.change.mutable_set_light();
-        set.set_light(light.id());
-        set.set_on(true);
-        set.set_intensity(light.loaded_intensity());
-        *set.mutable_colour() = light.loaded_colour();
-        pending.insert(pending.end() - 1, std::move(undimmed));
     }
 }
 
@@ -307,7 +247,6 @@ void ChangeCoordinator::shrink_for_drag() {
 void ChangeCoordinator::announce(const PendingChange& pending) {
     end_stage(pending, "apply");
     parts_.traces.begin_phase(pending);
-    parts_.scene.note_change();
     if (pending.change.has_set_daylight()) {
         day_by_ = pending.change.by();
         day_told_ = parts_.policy.clock().now();
@@ -319,6 +258,12 @@ void ChangeCoordinator::announce(const PendingChange& pending) {
     }
     // What stands for several changes is answered apart: its requester hears of each, too.
     parts_.server.broadcast(message, pending.requests.empty() ? 0 : pending.change.by());
+    note_shown();
+}
+
+/// Light is on its way: what is known of pictures and their errors begins anew.
+void ChangeCoordinator::note_shown() {
+    parts_.scene.note_change();
     for (const auto& [id, session] : parts_.viewers) {
         session->note_change();
     }

@@ -55,6 +55,7 @@ class ChangeCoordinator {
 
     /// Makes the change that waits longest, a step of what plays among them, with those right
     /// behind it that one special phase can work in: lights and materials, or some moved objects.
+    /// Lamps that fade go along with changes of lights and materials, and have turns of their own.
     /// Does nothing while the policy wants frames and iterations first.
     void start_pending();
 
@@ -71,6 +72,8 @@ class ChangeCoordinator {
     std::unique_ptr<Solver> plan_anew(std::unique_ptr<ViewPrograms>& programs);
     [[nodiscard]] bool goes_on(const std::vector<PendingChange>& pending) const;
     bool start_surfaces(std::vector<PendingChange>& pending);
+    [[nodiscard]] bool fades_are_next() const;
+    void step_fades();
     void undim_sky(std::vector<PendingChange>& pending) const;
     void start_several(PendingChange pending);
     void gather_all();
@@ -78,6 +81,7 @@ class ChangeCoordinator {
     void shrink_for_drag();
     void replan(std::span<const std::uint32_t> reflecting);
     void announce(const PendingChange& pending);
+    void note_shown();
     PendingChange take();
     void end_change();
 
@@ -85,6 +89,7 @@ class ChangeCoordinator {
     ChangeQueue queue_;
     ChangeRecorder recorder_;
     std::uint64_t replans_ = 0;
+    bool fade_waits_ = false;   // something else has had a turn since fades had theirs
     std::uint32_t day_by_ = 0;  // viewer that has set the daylight last
     TimePoint day_told_;        // when all heard of it
     bool day_held_ = false;     // the daylight that waits goes on with that

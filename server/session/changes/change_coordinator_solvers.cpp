@@ -55,6 +55,7 @@ bool ChangeCoordinator::start_growth(std::vector<PendingChange>& changes) {
     std::string problem;
     try {
         const std::lock_guard lock(live.geometry_mutex());
+        const ShownLamps as_shown(live.scene(), live.fades());
         add_object(live.scene(), live.mesh(), from_message(pending.change.add_object()));
         next = plan_anew(programs);
     } catch (const SceneError& error) {
@@ -84,6 +85,7 @@ bool ChangeCoordinator::start_growth(std::vector<PendingChange>& changes) {
     gather_all();
     begin_phase(*next, false);
     const std::uint32_t object = changes.front().change.add_object().object() - 1;
+    const ShownLamps as_shown(live.scene(), live.fades());
     next->continue_from(live.solver(), live.scene(), live.mesh());
     next->move_object(object, live.scene().objects[object].world_from_object(),
                       parts_.receivers.list());

@@ -49,6 +49,13 @@ std::string joining_problem(const v1::SetGroup& group, const Scene& scene) {
     return "";
 }
 
+/// Has a lamp take so long for what is set of its light.
+void fade(const Scene& scene, float fade_seconds, v1::SetLight& light) {
+    if (fade_seconds > 0.0F && sets_light(light) && is_lamp(scene, light.light())) {
+        light.set_fade_seconds(fade_seconds);
+    }
+}
+
 /// The newest of several requests for one group counts, by fields.
 Expansion set_group(const PendingChange& pending, const Scene& scene) {
     v1::SetGroup sum;
@@ -58,6 +65,7 @@ Expansion set_group(const PendingChange& pending, const Scene& scene) {
     if (const std::string problem = joining_problem(sum, scene); !problem.empty()) {
         return refused(v1::Error::NOT_FOUND, problem);
     }
+    const float fade_seconds = pending.requests.back().message.set_group().fade_seconds();
     const std::set<std::uint32_t> joining(sum.lights().begin(), sum.lights().end());
     Expansion result;
     for (const std::uint32_t id : light_numbers(scene)) {
@@ -77,11 +85,25 @@ Expansion set_group(const PendingChange& pending, const Scene& scene) {
         if (sum.has_on()) {
             light.set_on(sum.on());
         }
+        fade(scene, fade_seconds, light);
     }
     return result.changes.empty()
                ? refused(v1::Error::NOT_FOUND,
                          "setGroup.group: no light belongs to '" + sum.group() + "'")
                : result;
+}
+
+Expansion apply_lighting_scene(const v1::ApplyLightingScene& request, const Scene& scene,
+                               const LightingScenes& lighting) {
+    auto changes = lighting.changes_to(request.name(), scene);
+    if (!changes) {
+        return refused(v1::Error::NOT_FOUND,
+                       "applyLightingScene.name: no lighting scene '" + request.name() + "'");
+    }
+    for (v1::SceneChanged& change : *changes) {
+        fade(scene, request.fade_seconds(), *change.mutable_set_light());
+    }
+    return {std::move(*changes), {}};
 }
 
 /// All luminaires that shine by the same file as one of them.
@@ -177,11 +199,7 @@ Expansion expand(const PendingChange& pending, const Scene& scene, const PatchMe
         return set_group(pending, scene);
     }
     if (message.has_apply_lighting_scene()) {
-        const std::string& name = message.apply_lighting_scene().name();
-        auto changes = lighting.changes_to(name, scene);
-        return changes ? Expansion{std::move(*changes), {}}
-                       : refused(v1::Error::NOT_FOUND,
-                                 "applyLightingScene.name: no lighting scene '" + name + "'");
+        return apply_lighting_scene(message.apply_lighting_scene(), scene, lighting);
     }
     if (message.has_add_object()) {
         return add_one_object(message.add_object(), scene, mesh);

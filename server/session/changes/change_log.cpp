@@ -27,6 +27,9 @@ v1::SceneChanged signed_state(v1::SceneChanged before, const v1::SceneChanged& c
     if (before.has_move_object() && change.move_object().has_final()) {
         before.mutable_move_object()->set_final(change.move_object().final());
     }
+    if (before.has_set_light() && change.set_light().has_fade_seconds()) {
+        before.mutable_set_light()->set_fade_seconds(change.set_light().fade_seconds());
+    }
     return before;
 }
 
@@ -38,6 +41,9 @@ v1::SceneChanged unsigned_state(v1::SceneChanged state) {
     state.clear_animation();
     if (state.has_move_object()) {
         state.mutable_move_object()->clear_final();
+    }
+    if (state.has_set_light()) {
+        state.mutable_set_light()->clear_fade_seconds();
     }
     return state;
 }
@@ -53,6 +59,9 @@ v1::SceneChanged change_between(const v1::SceneChanged& signature, v1::SceneChan
     }
     if (after.has_move_object() && signature.move_object().has_final()) {
         after.mutable_move_object()->set_final(signature.move_object().final());
+    }
+    if (after.has_set_light() && signature.set_light().has_fade_seconds()) {
+        after.mutable_set_light()->set_fade_seconds(signature.set_light().fade_seconds());
     }
     return after;
 }

@@ -18,26 +18,39 @@ std::uint32_t material_of(const Scene& scene, const PendingChange& pending) {
 
 }  // namespace
 
-ChangedMaterials::ChangedMaterials(const Scene& scene, std::span<const PendingChange> pending) {
-    for (const PendingChange& p : pending) {
-        if (const std::uint32_t material = material_of(scene, p); material != no_material) {
+void ChangedMaterials::look(const Scene& scene, std::span<const PendingChange> pending,
+                            std::span<const std::uint32_t> lamps) {
+    const auto note = [&](std::uint32_t material) {
+        if (material != no_material) {
             before_.emplace(material, specular_kind(scene.materials[material]));
         }
+    };
+    for (const PendingChange& p : pending) {
+        note(material_of(scene, p));
+    }
+    for (const std::uint32_t lamp : lamps) {
+        note(material_of_light(scene, lamp));
     }
 }
 
-void ChangedMaterials::look_again(const Scene& scene, std::span<const PendingChange> made) {
+void ChangedMaterials::look_again(const Scene& scene, std::span<const PendingChange> made,
+                                  std::span<const std::uint32_t> lamps) {
     for (const PendingChange& p : made) {
-        const std::uint32_t material = material_of(scene, p);
-        if (material == no_material) {
-            continue;
-        }
-        all_.push_back(material);
-        // A polished lamp that is put out is a mirror.
-        if (!p.change.has_set_light() ||
-            specular_kind(scene.materials[material]) != before_.at(material)) {
-            reflecting_.push_back(material);
-        }
+        take(scene, material_of(scene, p), p.change.has_set_light());
+    }
+    for (const std::uint32_t lamp : lamps) {
+        take(scene, material_of_light(scene, lamp), true);
+    }
+}
+
+void ChangedMaterials::take(const Scene& scene, std::uint32_t material, bool lamp) {
+    if (material == no_material) {
+        return;
+    }
+    all_.push_back(material);
+    // A polished lamp that is put out is a mirror.
+    if (!lamp || specular_kind(scene.materials[material]) != before_.at(material)) {
+        reflecting_.push_back(material);
     }
 }
 

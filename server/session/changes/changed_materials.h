@@ -15,10 +15,13 @@ namespace raybundle {
 /// The materials of changed lights and materials, by how much has to be made anew for them.
 class ChangedMaterials {
   public:
-    /// Notes how the materials reflect before the changes are made.
-    ChangedMaterials(const Scene& scene, std::span<const PendingChange> pending);
-    /// Looks at the scene after the changes that have been made.
-    void look_again(const Scene& scene, std::span<const PendingChange> made);
+    /// Notes how the materials reflect before the changes are made. lamps: numbers of those that
+    /// may shine otherwise, too.
+    void look(const Scene& scene, std::span<const PendingChange> pending,
+              std::span<const std::uint32_t> lamps);
+    /// Looks at the scene after the changes that have been made. lamps: numbers of those that do.
+    void look_again(const Scene& scene, std::span<const PendingChange> made,
+                    std::span<const std::uint32_t> lamps);
 
     /// Indices of materials that emit or reflect otherwise.
     [[nodiscard]] const std::vector<std::uint32_t>& all() const { return all_; }
@@ -26,6 +29,8 @@ class ChangedMaterials {
     [[nodiscard]] const std::vector<std::uint32_t>& reflecting() const { return reflecting_; }
 
   private:
+    void take(const Scene& scene, std::uint32_t material, bool lamp);
+
     std::map<std::uint32_t, SpecularKind> before_;
     std::vector<std::uint32_t> all_;
     std::vector<std::uint32_t> reflecting_;

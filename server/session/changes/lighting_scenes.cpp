@@ -14,12 +14,6 @@ namespace {
 /// The number of what the journal does not hold.
 constexpr std::uint32_t of_file = 0;
 
-/// Lamps: sky and sun go by the day.
-bool in_lighting_scenes(const Scene& scene, std::uint32_t id) {
-    const auto punctual = punctual_index(scene, id);
-    return !is_sky_light(scene, id) && !(punctual && scene.punctual_lights[*punctual].of_sky);
-}
-
 /// What a lighting scene sets: not where lights are, nor what groups they belong to.
 v1::SetLight setting_of_light(const Scene& scene, std::uint32_t id) {
     const v1::SetLight state = state_of_light(scene, id);
@@ -120,7 +114,7 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
     saved.mutable_scene()->set_name(name);
     saved.mutable_scene()->set_by_name(by_name);
     for (const std::uint32_t id : light_numbers(scene)) {
-        if (in_lighting_scenes(scene, id)) {
+        if (is_lamp(scene, id)) {
             *saved.add_lights() = setting_of_light(scene, id);
         }
     }
@@ -158,8 +152,7 @@ std::optional<std::vector<v1::SceneChanged>> LightingScenes::changes_to(const st
     const std::set<std::uint32_t> numbers(present.begin(), present.end());
     std::vector<v1::SceneChanged> changes;
     for (const v1::SetLight& wanted : known->second.lights()) {
-        const bool exists =
-            numbers.contains(wanted.light()) && in_lighting_scenes(scene, wanted.light());
+        const bool exists = numbers.contains(wanted.light()) && is_lamp(scene, wanted.light());
         if (!exists || !problem_of(scene, wanted).empty() ||
             setting_of_light(scene, wanted.light()).SerializeAsString() ==
                 wanted.SerializeAsString()) {

@@ -97,17 +97,20 @@ void LightService::step() {
 /// Takes note of changes since the last step.
 void LightService::follow_scene() {
     const std::uint32_t epoch = parts_.scene.epoch();
+    const std::uint64_t steps = parts_.scene.fades().steps();
+    const bool shown_otherwise = epoch != epoch_ || steps != fade_steps_;
     if (size_of(parts_.scene) != size_) {
         make_geometry();
-    } else if (epoch != epoch_) {
+    } else if (shown_otherwise) {
         follow_materials();
         follow_sky();
         if (made_) {
             emission_ = emission_values(made_->geometry, parts_.scene.mesh().emission);
         }
     }
-    if (epoch != epoch_) {
+    if (shown_otherwise) {
         epoch_ = epoch;
+        fade_steps_ = steps;
         last_change_ = parts_.clock.now();
     }
 }
@@ -278,15 +281,16 @@ bool LightService::light_is_due() const {
         return false;
     }
     const LightBroadcaster::Figures now{epoch_, static_cast<std::uint32_t>(solver.iterations())};
-    if (now.epoch == read_.epoch && now.iterations == read_.iterations) {
+    const bool changed = now.epoch != read_.epoch || fade_steps_ != read_steps_;
+    if (!changed && now.iterations == read_.iterations) {
         return false;
     }
     const double since_read = seconds(parts_.clock.now() - last_read_);
     const double age = seconds(last_read_ - last_change_);
-    const double interval = now.epoch != read_.epoch ? parts_.pace.moving_interval_s
-                                                     : std::clamp(parts_.pace.refining_share * age,
-                                                                  parts_.pace.min_refining_s,
-                                                                  parts_.pace.max_refining_s);
+    const double interval =
+        changed ? parts_.pace.moving_interval_s
+                : std::clamp(parts_.pace.refining_share * age, parts_.pace.min_refining_s,
+                             parts_.pace.max_refining_s);
     return since_read >= interval;
 }
 
@@ -316,6 +320,7 @@ void LightService::read_light() {
         values_->request();
         last_read_ = parts_.clock.now();
         read_ = {epoch_, static_cast<std::uint32_t>(solver.iterations())};
+        read_steps_ = fade_steps_;
     }
 }
 

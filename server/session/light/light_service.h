@@ -89,7 +89,9 @@ class LightService {
     std::optional<LightValues> values_;
     const Solver* read_of_ = nullptr;
     std::vector<std::uint32_t> emission_;
-    std::uint32_t epoch_ = 0;  // that all this follows
+    std::uint32_t epoch_ = 0;       // that all this follows
+    std::uint64_t fade_steps_ = 0;  // likewise
+    std::uint64_t read_steps_ = 0;  // that the light was read after, or is being
     TimePoint last_change_, last_read_;
     LightBroadcaster::Figures read_;  // what is being read, or was last
 };

@@ -33,8 +33,8 @@ void ErrorService::refresh_statistics() {
 void ErrorService::check_pictures() {
     take_result();
     const TimePoint now = parts_.policy.clock().now();
-    if (parts_.scene.solver().correcting() || parts_.policy.walking(parts_.viewers.loads()) ||
-        !checker_.idle()) {
+    if (parts_.scene.solver().correcting() || parts_.scene.fades().running() ||
+        parts_.policy.walking(parts_.viewers.loads()) || !checker_.idle()) {
         return;
     }
     ViewerSession* longest = nullptr;

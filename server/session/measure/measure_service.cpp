@@ -225,7 +225,7 @@ void MeasureService::step() {
     }
     const LiveScene& live = parts_.scene;
     if (!measurer_.has_scene(live.epoch()) && measurer_.takes_scene()) {
-        measurer_.set_scene(live.epoch(), live.scene(), live.mesh());
+        measurer_.set_scene(live.epoch(), live.scene(), live.settled_mesh());
     }
     for (PointMeasurer::Result& result : measurer_.take()) {
         const auto found = measurements_.find(result.measurement);

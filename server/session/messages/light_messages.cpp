@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "scene/edit/luminaire_edit.h"
 #include "scene/light/colour_temperature.h"
 #include "scene/light/light_figures.h"
 #include "scene/light/light_place.h"
@@ -183,6 +184,9 @@ std::string problem_of(const Scene& scene, const v1::SetLight& light) {
     const std::string problem = problem_of(scene, from_message(light));
     if (!problem.empty()) {
         return "light: " + problem;
+    }
+    if (light.fade_seconds() > 0.0F && !is_lamp(scene, light.light())) {
+        return "fadeSeconds: the sky and its suns do not fade";
     }
     if (light.has_flux() && light.photometry().empty() &&
         !(flux_per_intensity(scene, light.light()) > 0.0)) {

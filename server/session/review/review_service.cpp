@@ -222,7 +222,7 @@ void ReviewService::check_pin() {
     // While the solver rests, no more light comes.
     const bool arriving =
         !parts_.demand.nobody_waits() && solver.statistics().settled < pin_check_settled;
-    if (solver.correcting() || arriving) {
+    if (solver.correcting() || arriving || parts_.scene.fades().running()) {
         return;
     }
     Pin* const pin = board_.next_pin();

@@ -170,6 +170,9 @@ ViewerImage* SnapshotQueue::next_receiver(const GpuScene& scene, const RadianceS
         work_on_earlier();
         return nullptr;
     }
+    if (held_) {
+        return nullptr;
+    }
     const auto start = clock_.now();
     if (!picture_.image && !begin(scene, store, programs)) {
         return nullptr;

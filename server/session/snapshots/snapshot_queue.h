@@ -51,6 +51,8 @@ class SnapshotQueue {
     void forget(ViewerId viewer);
     /// The picture that is being made for a viewer, null where there is none. forget() destroys it.
     [[nodiscard]] const ViewerImage* picture_of(ViewerId viewer) const;
+    /// Pictures of the present scene wait while it is not as it is set: lamps fade.
+    void hold(bool fading) { held_ = fading; }
     /// Begins the picture anew: the scene has changed, or another solver has taken over.
     void restart();
     /// Answers all that waits: the server is stopping.
@@ -134,6 +136,7 @@ class SnapshotQueue {
     std::unique_ptr<EarlierScene> earlier_;  ///< kept for a while: who compares looks around
     TimePoint earlier_used_;                 ///< end of its last turn
     Picture picture_;
+    bool held_ = false;
     bool undisturbed_ = true;  ///< time is nobody's loss, and not counted
     TimePoint last_report_;
     TimePoint last_statistics_;

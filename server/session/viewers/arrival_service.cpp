@@ -61,6 +61,7 @@ void ArrivalService::fill_welcome(const ClientEvent& event, v1::Welcome* welcome
     describe_scene(parts_.scene.scene(), welcome->mutable_scene());
     parts_.lighting.describe(welcome->mutable_scene());
     parts_.animations.describe(welcome->mutable_scene());
+    parts_.scene.fades().describe(parts_.clock.now(), welcome->mutable_scene());
     ViewerAdmission::fill_limits(welcome->mutable_limits());
     welcome->set_renderer(parts_.traits.renderer);
     welcome->set_software_rendering(parts_.traits.software_rendering);

@@ -42,6 +42,7 @@ class ArrivalService {
         Server& server;
         LoopMetrics& metrics;
         ServerTraits traits;
+        const Clock& clock;
     };
     explicit ArrivalService(Parts parts) : parts_(std::move(parts)) {}
 

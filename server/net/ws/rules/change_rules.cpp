@@ -14,7 +14,8 @@ namespace raybundle {
 namespace {
 
 constexpr int kMaxGroupLights = 4096;
-constexpr float kMaxCone = 90.0F;  ///< degrees
+constexpr float kMaxFadeSeconds = 60.0F;  ///< as LightFades has it
+constexpr float kMaxCone = 90.0F;         ///< degrees
 constexpr float kMinKelvin = 1000.0F;
 constexpr float kMaxKelvin = 25000.0F;
 
@@ -35,6 +36,27 @@ void check_place(const v1::SetLight& light, MessageChecker& check) {
     }
 }
 
+/// What takes a while. field: its name.
+void check_fade(float seconds, std::string_view field, MessageChecker& check) {
+    check.require(seconds >= 0.0F && seconds <= kMaxFadeSeconds, field, "must be 0..60 s");
+}
+
+/// Brightness, colour and switch fade; nothing else that stands beside them would.
+void check_fade(const v1::SetLight& light, MessageChecker& check) {
+    check_fade(light.fade_seconds(), "setLight.fadeSeconds", check);
+    if (light.fade_seconds() > 0.0F) {
+        const bool jumps = light.has_position() || light.has_aim() || light.has_rotation() ||
+                           light.has_inner_cone() || light.has_outer_cone() ||
+                           light.has_photometry();
+        check.require(!jumps, "setLight.fadeSeconds",
+                      "place, beam and photometry do not fade: needs a request of their own");
+        const bool fades = light.has_intensity() || light.has_flux() || light.has_colour() ||
+                           light.has_colour_temperature() || light.has_on() || light.has_dim();
+        check.require(fades, "setLight.fadeSeconds",
+                      "nothing fades: needs intensity, flux, colour, colourTemperature, on or dim");
+    }
+}
+
 void check_scene_name(const std::string& name, std::string_view field, MessageChecker& check) {
     const std::size_t length = characters(name);
     check.require(length >= 1 && length <= kMaxName, field, "must be 1..64 characters");
@@ -52,6 +74,9 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
     check.require(light.light() >= 1, "setLight.light", "is missing");
     v1::SetLight number;
     number.set_light(light.light());
+    if (light.has_fade_seconds()) {
+        number.set_fade_seconds(light.fade_seconds());
+    }
     check.require(light.ByteSizeLong() > number.ByteSizeLong(), "setLight",
                   "changes nothing: needs intensity, on, colour or another field");
     check.require(light.intensity() >= 0.0F, "setLight.intensity", "must not be negative");
@@ -84,6 +109,7 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
         check.require(problem.empty(), "setLight.photometry", problem);
     }
     check_place(light, check);
+    check_fade(light, check);
 }
 
 void check_body(const v1::AddObject& object, MessageChecker& check) {
@@ -110,6 +136,7 @@ void check_body(const v1::SetGroup& group, MessageChecker& check) {
     check.require(group.lights_size() <= kMaxGroupLights, "setGroup.lights",
                   "must be at most 4096 numbers");
     check.share(group.dim(), "setGroup.dim");
+    check_fade(group.fade_seconds(), "setGroup.fadeSeconds", check);
 }
 
 void check_body(const v1::SetDaylight& daylight, MessageChecker& check) {
@@ -146,6 +173,7 @@ void check_body(const v1::SaveLightingScene& scene, MessageChecker& check) {
 
 void check_body(const v1::ApplyLightingScene& scene, MessageChecker& check) {
     check_scene_name(scene.name(), "applyLightingScene.name", check);
+    check_fade(scene.fade_seconds(), "applyLightingScene.fadeSeconds", check);
 }
 
 void check_body(const v1::RemoveLightingScene& scene, MessageChecker& check) {
