@@ -114,7 +114,7 @@ const lightPanel = new LightPanel(app, history, {things, luminaires}, () => {
     setPanel(true);
     showTab('tab-light');
 });
-new LightGroups(app);
+new LightGroups(app, history);
 new DaylightPanel(app, history);
 new AnimationPanel(app, history);
 new TargetPanel(app);

@@ -4,13 +4,28 @@
 import {LiveField, byId, field, input, listRow, replaceRows, smallButton} from '../ui/elements.js';
 import {ServerError} from '../net/protocol.js';
 import {sentence} from '../ui/status.js';
-import {NewestOnly} from '../scene/surface_change.js';
+import {remember, remembered} from '../camera/walking.js';
+import {LampsChange} from './lamps_change.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
  * @typedef {import('../net/scene_types.js').Light} Light
+ * @typedef {import('../scene/history.js').History} History
  * @typedef {{name: string, lights: Light[]}} Group
  */
+
+const MAX_FADE_S = 60;
+
+/**
+ * What a field of seconds says.
+ *
+ * @param {string | null} text
+ * @returns {number} s, 0 to 60, to a tenth; what is no number is 0
+ */
+export function fadeSeconds(text) {
+    const seconds = Math.round(10 * Number(text)) / 10;
+    return seconds > 0 ? Math.min(seconds, MAX_FADE_S) : 0;
+}
 
 /**
  * Lights by their groups, in the order of names.
@@ -45,10 +60,20 @@ export class LightGroups {
     /** @type {(() => void)[]} */
     #refresh = [];
     #names = '';
+    #fade = byId('fade-seconds', HTMLInputElement);
 
-    /** @param {RaybundleApp} app */
-    constructor(app) {
+    /**
+     * @param {RaybundleApp} app
+     * @param {History} history
+     */
+    constructor(app, history) {
         this.app = app;
+        this.history = history;
+        this.#fade.value = String(fadeSeconds(remembered('fade')));
+        this.#fade.addEventListener('change', () => {
+            this.#fade.value = String(fadeSeconds(this.#fade.value));
+            remember('fade', this.#fade.value);
+        });
         app.on('welcome', () => this.#showAll());
         app.on('sceneChanged', () => this.#show());
         app.on('message', ({lightingSceneChanged}) => lightingSceneChanged && this.#sceneSaved(lightingSceneChanged));
@@ -57,6 +82,18 @@ export class LightGroups {
             event.preventDefault();
             this.#save(byId('lighting-name', HTMLInputElement));
         });
+    }
+
+    /** What a request says of the time that it takes. @returns {{fadeSeconds?: number}} */
+    get #slowly() {
+        const seconds = fadeSeconds(this.#fade.value);
+        return seconds > 0 ? {fadeSeconds: seconds} : {};
+    }
+
+    /** @param {string} label  for people */
+    #change(label) {
+        return new LampsChange(
+            {client: this.app.client, history: this.history, ask: (body) => this.#ask(body)}, label);
     }
 
     /** @param {HTMLInputElement} text */
@@ -120,13 +157,20 @@ export class LightGroups {
     /** @param {Group} group */
     #card(group) {
         const {name} = group;
-        const newest = new NewestOnly((body) => this.#ask(body));
+        const change = this.#change(`set group ${name}`);
         const on = input('checkbox', {role: 'switch', 'aria-label': `Group ${name} on`});
         const dim = input('range', {min: '0', max: '1', step: '0.01', 'aria-label': `Group ${name}, dimmer`});
         const text = document.createElement('output');
         const live = new LiveField(dim);
-        on.addEventListener('change', () => newest.push({setGroup: {group: name, on: on.checked}}));
-        dim.addEventListener('input', () => newest.push({setGroup: {group: name, dim: Number(dim.value)}}));
+        const set = (/** @type {{on?: boolean, dim?: number}} */ values) =>
+            change.done({setGroup: {group: name, ...values, ...this.#slowly}});
+        on.addEventListener('change', () => set({on: on.checked}));
+        dim.addEventListener('input', () => {
+            if (!this.#slowly.fadeSeconds) {  // else it would begin anew at every step
+                change.going({setGroup: {group: name, dim: Number(dim.value)}});
+            }
+        });
+        dim.addEventListener('change', () => set({dim: Number(dim.value)}));
         const title = document.createElement('b');
         title.textContent = `${name} (${group.lights.length})`;
         const lit = document.createElement('label');
@@ -150,13 +194,19 @@ export class LightGroups {
         return card;
     }
 
+    /** @param {string} name  of a lighting scene */
+    #apply(name) {
+        return this.#change(`set lighting scene ${name}`).done({applyLightingScene: {name, ...this.#slowly}});
+    }
+
     #showScenes() {
         const may = this.app.mayEdit;
         const scenes = [...(this.app.scene?.lightingScenes ?? [])].sort((a, b) => a.name.localeCompare(b.name));
         byId('save-lighting', HTMLFormElement).hidden = !may;
         byId('lighting-part', HTMLElement).hidden = !may && scenes.length === 0;
+        byId('fade-field', HTMLElement).hidden = !may;
         const rows = scenes.map(({name, byName}) => {
-            const row = listRow(name, () => may && this.#ask({applyLightingScene: {name}}), byName);
+            const row = listRow(name, () => may && this.#apply(name), byName);
             if (may) {
                 const remove = smallButton('×', `Remove lighting scene ${name}`, () =>
                     this.#ask({removeLightingScene: {name}}),

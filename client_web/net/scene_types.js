@@ -114,7 +114,7 @@
  *
  * @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3, group?: string, dim?: number,
  *     maintenanceFactor?: number, position?: Vec3, aim?: Vec3, rotation?: number, innerCone?: number,
- *     outerCone?: number, photometry?: string, sameType?: boolean}} SetLight
+ *     outerCone?: number, photometry?: string, sameType?: boolean, fadeSeconds?: number}} SetLight
  */
 
 /**

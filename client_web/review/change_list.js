@@ -304,7 +304,8 @@ function describeLight(light, to, from) {
         parts.push(`changed the colour of ${name}: ${temperatureOf(from.colour)} → ${temperatureOf(to.colour)} K`);
     }
     parts.push(...describeControl(name, to, from));
-    return parts.join(', ') || `set ${name} as it was`;
+    const slowly = to.fadeSeconds ? ` over ${Number(to.fadeSeconds.toFixed(1))}\u00a0s` : '';
+    return parts.length > 0 ? parts.join(', ') + slowly : `set ${name} as it was`;
 }
 
 /**

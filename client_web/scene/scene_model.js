@@ -347,7 +347,7 @@ export class SceneModel {
     #applyLight(change) {
         const light = this.lights.find(({id}) => id === change?.light);
         if (light && change) {
-            const {light: _, ...told} = change;
+            const {light: _, fadeSeconds: __, ...told} = change;
             Object.assign(light, Object.fromEntries(Object.entries(told).filter(([, value]) => value !== undefined)));
         }
     }

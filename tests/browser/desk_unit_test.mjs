@@ -40,6 +40,8 @@ describe('a change in the history', () => {
         const light = {light: 1, on: true, colour: WHITE};
         const dimmed = {lightBefore: {...light, intensity: 1000}, setLight: {light: 1, intensity: 500}};
         assert.equal(says(dimmed), 'dimmed LED panel: 100 → 50\u00a0%');
+        const slowly = {...dimmed, setLight: {...dimmed.setLight, fadeSeconds: 1.5}};
+        assert.equal(says(slowly), 'dimmed LED panel: 100 → 50\u00a0% over 1.5\u00a0s');
         const off = {lightBefore: {...light, intensity: 1000}, setLight: {light: 1, on: false}};
         assert.equal(says(off), 'switched off LED panel');
         const moved = {objectBefore: {object: 1, transform: {}}, moveObject: {object: 1, transform: {translation: vec3(0.5, 0, 0)}}};

@@ -15,7 +15,7 @@ describe('lamps', () => {
         const [lamp] = WELCOME.scene.lights;
         const placed = {group: '', dim: 1, position: {x: 0, y: 2, z: 0}, aim: {x: 0, y: -1, z: 0}, rotation: 0};
         const lights = [1, 2].map((id) => ({...lamp, id, name: `spot ${id}`, kind: 'POINT', unit: 'LM', ...placed}));
-        let epoch = 0;
+        let [epoch, dim] = [0, 1];
         const {page, sent, faults} = await openPage((request, send) => {
             const {hello, setLight, setGroup, saveLightingScene, probe} = request;
             if (hello) {
@@ -27,12 +27,13 @@ describe('lamps', () => {
             } else if (probe) {
                 send({probeResult: {hit: true, position: {x: 3, y: 2, z: 0}}});
             } else {
-                send({ok: {}});
-            }
-            if (setGroup) {
-                for (const light of [1, 2]) {
-                    send({sceneChanged: {epoch: ++epoch, by: 1, setLight: {light, dim: setGroup.dim}}}, false);
+                for (const light of setGroup ? [1, 2] : []) {
+                    const lightBefore = {...placed, light, dim, intensity: lamp.intensity};
+                    const setLight = {light, dim: setGroup.dim, fadeSeconds: setGroup.fadeSeconds};
+                    send({sceneChanged: {epoch: ++epoch, by: 1, setLight, lightBefore}}, false);
                 }
+                dim = setGroup?.dim ?? dim;
+                send({ok: {}});
             }
         }, {colorScheme: 'light'});
         await page.waitForFunction(() => window.raybundle.client.state === 'connected');
@@ -46,6 +47,17 @@ describe('lamps', () => {
         await page.getByLabel('Group stage, dimmer').fill('0.4');
         await page.waitForFunction(() => window.raybundle.scene.lights.every(({dim}) => dim === 0.4));
         assert.equal(await page.textContent('#light-groups output'), '40 %');
+        const dimmed = (/** @type {number} */ to) =>
+            page.waitForFunction((dim) => window.raybundle.scene.lights.every((light) => light.dim === dim), to);
+        await page.getByLabel('Fade of groups and lighting scenes, seconds').fill('2.5');
+        await page.keyboard.press('Tab');
+        await page.getByLabel('Group stage, dimmer').fill('0.7');
+        await dimmed(0.7);
+        assert.deepEqual(sent.flatMap(({setGroup}) => setGroup ?? []).at(-1), {group: 'stage', dim: 0.7, fadeSeconds: 2.5});
+        assert.match(await page.textContent('#changes li'), /40 → 70\u00a0% over 2\.5\u00a0s$/);
+        assert.equal(await page.evaluate(() => localStorage.getItem('raybundle.fade')), '2.5');
+        await page.click('#undo');
+        await dimmed(0.4);
         await page.getByLabel('spot 1, Height y').fill('2.6');
         await page.keyboard.press('Enter');
         await page.waitForFunction(() => window.raybundle.scene.lights[0].position.y === 2.6);
@@ -62,7 +74,7 @@ describe('lamps', () => {
         await page.locator('#lighting-scenes button', {hasText: 'Presentation'}).click();
         await keepScreenshot(page, 'light_groups');
         await page.waitForFunction(() => window.raybundle.scene.lightingScenes.length === 1);
-        assert.deepEqual(sent.flatMap(({applyLightingScene}) => applyLightingScene ?? []), [{name: 'Presentation'}]);
+        assert.deepEqual(sent.flatMap(({applyLightingScene}) => applyLightingScene ?? []), [{name: 'Presentation', fadeSeconds: 2.5}]);
         assert.deepEqual(faults, []);
     });
 });
