@@ -98,7 +98,7 @@ export const WELCOME = {
  * Answers the page's WebSocket.
  *
  * @param {import('playwright-core').Page} page
- * @param {(message: any, send: (answer: object) => void, close: (code: number) => void) => void} answer
+ * @param {(message: any, send: (answer: object, isAnswer?: boolean) => void, close: (code: number) => void) => void} answer
  * @returns {Promise<any[]>} what the page has sent, growing
  */
 export async function fakeSocket(page, answer) {
@@ -107,8 +107,8 @@ export async function fakeSocket(page, answer) {
         socket.onMessage((text) => {
             const message = JSON.parse(String(text));
             sent.push(message);
-            const send = (/** @type {object} */ body) => {
-                socket.send(JSON.stringify({replyTo: message.id, ...body}));
+            const send = (/** @type {object} */ body, isAnswer = true) => {
+                socket.send(JSON.stringify(isAnswer ? {replyTo: message.id, ...body} : body));
             };
             answer(message, send, (code) => socket.close({code, reason: ''}));
         });

@@ -270,7 +270,7 @@ TEST(WireCodec, PrintsWelcomeAsPublished) {
         R"({"replyTo":1,"welcome":{"protocol":"1.0","server":"","viewer":0,"role":"EDITOR",)"
         R"("epoch":0,"scene":{"name":"","objects":[],"lights":[{"id":1,"name":"",)"
         R"("kind":"AREA","intensity":1355.8,"unit":"CD_PER_M2","on":true,"loadedIntensity":0,"photometry":"","added":false}],"cameras":[],)"
-        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[],"luminaires":[],"animations":[]},)"
+        R"("materials":[],"effects":[{"name":"glossy","active":false,"reason":"","pathClass":"","shareBound":0,"bytesPerPatch":0}],"groups":[],"lightingScenes":[],"luminaires":[],"animations":[],"fades":[]},)"
         R"("pins":[],"viewpoints":[],"zones":[],"requirements":[],"renderer":"","softwareRendering":false,"canOpenScenes":false}})");
 }
 
