@@ -141,6 +141,11 @@ TEST_F(TwoServers, SoDoPinsViewpointsAndLightingScenes) {
     EXPECT_EQ(there.next_with("lightingSceneChanged").at("lightingSceneChanged").at("name"),
               "evening");
     EXPECT_TRUE(there.request({{"applyLightingScene", {{"name", "evening"}}}}).contains("ok"));
+    there.request({{"removePin", {{"pin", first}}}});
+    const Json removed = here.next([](const Json& message) {
+        return message.contains("pinChanged") && message.at("pinChanged").at("removed") == true;
+    });
+    EXPECT_EQ(removed.at("pinChanged").at("pin"), first);
     // A fade is one entry, which each plays.
     there.request({{"setLight", {{"light", 1}, {"dim", 0.5}, {"fadeSeconds", 60.0}}}});
     const Json fading = here.next_with("sceneChanged").at("sceneChanged").at("setLight");
@@ -148,11 +153,6 @@ TEST_F(TwoServers, SoDoPinsViewpointsAndLightingScenes) {
     EXPECT_EQ(scene_at(one()).at("scene").at("fades").at(0).at("light"), 1);
     there.request({{"setLight", {{"light", 1}, {"dim", 1.0}}}});
     EXPECT_EQ(here.next_with("sceneChanged").at("sceneChanged").at("setLight").at("dim"), 1.0);
-    there.request({{"removePin", {{"pin", first}}}});
-    const Json removed = here.next([](const Json& message) {
-        return message.contains("pinChanged") && message.at("pinChanged").at("removed") == true;
-    });
-    EXPECT_EQ(removed.at("pinChanged").at("pin"), first);
     // Who comes later finds all of it.
     Daemon third(scene_file("cornell_box.gltf"), options());
     ASSERT_TRUE(third.says("is ready"));
