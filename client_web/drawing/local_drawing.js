@@ -231,8 +231,8 @@ export class LocalDrawing extends EventTarget {
     /** Whether the drawing is exposed as a frame of the same scene from the same place. @param {FrameHeader} frame */
     #isLike({epoch, cameraId, exposure, scaleMaximum, scaleLinear, scaleIlluminance}) {
         const like = this.#like;
-        return like !== null && like.epoch === epoch && like.cameraId === cameraId && like.exposure === exposure && like.scaleMaximum === scaleMaximum &&
-            like.scaleLinear === scaleLinear && like.scaleIlluminance === scaleIlluminance;
+        return like !== null && like.epoch === epoch && like.cameraId === cameraId && like.exposure === exposure &&
+            like.scaleMaximum === scaleMaximum && like.scaleLinear === scaleLinear && like.scaleIlluminance === scaleIlluminance;
     }
 
     /** @param {FrameHeader} frame  that is on screen */

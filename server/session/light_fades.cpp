@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "journal/change_sum.h"
+#include "net/ws/rules/change_rules.h"
 #include "scene/edit/light_edit.h"
 
 namespace raybundle {
@@ -29,7 +30,7 @@ void LightFades::follow(const v1::SceneChanged& change, const LampOutputs& shown
     }
     steps_ += fades_.erase(set.light());
     // Whoever wrote it may be another server.
-    const double duration = std::min(double{set.fade_seconds()}, max_seconds);
+    const double duration = std::min(double{set.fade_seconds()}, double{max_fade_seconds});
     if (duration > 0.0 && lamp_output(scene, set.light()) != before->second) {
         fades_[set.light()] = {before->second, now, duration, 0.0F};
     }

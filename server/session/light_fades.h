@@ -23,8 +23,6 @@ using LampOutputs = std::map<std::uint32_t, glm::vec3>;
 /// shine with meanwhile is ShownLamps'. Makes no change, and reads no clock.
 class LightFades {
   public:
-    static constexpr double max_seconds = 60.0;
-
     /// A change has been made, which the scene has. shown: what the lamps of changes shone with
     /// before it. Begins the fade that it asks for; without one a change of a lamp's light ends
     /// what fades there. Other changes, as of its place, leave the fade be.

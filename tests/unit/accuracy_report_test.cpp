@@ -8,6 +8,7 @@
 
 #include "research/accuracy/error_map.h"
 #include "research/accuracy/picture_store.h"
+#include "scene/base64.h"
 #include "xml_check.h"
 
 namespace raybundle {

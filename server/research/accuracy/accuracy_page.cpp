@@ -6,6 +6,7 @@
 #include "research/accuracy/accuracy_report.h"
 #include "research/accuracy/error_map.h"
 #include "research/plot/svg_text.h"
+#include "scene/base64.h"
 
 namespace raybundle {
 namespace {

@@ -92,23 +92,4 @@ std::string png_of(std::span<const std::uint8_t> rgba, glm::uvec2 size) {
     return {png.begin(), png.end()};
 }
 
-std::string base64(const std::string& bytes) {
-    constexpr const char* digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            word =
-                word << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            const bool padding = i + k > bytes.size();
-            text += padding ? '=' : digits[word >> (18U - 6U * k) & 63U];
-        }
-    }
-    return text;
-}
-
 }  // namespace raybundle

@@ -26,7 +26,4 @@ std::string error_map_gradient();
 /// 8-bit PNG of a picture, RGBA, row 0 at the top.
 std::string png_of(std::span<const std::uint8_t> rgba, glm::uvec2 size);
 
-/// RFC 4648, for data URIs.
-std::string base64(const std::string& bytes);
-
 }  // namespace raybundle

@@ -14,8 +14,7 @@ namespace raybundle {
 namespace {
 
 constexpr int kMaxGroupLights = 4096;
-constexpr float kMaxFadeSeconds = 60.0F;  ///< as LightFades has it
-constexpr float kMaxCone = 90.0F;         ///< degrees
+constexpr float kMaxCone = 90.0F;  ///< degrees
 constexpr float kMinKelvin = 1000.0F;
 constexpr float kMaxKelvin = 25000.0F;
 
@@ -38,7 +37,7 @@ void check_place(const v1::SetLight& light, MessageChecker& check) {
 
 /// What takes a while. field: its name.
 void check_fade(float seconds, std::string_view field, MessageChecker& check) {
-    check.require(seconds >= 0.0F && seconds <= kMaxFadeSeconds, field, "must be 0..60 s");
+    check.require(seconds >= 0.0F && seconds <= max_fade_seconds, field, "must be 0..60 s");
 }
 
 /// Brightness, colour and switch fade; nothing else that stands beside them would.

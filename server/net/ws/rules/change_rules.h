@@ -7,6 +7,8 @@
 
 namespace raybundle {
 
+constexpr float max_fade_seconds = 60.0F;  ///< of SetLight, SetGroup and ApplyLightingScene
+
 void check_body(const v1::MoveObject& move, MessageChecker& check);
 void check_body(const v1::SetLight& light, MessageChecker& check);
 void check_body(const v1::AddObject& object, MessageChecker& check);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene/base64.h"
 #include "scene/gltf/file/gltf_model.h"
 #include "scene/gltf/file/gltf_uri.h"
 #include "scene/gltf/gltf_loader.h"
@@ -302,21 +303,8 @@ void drop_extension(Json& item, const char* name) {
 }
 
 std::string data_uri(std::span<const std::uint8_t> bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text = "data:application/octet-stream;base64,";
-    text.reserve(text.size() + bytes.size() / 3 * 4 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            bits = (bits << 8U) | (k < count ? bytes[i + k] : 0U);
-        }
-        for (unsigned k = 0; k < 4; ++k) {
-            text += k <= count ? digits[(bits >> (18 - 6 * k)) & 63U] : '=';
-        }
-    }
-    return text;
+    return "data:application/octet-stream;base64," +
+           base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace raybundle

@@ -4,27 +4,25 @@
 #include <algorithm>
 #include <optional>
 
-#include "scene/gltf/file/gltf_json.h"
+#include "scene/gltf/saved/saved_values.h"
+#include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {
 
 constexpr std::size_t max_lighting_scenes = 64;
 constexpr std::size_t max_lighting_name = 200;
-constexpr double max_intensity = 1e12;
 
-std::optional<double> lamp_number(const Json& json, const char* key, double high) {
+std::optional<std::size_t> index_of(const Json& json, const char* key) {
     const Json* found = find_member(json, key);
-    const bool good = found != nullptr && found->is_number() && found->get<double>() >= 0.0 &&
-                      found->get<double>() <= high;
-    return good ? std::optional(found->get<double>()) : std::nullopt;
+    return found != nullptr && found->is_number_unsigned()
+               ? std::optional(found->get<std::size_t>())
+               : std::nullopt;
 }
 
-std::string lighting_name(const Json& json, const char* key) {
-    const Json* found = find_member(json, key);
-    const bool good = found != nullptr && found->is_string() &&
-                      found->get_ref<const std::string&>().size() <= max_lighting_name;
-    return good ? found->get<std::string>() : "";
+std::string name_of(const Json& json, const char* key) {
+    const std::string text = text_of(json, key).value_or("");
+    return text.size() <= max_lighting_name ? text : "";
 }
 
 class LampReader {
@@ -34,46 +32,38 @@ class LampReader {
 
     [[nodiscard]] std::optional<SavedLightingScene::Lamp> lamp(const Json& json) const {
         const auto light = json.is_object() ? light_of(json) : std::nullopt;
-        const auto intensity = light ? lamp_number(json, "intensity", max_intensity) : std::nullopt;
-        const Json* colour = light ? find_member(json, "colour") : nullptr;
-        const Json* on = light ? find_member(json, "on") : nullptr;
-        const bool known = intensity && colour != nullptr && colour->is_array() &&
-                           colour->size() == 3 && on != nullptr && on->is_boolean();
-        if (!known) {
+        const auto intensity =
+            light ? number_in(json, "intensity", 0.0F, max_saved_number) : std::nullopt;
+        const auto colour =
+            light ? vector_of(json, "colour", 0.0F, max_saved_number) : std::nullopt;
+        const auto on = light ? flag_of(json, "on") : std::nullopt;
+        if (!intensity || !colour || !on || !(luminance(*colour) > 0.0F)) {
             return std::nullopt;
         }
         SavedLightingScene::Lamp lamp;
         lamp.light = *light;
-        lamp.intensity = static_cast<float>(*intensity);
-        lamp.on = on->get<bool>();
-        lamp.dim = static_cast<float>(lamp_number(json, "dim", 1.0).value_or(1.0));
-        for (int c = 0; c < 3; ++c) {
-            const Json& value = (*colour)[static_cast<std::size_t>(c)];
-            const bool good = value.is_number() && value.get<double>() >= 0.0 &&
-                              value.get<double>() <= max_intensity;
-            if (!good) {
-                return std::nullopt;
-            }
-            lamp.colour[c] = value.get<float>();
-        }
-        return luminance(lamp.colour) > 0.0F ? std::optional(lamp) : std::nullopt;
+        lamp.intensity = *intensity;
+        lamp.colour = *colour;
+        lamp.on = *on;
+        lamp.dim = number_in(json, "dim", 0.0F, 1.0F).value_or(1.0F);
+        return lamp;
     }
 
   private:
     /// Light::id of what the lamp is.
     [[nodiscard]] std::optional<std::uint32_t> light_of(const Json& json) const {
-        if (const auto material = lamp_number(json, "material", 1e9)) {
-            const auto found = std::find_if(
-                scene_.lights.begin(), scene_.lights.end(),
-                [&](const Light& light) { return double(light.material) == *material; });
+        if (const auto material = index_of(json, "material")) {
+            const auto found =
+                std::find_if(scene_.lights.begin(), scene_.lights.end(), [&](const Light& light) {
+                    return light.material >= 0 &&
+                           static_cast<std::size_t>(light.material) == *material;
+                });
             return found == scene_.lights.end() ? std::nullopt : std::optional(found->id);
         }
-        const auto node = lamp_number(json, "node", 1e9);
-        const Json* kind = find_member(json, "photometric");
-        const bool photometric = kind != nullptr && kind->is_boolean() && kind->get<bool>();
+        const auto node = index_of(json, "node");
+        const bool photometric = flag_of(json, "photometric").value_or(false);
         for (std::size_t i = 0; node && i < sources_.size(); ++i) {
-            if (static_cast<double>(sources_[i].node) == *node &&
-                sources_[i].definition.has_value() != photometric) {
+            if (sources_[i].node == *node && sources_[i].definition.has_value() != photometric) {
                 return static_cast<std::uint32_t>(scene_.lights.size() + i + 1);
             }
         }
@@ -98,8 +88,8 @@ std::vector<SavedLightingScene> saved_lighting_scenes(const SavedState& state,
             continue;
         }
         SavedLightingScene& one = scenes.emplace_back();
-        one.name = lighting_name(saved[i], "name");
-        one.by_name = lighting_name(saved[i], "byName");
+        one.name = name_of(saved[i], "name");
+        one.by_name = name_of(saved[i], "byName");
         const Json& lamps = array_or_empty(saved[i], "lamps");
         for (std::size_t k = 0; lamps.is_array() && k < lamps.size(); ++k) {
             if (const auto lamp = reader.lamp(lamps[k])) {

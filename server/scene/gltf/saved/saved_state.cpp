@@ -8,65 +8,16 @@
 
 #include "scene/edit/daylight_edit.h"
 #include "scene/edit/light_edit.h"
+#include "scene/gltf/saved/saved_values.h"
 #include "scene/light/environment.h"
 
 namespace raybundle {
 namespace {
 
-constexpr std::size_t max_saved_text = 500;
 constexpr std::size_t max_saved_path = 128;
-constexpr float max_number = 1e12F;
 
 /// What single precision and other programs' decimals leave of a value.
 constexpr float kept_precision = 1e-4F;
-
-std::optional<float> number_in(const Json& json, const char* key, float low, float high) {
-    const Json* found = find_member(json, key);
-    if (found == nullptr || !found->is_number()) {
-        return std::nullopt;
-    }
-    const auto value = found->get<double>();
-    return value >= double{low} && value <= double{high} ? std::optional(static_cast<float>(value))
-                                                         : std::nullopt;
-}
-
-std::optional<bool> flag_of(const Json& json, const char* key) {
-    const Json* found = find_member(json, key);
-    return found != nullptr && found->is_boolean() ? std::optional(found->get<bool>())
-                                                   : std::nullopt;
-}
-
-std::optional<std::string> text_of(const Json& json, const char* key) {
-    const Json* found = find_member(json, key);
-    return found != nullptr && found->is_string() &&
-                   found->get_ref<const std::string&>().size() <= max_saved_text
-               ? std::optional(found->get<std::string>())
-               : std::nullopt;
-}
-
-template <std::size_t Count>
-std::optional<std::array<float, Count>> numbers_of(const Json& json, const char* key, float low,
-                                                   float high) {
-    const Json* found = find_member(json, key);
-    if (found == nullptr || !found->is_array() || found->size() != Count) {
-        return std::nullopt;
-    }
-    std::array<float, Count> result{};
-    for (std::size_t i = 0; i < Count; ++i) {
-        const Json& value = (*found)[i];
-        if (!value.is_number() || !(value.get<double>() >= double{low}) ||
-            !(value.get<double>() <= double{high})) {
-            return std::nullopt;
-        }
-        result[i] = value.get<float>();
-    }
-    return result;
-}
-
-std::optional<glm::vec3> vector_of(const Json& json, const char* key, float low, float high) {
-    const auto found = numbers_of<3>(json, key, low, high);
-    return found ? std::optional(glm::vec3((*found)[0], (*found)[1], (*found)[2])) : std::nullopt;
-}
 
 bool nearly(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) <= kept_precision * std::max(glm::length(a), glm::length(b));
@@ -92,8 +43,8 @@ struct SavedSetting {
 };
 
 std::optional<SavedSetting> setting_of(const Json& json) {
-    const auto intensity = vector_of(json, "intensity", 0.0F, max_number);
-    const auto colour = vector_of(json, "colour", 0.0F, max_number);
+    const auto intensity = vector_of(json, "intensity", 0.0F, max_saved_number);
+    const auto colour = vector_of(json, "colour", 0.0F, max_saved_number);
     const auto on = flag_of(json, "on");
     if (!intensity || !colour || !on || !(luminance(*colour) > 0.0F)) {
         return std::nullopt;
@@ -102,8 +53,8 @@ std::optional<SavedSetting> setting_of(const Json& json) {
 }
 
 void restore_place(const Json& json, PunctualLight& light) {
-    const auto position = vector_of(json, "position", -max_number, max_number);
-    const auto axes = numbers_of<9>(json, "axes", -max_number, max_number);
+    const auto position = vector_of(json, "position", -max_saved_number, max_saved_number);
+    const auto axes = numbers_of<9>(json, "axes", -max_saved_number, max_saved_number);
     if (!position || !axes) {
         return;
     }

@@ -40,14 +40,15 @@ struct SavedObject {
 };
 std::optional<SavedObject> saved_object(const SavedState& state, int node);
 
-/// How a light of a node was set. extension: that the node has it by.
+/// How a light of a node was set: where it is in `extras.raybundle`, by the extension that the node
+/// has the light by.
 struct SavedLight {
     static constexpr const char* punctual = "light";
     static constexpr const char* photometric = "photometricLight";
 };
 /// Its place among the lights; SavedObject::last where it has none.
 std::size_t saved_light_number(const SavedState& state, int node, const char* key);
-/// Gives a light as read from glTF what it was besides. unit_free: it has a place of its own.
+/// Gives a light as read from glTF what it was besides.
 void restore_light(const SavedState& state, int node, const char* key, PunctualLight& light);
 /// The same for the lights of Scene::lights.
 void restore_area_lights(const SavedState& state, Scene& scene);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/base64.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace raybundle {
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t word = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            word =
+                word << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            text += i + k > bytes.size() ? '=' : digits[word >> (18U - 6U * k) & 63U];
+        }
+    }
+    return text;
+}
+
+}  // namespace raybundle
