@@ -98,28 +98,31 @@ export class WalkGrid {
     }
 
     /**
-     * Whether somebody has room: nothing is within BODY of a point, between two heights.
+     * Horizontal distance to the nearest thing between two heights.
      *
      * @param {number} x
      * @param {number} z
      * @param {number} low
      * @param {number} high
+     * @returns {number} metres; Infinity: nothing is within BODY
      */
-    free(x, z, low, high) {
+    room(x, z, low, high) {
         const u = (x - this.origin.x) / this.cell;
         const v = (z - this.origin.z) / this.cell;
         const reach = BODY / this.cell;
+        let nearest = Infinity;
         for (let row = Math.floor(v - reach); row <= Math.floor(v + reach); ++row) {
             for (let column = Math.floor(u - reach); column <= Math.floor(u + reach); ++column) {
-                // Distance to the nearest point of the cell.
+                // To the nearest point of the cell.
                 const du = Math.max(column - u, u - column - 1, 0);
                 const dv = Math.max(row - v, v - row - 1, 0);
-                if (du * du + dv * dv <= reach * reach && this.#taken(column, row, low, high)) {
-                    return false;
+                const distance = Math.hypot(du, dv);
+                if (distance <= reach && distance < nearest && this.#taken(column, row, low, high)) {
+                    nearest = distance;
                 }
             }
         }
-        return true;
+        return nearest * this.cell;
     }
 
     /**
@@ -153,14 +156,11 @@ export class WalkGrid {
     reached(from, to) {
         const way = sub(to, from);
         const pieces = Math.ceil(length(way) / PIECE);
-        const free = (/** @type {Vec3} */ {x, y, z}) => this.free(x, z, y - FLYING, y + FLYING);
-        if (!free(from)) {
-            return to;  // who is within something may come out
-        }
+        const room = (/** @type {Vec3} */ {x, y, z}) => this.room(x, z, y - FLYING, y + FLYING);
         let there = from;
         for (let i = 1; i <= pieces; ++i) {
             const next = add(from, scale(way, i / pieces));
-            if (!this.covers(next) || !free(next)) {
+            if (!this.covers(next) || !noCloser(room(next), room(there))) {
                 break;
             }
             there = next;
@@ -168,6 +168,16 @@ export class WalkGrid {
         return there;
     }
 }
+
+/**
+ * Whether a step may lead from one place to another. Cells made anew lie elsewhere by less than one, so that who stood
+ * at a wall may stand a little within what it takes: he goes on along it or off it, not through. Who is right within
+ * something goes where he likes, to come out.
+ *
+ * @param {number} there  room, metres
+ * @param {number} here  room, metres
+ */
+const noCloser = (there, here) => there >= here - 1e-9 || there === Infinity;
 
 /** Somebody who walks: what height his eyes have above the floor. */
 export class Walker {
@@ -190,11 +200,12 @@ export class Walker {
      * @param {WalkGrid} grid
      * @param {Vec3} eye
      * @param {number} feet
+     * @returns {number} metres; Infinity: nothing is near
      */
-    #fits(grid, eye, feet) {
+    #room(grid, eye, feet) {
         return this.height === null
-            ? grid.free(eye.x, eye.z, eye.y - FLYING, eye.y + FLYING)
-            : grid.free(eye.x, eye.z, feet + KNEE, feet + this.height + ABOVE_EYE);
+            ? grid.room(eye.x, eye.z, eye.y - FLYING, eye.y + FLYING)
+            : grid.room(eye.x, eye.z, feet + KNEE, feet + this.height + ABOVE_EYE);
     }
 
     /**
@@ -228,7 +239,7 @@ export class Walker {
      */
     #piece(grid, eye, dx, dz) {
         const feet = eye.y - (this.height ?? 0);
-        const stuck = !this.#fits(grid, eye, feet);
+        const room = this.#room(grid, eye, feet);
         for (const degrees of SLIDES) {
             const angle = (degrees * Math.PI) / 180;
             const [c, s] = [Math.cos(angle), Math.sin(angle)];
@@ -240,7 +251,7 @@ export class Walker {
             const floor = this.height === null ? null : grid.floor(x, z, feet + KNEE);
             const stands = floor ?? feet;
             const there = vec3(x, eye.y, z);
-            if (stuck || this.#fits(grid, there, Math.max(stands, feet))) {
+            if (noCloser(this.#room(grid, there, Math.max(stands, feet)), room)) {
                 return this.height === null ? there : vec3(x, this.#follow(eye.y, stands, dx, dz), z);
             }
         }

@@ -80,6 +80,16 @@ describe('who walks', () => {
         assert.ok(walked(grid, [-2, 0]).x < -1.5);
     });
 
+    it('goes along a wall or off it, but not through, when cells made anew have it nearer than he may come', () => {
+        const grid = gridOf((at) => floor(at) || (at.x > 0.1 && at.x < 0.3));
+        assert.ok(walked(grid, [1, 0], [1, 0]).x < 0.01);
+        assert.ok(walked(grid, [0.5, 0.5]).x < 0.01);
+        assert.ok(walked(grid, [0, 1]).z > 0.99);
+        assert.ok(walked(grid, [-1, 0]).x < -0.99);
+        assert.ok(grid.reached(start, vec3(2, 1.6, 0)).x < 0.01, 'the wheel');
+        assert.deepEqual(grid.reached(start, vec3(-2, 1.6, 0)), vec3(-2, 1.6, 0));
+    });
+
     it('flies through no wall with the wheel either', () => {
         const grid = gridOf((at) => floor(at) || (at.x > 1 && at.x < 1.1));
         assert.ok(grid.reached(start, vec3(2.5, 1.6, 0)).x < 0.9);
