@@ -101,10 +101,12 @@ class ProjectLog {
     /// A number that no note of that kind has, on any server; `free` is one that this one knows
     /// none of. Throws JournalError.
     [[nodiscard]] virtual std::uint32_t new_number(NoteKind kind, std::uint32_t free) = 0;
-    /// Keeps a note, in place of an earlier one of its number. Survives as a change does. Throws
-    /// JournalError: nothing is written then.
-    virtual void keep_note(NoteKind kind, std::uint32_t number, const std::string& body) = 0;
-    /// Forgets a note; no error where there is none.
+    /// Keeps a note, in place of an earlier one of its number. Survives as a change does.
+    /// `conflict`: another server has kept or forgotten it meanwhile, which is in what
+    /// take_entries() gives next; nothing is written then. Throws JournalError: likewise.
+    [[nodiscard]] virtual Appended keep_note(NoteKind kind, std::uint32_t number,
+                                             const std::string& body) = 0;
+    /// Forgets a note, whatever others have kept meanwhile; no error where there is none.
     virtual void drop_note(NoteKind kind, std::uint32_t number) = 0;
     /// Bodies of all notes of a kind, by number. Throws JournalError.
     [[nodiscard]] virtual std::vector<std::string> notes(NoteKind kind) = 0;

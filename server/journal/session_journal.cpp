@@ -281,7 +281,7 @@ std::string SessionJournal::remembered_scene(const std::string& file,
     }
 }
 
-void SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+Appended SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
     try {
         auto insert = database_->prepare("INSERT OR REPLACE INTO note VALUES(?, ?, ?, ?)");
         insert.bind(1, session_);
@@ -289,6 +289,7 @@ void SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::s
         insert.bind(3, std::int64_t{number});
         insert.bind_blob(4, body);
         insert.run();
+        return Appended::yes;
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());
     }

@@ -51,7 +51,8 @@ class SessionJournal final : public ProjectLog {
     [[nodiscard]] std::uint32_t new_number(NoteKind /*kind*/, std::uint32_t free) override {
         return free;
     }
-    void keep_note(NoteKind kind, std::uint32_t number, const std::string& body) override;
+    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number,
+                                     const std::string& body) override;
     void drop_note(NoteKind kind, std::uint32_t number) override;
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind) override;
 

@@ -80,10 +80,12 @@ TEST_F(RedisLogTest, ALaterOneHasTheSumTheStatesBeforeTheNotesAndTheKeys) {
     {
         RedisLog log(settings());
         ASSERT_EQ(log.append(light_of(1, 5.0F), light_of(0, 9.0F), {}), Appended::yes);
-        log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "glare");
+        EXPECT_EQ(log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "glare"),
+                  Appended::yes);
         ASSERT_EQ(log.append(light_of(2, 6.0F), light_of(0, 5.0F), {{"k"}}), Appended::yes);
         ASSERT_EQ(log.append(light_of(3, 7.0F, 2), light_of(0, 1.0F, 2), {}), Appended::yes);
-        log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "gone");
+        EXPECT_EQ(log.keep_note(NoteKind::pin, log.new_number(NoteKind::pin, 1), "gone"),
+                  Appended::yes);
         log.drop_note(NoteKind::pin, 2);
     }
     server.kill_it();
@@ -131,14 +133,44 @@ TEST_F(RedisLogTest, NumbersOfNotesAreOfOneAlone) {
 TEST_F(RedisLogTest, NotesComeInOrderWithChanges) {
     RedisLog one(settings());
     RedisLog other(settings());
-    one.keep_note(NoteKind::pin, 1, "before");
+    EXPECT_EQ(one.keep_note(NoteKind::pin, 1, "before"), Appended::yes);
     ASSERT_EQ(other.append(light_of(1, 5.0F), {}, {}), Appended::yes)
         << "a note of somebody else is no conflict";
-    one.keep_note(NoteKind::pin, 2, "behind");
+    EXPECT_EQ(one.keep_note(NoteKind::pin, 2, "behind"), Appended::yes);
     EXPECT_EQ(entries_of(one, 1)[0].change.epoch(), 1U);
     const auto entries = entries_of(other, 2);
     EXPECT_EQ(entries[0].body, "before");
     EXPECT_EQ(entries[1].body, "behind");
+}
+
+TEST_F(RedisLogTest, ANoteIsNotOverwrittenByWhoHasNotSeenWhatOthersMadeOfIt) {
+    RedisLog one(settings());
+    RedisLog other(settings());
+    ASSERT_EQ(one.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
+    ASSERT_EQ(other.keep_note(NoteKind::pin, 2, "dark"), Appended::yes);
+    EXPECT_EQ(other.keep_note(NoteKind::pin, 1, "glare, 3 %"), Appended::conflict);
+    EXPECT_EQ(entries_of(other, 1)[0].body, "glare");
+    EXPECT_EQ(other.keep_note(NoteKind::pin, 1, "glare, 3 %"), Appended::yes);
+    ASSERT_EQ(other.append(light_of(1, 5.0F), {}, {}), Appended::yes);
+    EXPECT_EQ(other.keep_note(NoteKind::pin, 1, "glare, 4 %"), Appended::yes) << "after a change";
+    EXPECT_EQ(RedisLog(settings()).notes(NoteKind::pin),
+              (std::vector<std::string>{"glare, 4 %", "dark"}));
+}
+
+TEST_F(RedisLogTest, ANoteThatHasBeenForgottenStaysSo) {
+    RedisLog one(settings());
+    RedisLog other(settings());
+    ASSERT_EQ(one.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
+    entries_of(other, 1);
+    ASSERT_EQ(other.keep_note(NoteKind::pin, 1, "glare, 3 %"), Appended::yes);
+    one.drop_note(NoteKind::pin, 1);
+    EXPECT_EQ(other.keep_note(NoteKind::pin, 1, "glare, 4 %"), Appended::conflict)
+        << "the other one has not seen that it is gone";
+    ASSERT_EQ(other.append(light_of(1, 5.0F), {}, {}), Appended::yes);
+    EXPECT_EQ(entries_of(one, 1)[0].change.epoch(), 1U)
+        << "what came before it was forgotten does not bring it back";
+    EXPECT_TRUE(entries_of(other, 1)[0].body.empty());
+    EXPECT_TRUE(RedisLog(settings()).notes(NoteKind::pin).empty());
 }
 
 TEST_F(RedisLogTest, AProjectHasOneScene) {
@@ -153,7 +185,7 @@ TEST_F(RedisLogTest, WithoutRedisNothingIsStoredAndAllComesLater) {
     server.kill_it();
     wait_for_outage(one, true);
     EXPECT_THROW(static_cast<void>(one.append(light_of(1, 5.0F), {}, {})), JournalError);
-    EXPECT_THROW(one.keep_note(NoteKind::pin, 1, "glare"), JournalError);
+    EXPECT_THROW(static_cast<void>(one.keep_note(NoteKind::pin, 1, "glare")), JournalError);
     RedisLog other(settings());  // begins without it
     EXPECT_TRUE(other.outage().has_value());
     EXPECT_EQ(other.epoch(), 0U);
@@ -217,7 +249,7 @@ TEST_F(RedisLogTest, TheBeginningIsForgottenAndTheStateStays) {
     small.most_past = 4;
     {
         RedisLog log(small);
-        log.keep_note(NoteKind::pin, 1, "glare");
+        EXPECT_EQ(log.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
         for (std::uint32_t epoch = 1; epoch <= 20; ++epoch) {
             const std::uint32_t light = 1 + epoch % 3;
             ASSERT_EQ(log.append(light_of(epoch, static_cast<float>(epoch), light),

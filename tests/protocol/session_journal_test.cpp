@@ -343,10 +343,11 @@ TEST_F(SessionJournalTest, KeepsNotesUntilTheyAreDropped) {
     {
         SessionJournal journal(settings_);
         EXPECT_TRUE(journal.notes(NoteKind::pin).empty());
-        journal.keep_note(NoteKind::pin, 1, "glare");
-        journal.keep_note(NoteKind::pin, 2, std::string("zero \0 inside", 13));
-        journal.keep_note(NoteKind::pin, 1, "glare here");
-        journal.keep_note(NoteKind::viewpoint, 1, "from the door");
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 2, std::string("zero \0 inside", 13)),
+                  Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 1, "glare here"), Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::viewpoint, 1, "from the door"), Appended::yes);
         journal.append(move(1, 2, 0.5F));
     }
     SessionJournal journal(settings_);
@@ -362,7 +363,7 @@ TEST_F(SessionJournalTest, KeepsNotesUntilTheyAreDropped) {
 TEST_F(SessionJournalTest, NotesOfAnotherSceneAreNotThisOnes) {
     {
         SessionJournal journal(settings_);
-        journal.keep_note(NoteKind::pin, 1, "glare");
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
     }
     settings_.scene_digest = "digest of another room";
     SessionJournal journal(settings_);

@@ -211,13 +211,18 @@ std::vector<LogEntry> RedisLog::take_entries() {
     for (StreamEntry& entry : received) {
         state_.apply(entry);
         const bool own = entry.worker == worker_;
+        const std::pair note{entry.entry.kind, entry.entry.number};
         if (entry.is_change) {
             epoch_ = std::max(epoch_, static_cast<std::uint32_t>(entry.id.epoch));
             if (own && entry.id.epoch % settings_.snapshot_every == 0) {
                 keep_snapshot();
             }
         }
-        if (!own || done_.erase(entry.request) == 0) {
+        if (own && done_.erase(entry.request) > 0) {
+            if (!entry.is_change && entry.entry.body.empty()) {
+                dropped_.erase(note);
+            }
+        } else if (entry.is_change || !dropped_.contains(note)) {
             entries.push_back(std::move(entry.entry));
         }
     }
@@ -341,31 +346,61 @@ std::uint32_t RedisLog::new_number(NoteKind kind, std::uint32_t free) {
     }
 }
 
-/// Adds it behind the last change. One that arrives twice, since an answer was lost, says the same
-/// twice.
-void RedisLog::append_note(const StreamEntry& entry) {
+/// Whether another server has kept or forgotten a note, which whoever asks has not taken yet.
+bool RedisLog::overtaken(const StreamEntry& note) const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(received_.begin(), received_.end(), [&](const StreamEntry& entry) {
+        return !entry.is_change && entry.worker != worker_ && entry.entry.kind == note.entry.kind &&
+               entry.entry.number == note.entry.number;
+    });
+}
+
+/// Whether an entry of this server has been read already: its answer was lost.
+bool RedisLog::arrived(const StreamEntry& entry) const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(received_.begin(), received_.end(), [&](const StreamEntry& other) {
+        return other.worker == worker_ && other.request == entry.request;
+    });
+}
+
+/// Adds a note behind all that has been read, so that nothing of others comes between: a note is
+/// the whole of what it is about, and would undo what they have made of it. Forgetting one undoes
+/// it all.
+Appended RedisLog::append_note(const StreamEntry& entry) {
     const std::vector<std::string> fields = words_of(entry);
+    const bool forgets = entry.entry.body.empty();
     for (int i = 0;; ++i) {
-        std::uint64_t last = 0;
+        StreamId last;
         {
             const std::lock_guard lock(mutex_);
-            last = std::max<std::uint64_t>(cursor_.epoch, epoch_);
+            last = cursor_;
         }
-        std::vector<std::string> words{"XADD", stream_, std::to_string(last) + "-*"};
+        if (last.epoch < epoch_ || i > 0) {
+            read_now();
+            const std::lock_guard lock(mutex_);
+            last = cursor_;
+        }
+        if (arrived(entry)) {
+            return Appended::yes;
+        }
+        if (!forgets && overtaken(entry)) {
+            return Appended::conflict;
+        }
+        std::vector<std::string> words{"XADD", stream_,
+                                       StreamId{last.epoch, last.sequence + 1}.text()};
         words.insert(words.end(), fields.begin(), fields.end());
         try {
             writer().command(words);
-            return;
+            return Appended::yes;
         } catch (const RedisRefusal& refusal) {
             if (!is_conflict(refusal) || i == most_conflicts_of_a_note) {
                 throw;
             }
-            read_now();
         }
     }
 }
 
-void RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+Appended RedisLog::keep(NoteKind kind, std::uint32_t number, const std::string& body) {
     if (const auto reason = outage()) {
         throw JournalError(*reason);
     }
@@ -377,9 +412,11 @@ void RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string&
     entry.entry.body = body;
     for (const bool again : {false, true}) {
         try {
-            append_note(entry);
-            done_.insert(entry.request);
-            return;
+            const Appended result = append_note(entry);
+            if (result == Appended::yes) {
+                done_.insert(entry.request);
+            }
+            return result;
         } catch (const RedisAway& away) {
             writer_.reset();
             if (again) {
@@ -389,6 +426,16 @@ void RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string&
             throw JournalError(refusal.what());
         }
     }
+    throw JournalError("not reached");
+}
+
+Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+    return keep(kind, number, body);
+}
+
+void RedisLog::drop_note(NoteKind kind, std::uint32_t number) {
+    static_cast<void>(keep(kind, number, {}));
+    dropped_.insert({kind, number});
 }
 
 }  // namespace raybundle

@@ -57,8 +57,9 @@ class RedisLog final : public ProjectLog {
     [[nodiscard]] std::vector<LogEntry> take_entries() override;
 
     [[nodiscard]] std::uint32_t new_number(NoteKind kind, std::uint32_t free) override;
-    void keep_note(NoteKind kind, std::uint32_t number, const std::string& body) override;
-    void drop_note(NoteKind kind, std::uint32_t number) override { keep_note(kind, number, {}); }
+    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number,
+                                     const std::string& body) override;
+    void drop_note(NoteKind kind, std::uint32_t number) override;
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind) override {
         return state_.notes(kind);
     }
@@ -84,7 +85,10 @@ class RedisLog final : public ProjectLog {
     RedisConnection& writer();
     void read_now();
     [[nodiscard]] Appended add(const StreamEntry& entry, bool again);
-    void append_note(const StreamEntry& entry);
+    [[nodiscard]] Appended append_note(const StreamEntry& entry);
+    [[nodiscard]] Appended keep(NoteKind kind, std::uint32_t number, const std::string& body);
+    [[nodiscard]] bool overtaken(const StreamEntry& note) const;
+    [[nodiscard]] bool arrived(const StreamEntry& entry) const;
     void keep_snapshot();
 
     RedisLogSettings settings_;
@@ -93,6 +97,8 @@ class RedisLog final : public ProjectLog {
     std::uint32_t epoch_ = 0;
     std::uint64_t requests_ = 0;
     std::set<std::uint64_t> done_;  ///< own requests that are in the stream and not read yet
+    /// Notes that this server has forgotten, which is in the stream and not read yet.
+    std::set<std::pair<NoteKind, std::uint32_t>> dropped_;
     LogState state_;
     std::vector<v1::SceneChanged> past_;
     std::vector<KeyedChange> keyed_;

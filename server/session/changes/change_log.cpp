@@ -252,6 +252,7 @@ void ChangeLog::restore_keys() {
 
 /// Whether there is a journal, where there has to be one.
 bool ChangeLog::usable() {
+    overtaken_ = false;
     if (required_ && !journal_) {
         open_again();
     }
@@ -271,6 +272,11 @@ void ChangeLog::refused(const std::string& what, const std::string& reason) {
 
 v1::Error ChangeLog::refusal(const std::string& text) const {
     v1::Error error;
+    if (overtaken_) {
+        error.set_code(v1::Error::UNAVAILABLE);
+        error.set_message(text + ": somebody on another server has just changed it; ask again");
+        return error;
+    }
     error.set_code(outage_.empty() ? v1::Error::INTERNAL : v1::Error::UNAVAILABLE);
     error.set_message(outage_.empty() ? text
                                       : text +
@@ -367,13 +373,13 @@ bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string
         if (journal_ && body.empty()) {
             journal_->drop_note(kind, number);
         } else if (journal_) {
-            journal_->keep_note(kind, number, body);
+            overtaken_ = journal_->keep_note(kind, number, body) == Appended::conflict;
         }
     } catch (const JournalError& error) {
         refused("a note", error.what());
         return false;
     }
-    return true;
+    return !overtaken_;
 }
 
 void ChangeLog::remember_scene(const std::string& started_with, const std::string& shown) {

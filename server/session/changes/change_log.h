@@ -88,7 +88,7 @@ class ChangeLog {
     /// be used.
     [[nodiscard]] std::optional<std::uint32_t> new_number(NoteKind kind, std::uint32_t free);
     /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
-    /// be stored.
+    /// be stored, or another server has changed it meanwhile; refusal() says which.
     [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
     /// Bodies of the notes that the journal holds, by number.
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
@@ -136,7 +136,8 @@ class ChangeLog {
     bool required_ = false;
     std::atomic<bool> working_{true};
     std::unique_ptr<ProjectLog> journal_;
-    std::string outage_;  ///< why the last attempt failed, of a log that others share
+    std::string outage_;      ///< why the last attempt failed, of a log that others share
+    bool overtaken_ = false;  ///< another server has changed the note of the last keep_note()
     std::uint32_t epoch_ = 0;
     SceneHistory history_;
     ChangeRecords records_;
