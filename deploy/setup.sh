@@ -7,10 +7,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
     cat <<'TEXT'
-usage: deploy/setup.sh [--with-tests | --install-only]
+usage: deploy/setup.sh [--with-tests | --with-heavy-tests | --install-only]
 Installs the packages that are missing (Debian 12) and builds build/raybundle in Release mode.
-  --with-tests    build the tests as well
-  --install-only  build nothing
+  --with-tests        build the tests as well
+  --with-heavy-tests  and the programs whose tests are all heavy
+  --install-only      build nothing
 TEXT
 }
 
@@ -31,10 +32,12 @@ build_dir_is_ours() {
         grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build_dir/CMakeCache.txt"
 }
 
+is_on() { grep -qx "$1:BOOL=ON" "$build_dir/CMakeCache.txt"; }
+
 # Configures on the first run and when the presets have changed; later ninja itself re-runs cmake when
-# a CMakeLists.txt has.
+# a CMakeLists.txt has. $1: with the tests, $2: with the heavy ones too, ON or OFF.
 configure() {
-    local tests=$1
+    local tests=$1 heavy=$2
     if ! build_dir_is_ours; then
         say "configuring"
         (cd "$root" && cmake --fresh --preset release -DRAYBUNDLE_TESTS="$tests")
@@ -43,18 +46,18 @@ configure() {
         (cd "$root" && cmake --preset release)
         touch "$build_dir/CMakeCache.txt"
     fi
-    if [[ $tests == ON ]] &&
-        ! grep -qx 'RAYBUNDLE_TESTS:BOOL=ON' "$build_dir/CMakeCache.txt"; then
+    if [[ $tests == ON ]] && ! is_on RAYBUNDLE_TESTS || [[ $heavy == ON ]] && ! is_on RAYBUNDLE_HEAVY_TESTS; then
         say "configuring the tests"
-        (cd "$root" && cmake --preset release -DRAYBUNDLE_TESTS=ON)
+        (cd "$root" && cmake --preset release -DRAYBUNDLE_TESTS=ON -DRAYBUNDLE_HEAVY_TESTS="$heavy")
     fi
 }
 
 main() {
-    local tests=OFF target=raybundle
+    local tests=OFF heavy=OFF target=raybundle
     case "${1:-}" in
         "") ;;
         --with-tests) tests=ON target=all ;;
+        --with-heavy-tests) tests=ON heavy=ON target=all ;;
         --install-only) install_packages "${packages[@]}" && exit 0 ;;
         -h | --help) usage && exit 0 ;;
         *) usage >&2 && exit 2 ;;
@@ -63,7 +66,7 @@ main() {
     mkdir -p "$build_dir"
     exec 9>"$build_dir/.setup.lock"
     flock 9 # two builds in one folder would spoil each other
-    configure "$tests" || die "raybundle setup: FAILED to configure (see above)"
+    configure "$tests" "$heavy" || die "raybundle setup: FAILED to configure (see above)"
     say "building with $(build_jobs) jobs"
     cmake --build "$build_dir" --target "$target" --parallel "$(build_jobs)" ||
         die "raybundle setup: FAILED to build (see above)"

@@ -21,6 +21,7 @@ TEXT
 [[ $# -ge 1 && $# -le 2 && $1 =~ ^[0-9]+(\.[0-9]+)?$ && ${2:-many} =~ ^(many|crowd|snapshot|light)$ ]] ||
     { usage >&2 && exit 2; }
 "$root/deploy/setup.sh" --with-tests
+cmake --build "$build_dir" --target raybundle_soak raybundle_light_load --parallel "$(build_jobs)"
 if [[ ${2:-} == light ]]; then
     ulimit -n 8192
     exec "$build_dir/raybundle_light_load" 999 20 "$(awk "BEGIN {print 60 * $1}")"

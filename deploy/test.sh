@@ -7,9 +7,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
     cat <<'TEXT'
-usage: deploy/test.sh [--quick | --heavy]
+usage: deploy/test.sh [--tidy | --heavy]
 Installs and builds what is missing, then runs all checks and tests except those labelled heavy.
-  --quick   leave out clang-tidy
+  --tidy    with clang-tidy: a third more time
   --heavy   run only the tests labelled heavy, and clang-tidy with its slow, deep analysis
 Ends with one line: raybundle tests: N passed, N failed
 TEXT
@@ -112,7 +112,7 @@ junit_attribute() {
     echo "${value:-0}"
 }
 
-# Everything that comes after the build; $1: all, quick or heavy.
+# Everything that comes after the build; $1: usual, tidy or heavy.
 run_checks() {
     check "browser test packages" install_browser_tools
     if [[ $1 == heavy ]]; then
@@ -123,23 +123,23 @@ run_checks() {
     check "clang-format" check_format
     check "shellcheck" check_scripts
     check "shipped scenes" python3 "$root/scenes/generate.py" --check
-    [[ $1 == quick ]] || check "clang-tidy" "$root/deploy/tidy.sh"
+    [[ $1 == usual ]] || check "clang-tidy" "$root/deploy/tidy.sh"
     run_ctest --label-exclude '^heavy$'
 }
 
 main() {
-    local mode=all
+    local mode=usual with=--with-tests
     case "${1:-}" in
-        "") ;;
-        --quick) mode=quick ;;
-        --heavy) mode=heavy ;;
+        "" | --quick) ;; # the usual run left nothing out once, and --quick clang-tidy
+        --tidy) mode=tidy ;;
+        --heavy) mode=heavy with=--with-heavy-tests ;;
         -h | --help) usage && exit 0 ;;
         *) usage >&2 && exit 2 ;;
     esac
     check_log=$(mktemp)
     trap 'rm -f "$check_log"' EXIT
     install_tools
-    check "build" "$root/deploy/setup.sh" --with-tests
+    check "build" "$root/deploy/setup.sh" "$with"
     ((failed > 0)) || run_checks "$mode"
     ((${#failed_checks[@]} == 0)) || printf '%s\n' "${failed_checks[@]}"
     echo "raybundle tests: $passed passed, $failed failed"

@@ -4,6 +4,7 @@
 import {existsSync, mkdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import path from 'node:path';
+import {it} from 'node:test';
 
 import {ROOT} from './daemon.mjs';
 
@@ -12,6 +13,9 @@ const SCREENSHOTS = process.env.RAYBUNDLE_SCREENSHOTS ?? path.join(ROOT, 'build/
 
 /** Patience with software rendering on a busy machine, milliseconds. */
 export const PATIENCE_MS = Number(process.env.RAYBUNDLE_PATIENCE_MS ?? 400000);
+
+/** A test that takes a minute, of what others test in parts: run by ctest's label heavy alone. */
+export const heavy = process.env.RAYBUNDLE_HEAVY ? it : it.skip;
 
 /** WebGL on the processor. */
 export const SOFTWARE_GL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];

@@ -12,7 +12,7 @@ import {onScale, scaleColour, turboColour} from '../../client_web/measure/colour
 import {distanceOf, exposureOf} from '../../client_web/walkthrough/off_screen.js';
 import {depthRange, projectionOf} from '../../client_web/walkthrough/projection.js';
 import {problemOf} from '../../client_web/walkthrough/scene_data.js';
-import {PATIENCE_MS, SOFTWARE_GL, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
+import {PATIENCE_MS, SOFTWARE_GL, heavy, keepScreenshot, launchBrowser, openClient} from './browser.mjs';
 import {ROOT} from './daemon.mjs';
 import {readExr} from './exr.mjs';
 import {serveFolder} from './static_server.mjs';
@@ -109,7 +109,7 @@ describe('a walkthrough', () => {
     });
 
     for (const scene of SCENES) {
-        it(`shows the light of the patches, as the server does: ${scene}`, async (t) => {
+        (scene === SCENES[0] ? it : heavy)(`shows the light of the patches, as the server does: ${scene}`, async (t) => {
             const exr = path.join(folder, '..', `${path.basename(folder)}-${scene}.exr`);
             t.after(() => rm(exr, {force: true}));
             const {status, stderr} = raybundle(['render', path.join(ROOT, `scenes/${scene}.gltf`), '-o', exr, '--patches',
@@ -170,7 +170,7 @@ describe('a walkthrough', () => {
         await context.close();
     });
 
-    it('is walked through by the keys of the live page, as fine as the display', async () => {
+    heavy('is walked through by the keys of the live page, as fine as the display', async () => {
         const {page, faults, context} = await open('living_room', {viewport: {width: 360, height: 320}, deviceScaleFactor: 1.5, colorScheme: 'dark'});
         const eye = () => page.evaluate(() => window.raybundleWalkthrough.camera.view.eye);
         const start = await eye();

@@ -206,7 +206,7 @@ std::vector<double> floor_luminance(JsonViewer& viewer) {
     return shown;
 }
 
-TEST(PolishedLamp, ThatIsPutOutIsTheMirrorThatItWouldBe) {
+TEST(HeavyPolishedLamp, ThatIsPutOutIsTheMirrorThatItWouldBe) {
     const TestFolder folder;
     folder.write("lamp.gltf", scene_with_metal_floor(50.0));
     folder.write("mirror.gltf", scene_with_metal_floor(0.0));

@@ -120,7 +120,7 @@ TEST_F(SnapshotTest, ManyAreRefusedAndThoseOfViewersThatLeaveAreForgotten) {
     EXPECT_TRUE(answer.contains("snapshotReady")) << answer.dump();
 }
 
-TEST_F(SnapshotTest, MayLoseItsViewerWhileItGathersLight) {
+TEST_F(SnapshotTest, HeavyMayLoseItsViewerWhileItGathersLight) {
     for (int round = 0; round < 6; ++round) {
         JsonViewer hasty(daemon_.port());
         hasty.join("", width, height);

@@ -47,7 +47,7 @@ TEST(AccuracyCommand, MeasuresRayBundlesBesideAReferenceMethod) {
 }
 
 /// What viewers see first, counted in iterations.
-TEST(AccuracyCommand, MeasuresTheFirstPicturesOfAViewer) {
+TEST(HeavyAccuracyCommand, MeasuresTheFirstPicturesOfAViewer) {
     const fs::path folder = fs::path(testing::TempDir()) / "raybundle_accuracy_early";
     fs::remove_all(folder);
     const std::string command = ACCURACY RAYBUNDLE_SCENES

@@ -10,7 +10,7 @@
 #include "scene/edit/light_edit.h"
 #include "scene/scene_folder.h"
 
-namespace raybundle {
+namespace raybundle::added_lights_test {
 namespace {
 
 constexpr std::uint32_t point_light = 1;  // of the room's file
@@ -142,4 +142,4 @@ TEST(AddedLuminaires, EachRefusalSaysWhyAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::added_lights_test

@@ -9,7 +9,7 @@
 #include "growing_room.h"
 #include "scene/edit/light_edit.h"
 
-namespace raybundle {
+namespace raybundle::added_objects_test {
 namespace {
 
 constexpr std::uint32_t box = 1;  // object
@@ -208,4 +208,4 @@ TEST(GrownMesh, HasThePatchesOfWhatItIsACopyOf) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::added_objects_test

@@ -11,7 +11,7 @@
 #include "moved_box.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::affected_tiles_test {
 namespace {
 
 constexpr glm::uvec2 size(101, 75);  // not whole tiles
@@ -184,4 +184,4 @@ TEST(MovedPicture, ShowsTheSameAsOneMadeAnew) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::affected_tiles_test

@@ -11,7 +11,7 @@
 #include "oracle/oracle_solve.h"
 #include "pictures.h"
 
-namespace raybundle {
+namespace raybundle::air_test {
 namespace {
 
 constexpr float sent = 100.0F;  // cd/m², by everything in a furnace
@@ -305,4 +305,4 @@ TEST(AirBySolver, FollowsLampsThatChange) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::air_test

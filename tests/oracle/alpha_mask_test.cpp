@@ -8,7 +8,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::alpha_mask_test {
 namespace {
 
 void add_quad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v,
@@ -167,4 +167,4 @@ INSTANTIATE_TEST_SUITE_P(Strategies, AlphaMask,
                                          StrategyProbabilities{1.0F, 0.0F, 0.0F}));
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::alpha_mask_test

@@ -15,7 +15,7 @@
 #include "scene/mesh/patch_colour.h"
 #include "solution/geometry/reflectance_tables.h"
 
-namespace raybundle {
+namespace raybundle::brdf_gpu_test {
 namespace {
 
 using test::RandomBrdfs;
@@ -312,4 +312,4 @@ TEST(ReflectanceTables, NarrowLobesAreWideBetweenSurfaces) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::brdf_gpu_test

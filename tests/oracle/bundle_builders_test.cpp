@@ -17,7 +17,7 @@
 #include "trace/bundle_builder.h"
 #include "transport/transfer.h"
 
-namespace raybundle {
+namespace raybundle::bundle_builders_test {
 namespace {
 
 constexpr int bundles = 6;
@@ -297,4 +297,4 @@ TEST(BundleBuilders, ResultsDoNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::bundle_builders_test

@@ -4,7 +4,7 @@
 
 #include "oracle/oracle_solve.h"
 
-namespace raybundle {
+namespace raybundle::bundle_resolution_test {
 namespace {
 
 /// Iterations after which a room has fine bundles, if it may from 256 on.
@@ -33,7 +33,7 @@ TEST(BundleResolution, FollowsTheNoise) {
 }
 
 /// The estimate is of the size of the error (here within a factor of 2.5 on either side).
-TEST(BundleResolution, NoiseIsOfTheSizeOfTheError) {
+TEST(HeavyBundleResolution, NoiseIsOfTheSizeOfTheError) {
     SceneBuilder b;
     const auto wall = b.add_material(glm::vec3(0.6F));
     const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
@@ -62,4 +62,4 @@ TEST(BundleResolution, NoiseIsOfTheSizeOfTheError) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::bundle_resolution_test

@@ -15,7 +15,7 @@
 #include "bundle/low_discrepancy.h"
 #include "transport/iteration_schedule.h"
 
-namespace raybundle {
+namespace raybundle::bundle_test {
 namespace {
 
 TEST(LowDiscrepancy, RadicalInverseMirrorsDigits) {
@@ -211,4 +211,4 @@ TEST(Hemicube, ABoxRoundTheShooterNeedsEveryPixel) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::bundle_test

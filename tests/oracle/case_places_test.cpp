@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::case_places_test {
 namespace {
 
 const std::string places = RAYBUNDLE_CASES "/places/";
@@ -158,4 +158,4 @@ TEST(CasesPlaces, FrostedGlobeKnowsTheNoiseOfWhatComesThrough) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::case_places_test

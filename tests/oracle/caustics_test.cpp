@@ -14,7 +14,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::caustics_test {
 namespace {
 
 using std::numbers::pi;
@@ -111,7 +111,7 @@ double error_of(const std::vector<glm::vec4>& found, const PatchMesh& mesh, Expe
 
 /// A lamp that shines up at a mirror below the ceiling: all light on the floor comes from its
 /// image.
-TEST(Caustics, AFlatMirrorThrowsTheLightOfItsImage) {
+TEST(HeavyCaustics, AFlatMirrorThrowsTheLightOfItsImage) {
     SceneBuilder b;
     b.add_quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, 12, 12, b.add_material(glm::vec3(0.0F)));
     const auto mirror = b.add_material(mirror_material());
@@ -336,4 +336,4 @@ TEST(HeavyCaustics, AMirrorBallAgreesWithPathTracing) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::caustics_test

@@ -11,7 +11,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::closed_room_test {
 namespace {
 
 constexpr float sky = 1000.0F;  // cd/m²
@@ -114,4 +114,4 @@ TEST(ClosedRoomOfManyCells, BelowASkyIsNearlyDark) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::closed_room_test

@@ -9,7 +9,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::confidence_test {
 namespace {
 
 const glm::uvec2 size(64, 48);
@@ -104,7 +104,7 @@ TEST(Confidence, AfterATurnFewSamplesLeaveThePictureAsGoodAsItWas) {
 }
 
 /// Where patches are too coarse for what there is to see, samples take over in the end.
-TEST(Confidence, ManySamplesAreBelieved) {
+TEST(HeavyConfidence, ManySamplesAreBelieved) {
     const Room room;
     Viewer viewer(room, 3);
     viewer.image.set_camera(room.camera);
@@ -269,4 +269,4 @@ TEST(Confidence, WhoeverGoesOnTurningKeepsSmoothLight) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::confidence_test

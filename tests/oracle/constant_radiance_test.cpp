@@ -11,7 +11,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::constant_radiance_test {
 namespace {
 
 constexpr glm::uvec2 size(32, 24);
@@ -182,4 +182,4 @@ TEST(ConstantRadianceOfOpenRooms, StaysAwayWhereLightEscapesUnseen) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::constant_radiance_test

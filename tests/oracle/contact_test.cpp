@@ -7,7 +7,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::contact_test {
 namespace {
 
 /// A room of 6 x 3 x 3 m of undivided faces, a lamp in its first half, and across its middle a wall
@@ -51,4 +51,4 @@ TEST(Contact, NoLightGoesUnderAWallIntoTheNextRoom) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::contact_test

@@ -8,7 +8,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::covered_patches_test {
 namespace {
 
 constexpr float albedo = 0.7F;
@@ -66,4 +66,4 @@ TEST(CoveredPatches, LeaveTheLevelOfAFurnaceAsItIs) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::covered_patches_test

@@ -7,7 +7,7 @@
 #include "changed_room.h"
 #include "scene/edit/daylight_edit.h"
 
-namespace raybundle {
+namespace raybundle::daylight_change_test {
 namespace {
 
 DaylightSetting daylight(const std::string& sky, float elevation, float azimuth) {
@@ -91,4 +91,4 @@ TEST(DaylightChange, ASolverThatKnowsNoSkyIsTakenOver) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::daylight_change_test

@@ -7,7 +7,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::daylight_room_test {
 namespace {
 
 constexpr glm::uvec2 size(24, 18);
@@ -35,4 +35,4 @@ TEST(DaylightRoom, ClearSkyIsAsBrightAsByPathTracing) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::daylight_room_test

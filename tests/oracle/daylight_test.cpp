@@ -13,7 +13,7 @@
 #include "scene/light/sky_dome.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::daylight_test {
 namespace {
 
 using std::numbers::pi;
@@ -98,4 +98,4 @@ TEST(Daylight, ViewsShowTheSky) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::daylight_test

@@ -7,7 +7,7 @@
 #include "methods.h"
 #include "scene/scene_report.h"
 
-namespace raybundle {
+namespace raybundle::defect_test {
 namespace {
 
 std::string defect_name(const testing::TestParamInfo<Defect>& info) {
@@ -79,4 +79,4 @@ TEST(Defects, SliversLeaveTheBitsAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::defect_test

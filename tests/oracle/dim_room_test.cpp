@@ -9,7 +9,7 @@
 #include "methods.h"
 #include "solution/store/shooting_shares.h"
 
-namespace raybundle {
+namespace raybundle::dim_room_test {
 namespace {
 
 ZoneFlux zone(double area, double emitted, double reflected) {
@@ -82,4 +82,4 @@ TEST(DimRoom, BesideABrightOneIsNearlyAsGoodAsAlone) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::dim_room_test

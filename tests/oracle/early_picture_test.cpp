@@ -8,7 +8,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::early_picture_test {
 namespace {
 
 const glm::uvec2 size(64, 48);
@@ -102,4 +102,4 @@ TEST_P(EarlyPicture, IsNowhereBlackAndAsBrightAsItWillBe) {
 INSTANTIATE_TEST_SUITE_P(Rooms, EarlyPicture, testing::Values(&lamp_room, &cove_room));
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::early_picture_test

@@ -12,7 +12,7 @@
 #include "view/filters/sub_samples.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::edge_filter_test {
 namespace {
 
 constexpr glm::uvec2 size(48, 40);
@@ -255,4 +255,4 @@ TEST(EdgeFilter, LeavesFlatSurfacesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::edge_filter_test

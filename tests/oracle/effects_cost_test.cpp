@@ -9,7 +9,7 @@
 #include "scene/effects/effects_plan.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::effects_cost_test {
 namespace {
 
 SceneBuilder room(bool glossy, bool punctual) {
@@ -64,4 +64,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EffectBytes,
                          });
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::effects_cost_test

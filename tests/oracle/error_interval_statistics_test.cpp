@@ -11,7 +11,7 @@
 
 #include "judged_scene.h"
 
-namespace raybundle {
+namespace raybundle::error_interval_statistics_test {
 namespace {
 
 constexpr std::array<std::uint64_t, 5> judged_at = {32, 64, 128, 256, 384};
@@ -110,4 +110,4 @@ TEST(ErrorIntervalHeavy, PredictsWhenATargetIsMet) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::error_interval_statistics_test

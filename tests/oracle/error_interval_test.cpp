@@ -13,7 +13,7 @@
 #include "judged_scene.h"
 #include "view/error/measured_error.h"
 
-namespace raybundle {
+namespace raybundle::error_interval_test {
 namespace {
 
 constexpr std::array<SampleOrder, 2> both = {SampleOrder::low_discrepancy, SampleOrder::shuffled};
@@ -397,4 +397,4 @@ TEST(ErrorIntervalHeavy, CoversTheTrueErrorOfMostPictures) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::error_interval_test

@@ -8,7 +8,7 @@
 #include "scene/mesh/patch_mesh.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::facet_test {
 namespace {
 
 /// A lit room with a block in it, as a file would describe it: two triangles a side.
@@ -64,4 +64,4 @@ TEST(Facets, GivePatchesWhatTheirOwnTrianglesWould) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::facet_test

@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::far_coordinates_test {
 namespace {
 
 /// Radiance at the pixels of the file's first camera, cd/m².
@@ -122,4 +122,4 @@ TEST(FarCoordinates, AnObjectThatIsFarAwayChangesNeitherWindowNorLight) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::far_coordinates_test

@@ -9,7 +9,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::final_picture_test {
 namespace {
 
 constexpr glm::uvec2 size(24, 18);
@@ -107,7 +107,7 @@ SceneBuilder backlit_board() {
     return b;
 }
 
-TEST(FinalPicture, PartsOfPixelsSeeALineAlongTheRowsThatIsNarrowerThanThey) {
+TEST(HeavyFinalPicture, PartsOfPixelsSeeALineAlongTheRowsThatIsNarrowerThanThey) {
     const SceneBuilder b = backlit_board();
     Solver solver(b.scene, b.mesh, coarse_settings());
     const ViewPrograms programs(solver.scene());
@@ -195,4 +195,4 @@ TEST(FinalPicture, AnEvenWallNeedsNoFinerPixels) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::final_picture_test

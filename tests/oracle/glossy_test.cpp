@@ -10,7 +10,7 @@
 #include "solution/geometry/reflectance_tables.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::glossy_test {
 namespace {
 
 /// Both strategies, and enough parallel bundles: through those the whole floor sends at once.
@@ -24,7 +24,7 @@ OracleSettings glossy_settings(std::uint64_t iterations) {
 
 /// Lamp - glossy floor - plate that sees no lamp. One run has a standard deviation of 1.9 %,
 /// measured over seeds: the bound is 2.6 of them. Without df_r the plate would be off by 16 %.
-TEST(GlossyTransport, CarriesLightOverAGlossyFloor) {
+TEST(HeavyGlossyTransport, CarriesLightOverAGlossyFloor) {
     const GlossyReflection r = glossy_reflection(0.5F, glossy_settings(12'288));
     EXPECT_NEAR(r.solved, r.exact, 0.05 * r.exact);
     EXPECT_GT(std::abs(r.main_part - r.exact), 0.1 * r.exact) << "the case proves nothing";
@@ -109,4 +109,4 @@ TEST(GlossyTransport, FurnaceBelowAClearCoatIsUniform) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::glossy_test

@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::highlight_test {
 namespace {
 
 /// Black plastic, which does nothing but mirror.
@@ -158,4 +158,4 @@ TEST(Highlight, OfABroadLobeIsNotDimmedAtFirst) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::highlight_test

@@ -11,7 +11,7 @@
 #include "methods.h"
 #include "oracle/oracle_solve.h"
 
-namespace raybundle {
+namespace raybundle::invariance_test {
 namespace {
 
 std::string method_name(const testing::TestParamInfo<Method>& info) {
@@ -129,4 +129,4 @@ TEST_P(Invariance, NonFiniteValuesAreDroppedCountedAndGoneAfterwards) {
 INSTANTIATE_TEST_SUITE_P(Strategies, Invariance, testing::ValuesIn(strategies()), method_name);
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::invariance_test

@@ -11,7 +11,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::iteration_variants_test {
 namespace {
 
 /// Mean irradiance of all patches in a room lit by one small lamp.
@@ -97,7 +97,7 @@ TEST(HeavyBiasForNoise, IsNotNeededBesideParallelBundles) {
     EXPECT_EQ(deviation(biased, 64).worst, deviation({}, 64).worst);
 }
 
-TEST(MainPart, LowersTheErrorAtEqualIterations) {
+TEST(HeavyMainPart, LowersTheErrorAtEqualIterations) {
     SolverSettings plain;
     plain.main_part = false;
     const Deviation without = deviation(plain, 400);
@@ -115,7 +115,7 @@ void expect_mean_left_by(const StrategyProbabilities& later) {
     EXPECT_NEAR(deviation(settings, 1024).mean, 0.0, 0.01);
 }
 
-TEST(Shares, ThatChangeLeaveTheMean) {
+TEST(HeavyShares, ThatChangeLeaveTheMean) {
     expect_mean_left_by({0.5F, 0.0F, 0.5F});
 }
 
@@ -124,4 +124,4 @@ TEST(HeavyShares, ThatChangeLeaveTheMeanWithPlanesAmongThem) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::iteration_variants_test

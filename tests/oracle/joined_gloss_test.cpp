@@ -12,7 +12,7 @@
 #include "oracle/scene_builder.h"
 #include "scene/mesh/patch_means.h"
 
-namespace raybundle {
+namespace raybundle::joined_gloss_test {
 namespace {
 
 Material glossy(float metallic, float roughness, float colour) {
@@ -114,8 +114,9 @@ TEST_P(JoinedBall, SendsAsMuchLightAsItsTriangles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, JoinedBall,
-                         testing::Values(std::array{0.0F, 1.0F}, std::array{0.0F, 0.3F},
-                                         std::array{1.0F, 0.4F}, std::array{1.0F, 0.0F}));
+                         testing::Values(std::array{0.0F, 0.3F}, std::array{1.0F, 0.0F}));
+INSTANTIATE_TEST_SUITE_P(HeavyMaterials, JoinedBall,
+                         testing::Values(std::array{0.0F, 1.0F}, std::array{1.0F, 0.4F}));
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::joined_gloss_test

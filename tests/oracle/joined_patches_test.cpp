@@ -13,7 +13,7 @@
 #include "scene/mesh/patch_means.h"
 #include "scene/mesh/patch_mesh.h"
 
-namespace raybundle {
+namespace raybundle::joined_patches_test {
 namespace {
 
 TessellationSettings with_size(float size) {
@@ -345,4 +345,4 @@ TEST(JoinedPatches, AreCorrectedAfterAMove) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::joined_patches_test

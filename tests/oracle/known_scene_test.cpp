@@ -8,7 +8,7 @@
 #include "hard_rooms.h"
 #include "methods.h"
 
-namespace raybundle {
+namespace raybundle::known_scene_test {
 namespace {
 
 std::string method_name(const testing::TestParamInfo<Method>& info) {
@@ -147,4 +147,4 @@ TEST(SingleRayProof, TwoPercentOfLightIsCaught) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::known_scene_test

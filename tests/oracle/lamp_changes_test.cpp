@@ -12,7 +12,7 @@
 #include "changed_room.h"
 #include "scene/light/light_place.h"
 
-namespace raybundle {
+namespace raybundle::lamp_changes_test {
 namespace {
 
 constexpr unsigned lamps = 20;
@@ -262,4 +262,4 @@ TEST(LampChanges, NothingStaysOfABrightLight) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::lamp_changes_test

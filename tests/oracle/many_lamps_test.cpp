@@ -10,7 +10,7 @@
 #include "changed_room.h"
 #include "solution/direct/many_lamps.h"
 
-namespace raybundle {
+namespace raybundle::many_lamps_test {
 namespace {
 
 using std::numbers::pi;
@@ -277,4 +277,4 @@ TEST(ManyLamps, ShadowsFollowWhatMoves) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::many_lamps_test

@@ -6,7 +6,7 @@
 
 #include "transport/strategy_mix.h"
 
-namespace raybundle {
+namespace raybundle::method_options_test {
 namespace {
 
 TEST(MethodOptions, SharesAreThreeNumbersWhoseSumIsOne) {
@@ -57,4 +57,4 @@ TEST(MethodOptions, BundlesThatMissTheSkySaySo) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::method_options_test

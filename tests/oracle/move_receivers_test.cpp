@@ -8,7 +8,7 @@
 #include "moved_box.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::move_receivers_test {
 namespace {
 
 const glm::vec3 first_place(1.2F, 0.0F, 1.5F);
@@ -191,4 +191,4 @@ TEST(MoveReceivers, UnaffectedPixelsDoNotFlickerWhileTheBoxIsDragged) {
 #endif
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::move_receivers_test

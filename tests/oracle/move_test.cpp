@@ -6,7 +6,7 @@
 
 #include "moved_box.h"
 
-namespace raybundle {
+namespace raybundle::move_test {
 namespace {
 
 SolverSettings quick(std::uint64_t seed) {
@@ -16,7 +16,7 @@ SolverSettings quick(std::uint64_t seed) {
 const glm::vec3 first_place(1.2F, 0.0F, 1.5F);
 const glm::vec3 second_place(2.6F, 0.0F, 2.4F);
 
-TEST(Move, CorrectionBringsTheSolutionTowardsTheFreshOne) {
+TEST(HeavyMove, CorrectionBringsTheSolutionTowardsTheFreshOne) {
     const SceneBuilder before = room_with_box(first_place);
     const SceneBuilder after = room_with_box(second_place);
     Solver fresh(after.scene, after.mesh, quick(11));
@@ -146,4 +146,4 @@ TEST(Solution, NonFiniteValuesAreDroppedAndCounted) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::move_test

@@ -10,7 +10,7 @@
 #include "fresh_solves.h"
 #include "moved_box.h"
 
-namespace raybundle {
+namespace raybundle::moved_equals_fresh_test {
 namespace {
 
 #ifdef RAYBUNDLE_LONG_TESTS
@@ -135,4 +135,4 @@ TEST(MovedEqualsFresh, PatchByPatch) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::moved_equals_fresh_test

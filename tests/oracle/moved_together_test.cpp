@@ -8,7 +8,7 @@
 
 #include "moved_box.h"
 
-namespace raybundle {
+namespace raybundle::moved_together_test {
 namespace {
 
 SolverSettings quick(std::uint64_t seed) {
@@ -125,4 +125,4 @@ TEST(MovedTogether, ACarriedLightIsNoWorseThanAFreshSolve) {
 #endif
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::moved_together_test

@@ -10,7 +10,7 @@
 #include "oracle/scene_builder.h"
 #include "scene/mesh/patch_mesh.h"
 
-namespace raybundle {
+namespace raybundle::near_field_test {
 namespace {
 
 constexpr float albedo = 0.5F;
@@ -181,4 +181,4 @@ TEST(NearField, NoLightNoWork) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::near_field_test

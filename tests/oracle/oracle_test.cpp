@@ -10,7 +10,7 @@
 #include "hard_rooms.h"
 #include "methods.h"
 
-namespace raybundle {
+namespace raybundle::oracle_test {
 namespace {
 
 class ClosedForm : public testing::TestWithParam<Oracle> {};
@@ -117,4 +117,4 @@ TEST(Determinism, AnotherSeedGivesOtherBits) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::oracle_test

@@ -14,7 +14,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::painter_test {
 namespace {
 
 /// Two rooms that share a wall; a lamp in the first. Patches from `dark` on are the second room's.
@@ -152,4 +152,4 @@ TEST(PaintersAlgorithm, DoesNotLeakThroughAThickWall) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::painter_test

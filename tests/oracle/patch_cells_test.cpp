@@ -7,7 +7,7 @@
 
 #include "oracle/scene_builder.h"
 
-namespace raybundle {
+namespace raybundle::patch_cells_test {
 namespace {
 
 constexpr std::uint64_t never = 1'000'000'000;
@@ -77,4 +77,4 @@ TEST(PatchCells, HoldOneObjectsPatchesThatFaceOneWay) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::patch_cells_test

@@ -15,7 +15,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::picture_size_test {
 namespace {
 
 constexpr float emission = 100.0F;
@@ -149,4 +149,4 @@ TEST(CasesDriverLimits, RefusedCommandFailsThePicture) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::picture_size_test

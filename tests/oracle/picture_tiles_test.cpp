@@ -14,7 +14,7 @@
 #include "transport/solver.h"
 #include "view/picture_limits.h"
 
-namespace raybundle {
+namespace raybundle::picture_tiles_test {
 namespace {
 
 /// A room with a box and a lamp: edges and shades that cross the seams.
@@ -120,4 +120,4 @@ TEST(CasesPictureTiles, ViewportsAreFittedIntoTheLimits) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::picture_tiles_test

@@ -8,7 +8,7 @@
 #include "../reference/lit_room.h"
 #include "changed_room.h"
 
-namespace raybundle {
+namespace raybundle::placed_light_test {
 namespace {
 
 /// A closed room with a lamp of this kind on its left (light 1) and a weak one on its right.
@@ -111,4 +111,4 @@ TEST(PlacedLight, DimmingAllIsLinear) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::placed_light_test

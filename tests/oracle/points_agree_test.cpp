@@ -13,7 +13,7 @@
 #include "oracle/oracle_solve.h"
 #include "scene/gltf/gltf_loader.h"
 
-namespace raybundle {
+namespace raybundle::points_agree_test {
 namespace {
 
 constexpr int place_count = 4000;
@@ -115,4 +115,4 @@ TEST(PointsAgreeHeavy, WithBundlesInTheLivingRoom) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::points_agree_test

@@ -8,7 +8,7 @@
 #include "../reference/lit_room.h"
 #include "changed_room.h"
 
-namespace raybundle {
+namespace raybundle::punctual_change_test {
 namespace {
 
 enum class Kind { point, spot, luminaire, sun };
@@ -166,4 +166,4 @@ TEST(CasesPunctualLights, EditsKeepWhatTheyDoNotName) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::punctual_change_test

@@ -13,7 +13,7 @@
 #include "pictures.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::punctual_light_test {
 namespace {
 
 using std::numbers::pi;
@@ -265,7 +265,7 @@ TEST(FirstShot, CarriedLampMoves) {
 
 /// A lamp goes from one end of a white room to the other: the light that walls have sent each other
 /// before is not the one of now. 256 iterations after 512 bring both means to a fresh start's.
-TEST(FirstShot, IndirectLightFollowsALampThatMoves) {
+TEST(HeavyFirstShot, IndirectLightFollowsALampThatMoves) {
     const auto build = [](float z) {
         SceneBuilder b;
         b.add_box({0, 0, 0}, {3, 3, 9}, true, 8, b.add_material(glm::vec3(0.7F)));
@@ -351,4 +351,4 @@ TEST(FirstShot, CostsNothingInOtherScenes) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::punctual_light_test

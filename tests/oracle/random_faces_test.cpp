@@ -7,7 +7,7 @@
 #include "bundle/face_choice.h"
 #include "oracle/oracle_solve.h"
 
-namespace raybundle {
+namespace raybundle::random_faces_test {
 namespace {
 
 /// Every face counts once in the mean, whatever the lobe; the one with the lobe is always there.
@@ -77,4 +77,4 @@ TEST(HeavyRandomFaces, ChangeNothingButNoise) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::random_faces_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace raybundle {
+namespace raybundle::sample_batches_test {
 namespace {
 
 constexpr auto order = SampleOrder::low_discrepancy;
@@ -90,4 +90,4 @@ TEST(SampleBatches, SayWhereSamplesHangTogether) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::sample_batches_test

@@ -11,7 +11,7 @@
 #include "moved_box.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::scaled_object_test {
 namespace {
 
 constexpr std::uint32_t carrier = 1;
@@ -173,4 +173,4 @@ TEST(ScaledObject, ALampThatVanishesTakesItsLightWithIt) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::scaled_object_test

@@ -13,7 +13,7 @@
 #include "transport/patch_area.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::selection_test {
 namespace {
 
 class SelectionProbabilities : public testing::TestWithParam<const char*> {};
@@ -90,4 +90,4 @@ INSTANTIATE_TEST_SUITE_P(Strategies, FirstShotOf,
                          testing::Values(perspective(), layered(), combined()));
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::selection_test

@@ -12,7 +12,7 @@
 #include "scene/edit/surface_edit.h"
 #include "scene/gltf/gltf_loader.h"
 
-namespace raybundle {
+namespace raybundle::settled_drag_test {
 namespace {
 
 /// Bundles of 48 pixels leave much noise: `settled` was off by 0.11 at most in this run, and by
@@ -104,7 +104,7 @@ TEST(SettledDrag, IsNotOneDirectlyAfterAMoveThereAndBack) {
 
 /// Few bundles take the light of some patches away altogether, for a while. That is no reason to
 /// call a room unsettled for good whose walls have been painted and painted back.
-TEST(SettledDrag, RisesAfterWallsArePaintedAndPaintedBack) {
+TEST(HeavySettledDrag, RisesAfterWallsArePaintedAndPaintedBack) {
     Scene scene = load_gltf(std::string(RAYBUNDLE_SCENES) + "/living_room.gltf");
     TessellationSettings coarse;
     coarse.patch_size = 0.5F;
@@ -132,4 +132,4 @@ TEST(SettledDrag, RisesAfterWallsArePaintedAndPaintedBack) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::settled_drag_test

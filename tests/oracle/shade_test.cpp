@@ -9,7 +9,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::shade_test {
 namespace {
 
 /// A square tube of 10 cm whose walls are 6 mm thick, a lamp 25 mm below its upper end, in a black
@@ -67,4 +67,4 @@ TEST(Shade, ItsOutsideIsDark) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::shade_test

@@ -13,7 +13,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::site_shadow_test {
 namespace {
 
 constexpr glm::uvec2 size(32, 24);
@@ -174,4 +174,4 @@ TEST(CasesSunOnASite, APatchOfSunIsWholeOnAGroundOf300Metres) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::site_shadow_test

@@ -15,7 +15,7 @@
 #include "scene/light/sky_dome.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::sky_change_test {
 namespace {
 
 using std::numbers::pi;
@@ -244,4 +244,4 @@ TEST(SkyChange, OnlyTheSkyAtATenthGivesATenth) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::sky_change_test

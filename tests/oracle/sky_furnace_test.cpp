@@ -8,7 +8,7 @@
 
 #include "oracle/oracle_solve.h"
 
-namespace raybundle {
+namespace raybundle::sky_furnace_test {
 namespace {
 
 constexpr double sky = 100.0;  // cd/m²
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Strategies, SkyFurnace,
                                          StrategyProbabilities{0.4F, 0.3F, 0.3F}));
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::sky_furnace_test

@@ -10,7 +10,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::slot_test {
 namespace {
 
 constexpr float albedo = 0.5F;
@@ -117,16 +117,19 @@ constexpr StrategyProbabilities layered{1.0F, 0.0F, 0.0F};
 constexpr StrategyProbabilities with_planes{0.5F, 0.5F, 0.0F};
 constexpr StrategyProbabilities with_perspective{0.2F, 0.0F, 0.8F};
 
-INSTANTIATE_TEST_SUITE_P(
-    Slots, LitSlot,
-    testing::Values(Slot{"Layered2Millimetres", 0.002F, layered},
-                    Slot{"Layered6Millimetres", 0.006F, layered},
-                    Slot{"Layered16Millimetres", 0.016F, layered},
-                    Slot{"WithPlanes6Millimetres", 0.006F, with_planes},
-                    Slot{"WithPerspective16Millimetres", 0.016F, with_perspective},
-                    Slot{"Combined2Millimetres"}, Slot{"UnderABoardCutFinely", 0.006F, {}, 32},
-                    Slot{"UnderABoardThatWasElsewhere", 0.006F, {}, 8, true}),
-    [](const testing::TestParamInfo<Slot>& slot) { return slot.param.name; });
+INSTANTIATE_TEST_SUITE_P(Slots, LitSlot,
+                         testing::Values(Slot{"Layered2Millimetres", 0.002F, layered},
+                                         Slot{"WithPlanes6Millimetres", 0.006F, with_planes},
+                                         Slot{"WithPerspective16Millimetres", 0.016F,
+                                              with_perspective},
+                                         Slot{"Combined2Millimetres"},
+                                         Slot{"UnderABoardThatWasElsewhere", 0.006F, {}, 8, true}),
+                         [](const testing::TestParamInfo<Slot>& slot) { return slot.param.name; });
+INSTANTIATE_TEST_SUITE_P(HeavySlots, LitSlot,
+                         testing::Values(Slot{"Layered6Millimetres", 0.006F, layered},
+                                         Slot{"Layered16Millimetres", 0.016F, layered},
+                                         Slot{"UnderABoardCutFinely", 0.006F, {}, 32}),
+                         [](const testing::TestParamInfo<Slot>& slot) { return slot.param.name; });
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::slot_test

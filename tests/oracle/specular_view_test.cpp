@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::specular_view_test {
 namespace {
 
 Material mirror_material() {
@@ -344,4 +344,4 @@ TEST(SpecularView, ALampBehindAPaneCountsForTheErrorAsMuchAsOneInFrontOfIt) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::specular_view_test

@@ -11,7 +11,7 @@
 #include "oracle/scene_builder.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::strategy_mix_test {
 namespace {
 
 void expect_distribution(const StrategyProbabilities& p) {
@@ -137,4 +137,4 @@ TEST(StrategyMix, AdaptingKeepsTheFurnace) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::strategy_mix_test

@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::surface_change_test {
 namespace {
 
 const glm::vec3 bright(900.0F, 1000.0F, 800.0F);
@@ -169,7 +169,7 @@ TEST(LightChange, AColourChangesItsChannelsAlone) {
 
 /// A light among others: the corrected solution is nearer to a fresh one than the stale one, of the
 /// room that the light is in as well as of the other.
-TEST(LightChange, OneOfTwoLampsIsCorrected) {
+TEST(HeavyLightChange, OneOfTwoLampsIsCorrected) {
     SceneBuilder dim = two_lamps(0.5F);
     apply(dim.scene, dimmed(2, 0.1F * luminance(bright)));
     refresh_surfaces(dim.scene, std::vector<std::uint32_t>{2}, dim.mesh);
@@ -321,4 +321,4 @@ TEST(MaterialChange, AFirstGlossyMaterialKeepsTheMeanIrradiance) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::surface_change_test

@@ -12,7 +12,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::surface_effects_test {
 namespace {
 
 constexpr glm::uvec2 size(24, 18);
@@ -252,4 +252,4 @@ TEST(SurfaceEffects, UnlitSurfacesShowTheirColourWhateverLightsThem) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::surface_effects_test

@@ -12,7 +12,7 @@
 #include "scene/material/specular_surface.h"
 #include "transport/solver.h"
 
-namespace raybundle {
+namespace raybundle::surface_rays_test {
 namespace {
 
 using std::numbers::pi;
@@ -178,4 +178,4 @@ TEST(SurfaceRays, AWindowKeepsOutWhatItReflects) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::surface_rays_test

@@ -14,7 +14,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::texture_filter_test {
 namespace {
 
 constexpr float cell = 0.25F;   // m, of the pattern
@@ -136,4 +136,4 @@ TEST(TextureLevels, AreMeansOfLight) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::texture_filter_test

@@ -11,7 +11,7 @@
 #include "transport/solver.h"
 #include "view/camera_matrices.h"
 
-namespace raybundle {
+namespace raybundle::viewer_test {
 namespace {
 
 constexpr float emission = 100.0F;
@@ -385,4 +385,4 @@ TEST(ViewerImage, AfterAChangeTheErrorIsUnknownUntilThereAreSamples) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::viewer_test

@@ -95,7 +95,7 @@ TEST(ImageEstimate, FurnaceIsAConstantPicture) {
 /// Deviations from a long run in units of the estimated standard error are t-distributed with 7
 /// degrees of freedom: 5 % beyond 2.365. Of 384 pixels (nearly independent) between 1.5 % and 10 %
 /// may be: 4.5 sigma of that share.
-TEST(ImageEstimate, StandardErrorsAreCalibrated) {
+TEST(HeavyImageEstimate, StandardErrorsAreCalibrated) {
     const SceneBuilder room = enclosure(0.8F);
     const View view(room);
     const ImageEstimate reference = view.render(4096, 1, 2);

@@ -44,6 +44,7 @@ constexpr MethodCase methods[] = {{"light", ReferenceKind::light, 2048},
                                   {"photon_map", ReferenceKind::photon_map, 6, 0.04}};
 
 constexpr std::size_t photon_map = std::size(methods) - 1;
+constexpr std::size_t metropolis = photon_map - 1;
 
 using Picture = std::vector<glm::dvec3>;
 
@@ -163,7 +164,7 @@ std::string case_name(const testing::TestParamInfo<std::tuple<MethodCase, int>>&
 
 // By way of mirrors and glass; photon maps, whose views cost ten times as much, by a glossy floor.
 INSTANTIATE_TEST_SUITE_P(Methods, MethodAgreement,
-                         testing::Combine(testing::ValuesIn(methods, methods + photon_map),
+                         testing::Combine(testing::ValuesIn(methods, methods + metropolis),
                                           testing::Values(5)),
                          case_name);
 INSTANTIATE_TEST_SUITE_P(PhotonMaps, MethodAgreement,
@@ -260,10 +261,10 @@ std::string method_name(const testing::TestParamInfo<MethodCase>& test) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, FullMethod, testing::ValuesIn(methods), method_name);
-INSTANTIATE_TEST_SUITE_P(Methods, FurnaceByMethod, testing::ValuesIn(methods, methods + photon_map),
+INSTANTIATE_TEST_SUITE_P(Methods, FurnaceByMethod, testing::ValuesIn(methods, methods + metropolis),
                          method_name);
-INSTANTIATE_TEST_SUITE_P(HeavyMethods, FurnaceByMethod, testing::Values(methods[photon_map]),
-                         method_name);
+INSTANTIATE_TEST_SUITE_P(HeavyMethods, FurnaceByMethod,
+                         testing::Values(methods[metropolis], methods[photon_map]), method_name);
 
 /// What light tracing and bidirectional path tracing need of a camera: directions that the film
 /// shows lead back to their pixel, and the importance is pixels per solid angle.

@@ -77,9 +77,10 @@ TEST_P(MethodErrorBar, CoversTheTrueError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MethodErrorBar,
-                         testing::Values(ReferenceKind::path, ReferenceKind::path_reuse,
-                                         ReferenceKind::light, ReferenceKind::bidirectional));
-INSTANTIATE_TEST_SUITE_P(HeavyMethods, MethodErrorBar, testing::Values(ReferenceKind::metropolis));
+                         testing::Values(ReferenceKind::path_reuse, ReferenceKind::light,
+                                         ReferenceKind::bidirectional));
+INSTANTIATE_TEST_SUITE_P(HeavyMethods, MethodErrorBar,
+                         testing::Values(ReferenceKind::path, ReferenceKind::metropolis));
 
 }  // namespace
 }  // namespace raybundle

@@ -68,7 +68,7 @@ class ReferenceTest : public testing::Test {
 
 /// Two references differ by what their noises say. Pixels of a tile differ together: twelve pairs
 /// of 20 tiles give the squared noise within some 7 %, so 20 % is outside of chance (fixed seeds).
-TEST_F(ReferenceTest, KnowsItsNoise) {
+TEST_F(ReferenceTest, HeavyKnowsItsNoise) {
     for (const PixelFilter filter : {PixelFilter::centre, PixelFilter::box}) {
         ReferenceNoise found;
         ReferenceNoise expected;  // relative_rmse: sums of squares
