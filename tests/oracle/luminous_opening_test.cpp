@@ -11,7 +11,7 @@
 #include "transport/solver.h"
 #include "view/viewer_image.h"
 
-namespace raybundle {
+namespace raybundle::luminous_opening_test {
 namespace {
 
 const glm::dvec3 up(0.0, 1.0, 0.0);
@@ -199,4 +199,4 @@ TEST(LightSlots, AddedOnesHaveRoomForQuarters) {
 }
 
 }  // namespace
-}  // namespace raybundle
+}  // namespace raybundle::luminous_opening_test

@@ -93,7 +93,7 @@ TEST(PunctualLight, PanelIsAnArea) {
         const SurfacePoint floor = tracing.scene.point_on_patch(0, {0.0, 0.5});
         const double exact = panel_illuminance(b.scene.punctual_lights[0], 0.6, 0.6,
                                                glm::dvec3(0.0), {0.0, 1.0, 0.0});
-        const Estimate found = irradiance_at(tracing.tracer, floor, 20'000);
+        const Estimate found = irradiance_at(tracing.tracer, floor, 40'000);
         EXPECT_NEAR(found.mean, exact, 4.5 * found.standard_error + 1e-3 * exact) << height;
         EXPECT_LT(found.standard_error, 3e-3 * exact) << height;
     }

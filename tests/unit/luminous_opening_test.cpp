@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/light/luminous_opening.h"
+#include "scene/photometry/luminous_opening.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/light/luminous_opening.h"
 #include "scene/photometry/ies_profile.h"
+#include "scene/photometry/luminous_opening.h"
 
 namespace raybundle {
 

@@ -2,11 +2,12 @@
 // Light of a luminaire's opening at a point: the mean over the opening of what its points bring, by Gauss-Legendre
 // quadrature of n x n points. Part of first_shot.glsl.
 //
-// What a point x of the opening brings is n.(x - p)/|x - p|^3 times its intensity. In powers of h/r, half the side over
-// the distance, the first is a sum of Gegenbauer polynomials C_k^(3/2), at most (k + 1)(k + 2)/2, and n points are exact
-// for k < 2n; of k = 2n they leave (2^n n!^2)^2 / ((2n + 1) (2n)!^2). So h/r may be up to 0.050, 0.248, 0.445, 0.610, 0.743
-// with 1 to 5 points along a side for an error of 0.5 % in the worst direction, the bound of the photometric tests. The
-// intensity varies, too: `reach` is h times how much steeper it is than a Lambert surface's.
+// What a point x of a Lambert surface brings to a parallel one is 1/|x - p|^4 times a constant. In powers of h/r, half the
+// side over the distance, that is a sum of Gegenbauer polynomials C_k^(2), at most (k + 1)(k + 2)(k + 3)/6, and n points
+// are exact for k < 2n; of k = 2n they leave (2^n n!^2)^2 / ((2n + 1) (2n)!^2). Summed over all k, in the worst direction
+// and for squares as for strips, h/r may be up to 0.0388, 0.1988, 0.3707, 0.483, 0.546 with 1 to 5 points along a side for
+// an error of 0.5 %, the bound of the photometric tests. `reach` is h times how much steeper the intensity is than a
+// Lambert surface's.
 
 /// (node, weight) in [0, 1] of 1, 2, ... 6 points.
 const vec2 gauss_points[21] = vec2[21](
@@ -22,7 +23,7 @@ const vec2 gauss_points[21] = vec2[21](
 
 /// Points along a side, by the square of r/reach.
 uint opening_order(float ratio) {
-    return 1u + uint(ratio < 400.0) + uint(ratio < 16.3) + uint(ratio < 5.04) + uint(ratio < 2.69) + uint(ratio < 1.81);
+    return 1u + uint(ratio < 666.0) + uint(ratio < 25.3) + uint(ratio < 7.28) + uint(ratio < 4.29) + uint(ratio < 3.36);
 }
 
 /// Where a point of [0, 1]^2 lies, along axis_x and axis_y from the light's position. quarter: of an ellipse.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/light/luminous_opening.h"
+#include "scene/photometry/luminous_opening.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,11 @@ int order_for(double ratio, double tolerance) {
     double rest = 1.0 / 3.0;  // of x^2n: (2^n n!^2)^2 / ((2n + 1) (2n)!^2), n = 1
     double power = ratio * ratio;
     int n = 1;
-    while (n < fewest || (n < most && rest * (2 * n + 1) * (n + 1) * power > tolerance)) {
+    // Once for each side: of the worst direction.
+    const auto bound = [&] {
+        return 2.0 * rest * (2 * n + 1) * (2 * n + 2) * (2 * n + 3) / 6.0 * power;
+    };
+    while (n < fewest || (n < most && bound() > tolerance)) {
         ++n;
         const double half = n / (2.0 * n - 1.0);  // 2 n²/((2n - 1) 2n)
         rest *= half * half * (2 * n - 1) / (2 * n + 1);
