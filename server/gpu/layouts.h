@@ -30,7 +30,7 @@ static_assert(sizeof(VertexData) == 32 && offsetof(VertexData, first_triangle) =
 static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(MaterialDetails) == MATERIAL_DETAILS_TEXELS * sizeof(vec4));
-static_assert(sizeof(PunctualData) == 176);
+static_assert(sizeof(PunctualData) == 192);
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);

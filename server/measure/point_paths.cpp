@@ -75,22 +75,58 @@ double PointPaths::fixed(const glm::dvec3& position, const Receiver& receiver) c
                     : 0.0;
             continue;
         }
-        const glm::dvec3 there = scene_.rays.from_world(light.position);
-        const glm::dvec3 offset = there - position;
-        const double square = glm::dot(offset, offset);
-        if (!(square > 0.0)) {
-            continue;
-        }
-        const glm::dvec3 direction = offset / std::sqrt(square);
-        const double brought = receiver.weight(direction) * left_between(position, there) /
-                               (square * scene_.rays.square_metres());
-        const glm::dvec3 intensity = light.towards(-direction);
-        if (brought > 0.0 && intensity != glm::dvec3(0.0)) {
-            sum += brought *
-                   luminance_of(intensity * share_through_panes(scene_.rays, position, there));
-        }
+        sum += light.has_opening() ? by_opening(light, position, receiver)
+                                   : by_point(light, light.position, position, receiver);
     }
     return sum;
+}
+
+/// What a light brings that shines from one place, of the world, alone.
+double PointPaths::by_point(const PlacedLight& light, const glm::dvec3& place,
+                            const glm::dvec3& position, const Receiver& receiver) const {
+    const glm::dvec3 there = scene_.rays.from_world(place);
+    const glm::dvec3 offset = there - position;
+    const double square = glm::dot(offset, offset);
+    if (!(square > 0.0)) {
+        return 0.0;
+    }
+    const glm::dvec3 direction = offset / std::sqrt(square);
+    const double brought = receiver.weight(direction) * left_between(position, there) /
+                           (square * scene_.rays.square_metres());
+    const glm::dvec3 intensity = light.towards(-direction);
+    if (!(brought > 0.0) || intensity == glm::dvec3(0.0)) {
+        return 0.0;
+    }
+    return brought * luminance_of(intensity * share_through_panes(scene_.rays, position, there));
+}
+
+/// The mean over the opening. Where a part of it brings nothing, by a Fibonacci lattice, which no
+/// edge of a shadow lies along.
+double PointPaths::by_opening(const PlacedLight& light, const glm::dvec3& position,
+                              const Receiver& receiver) const {
+    constexpr double tolerance = 1e-4;  // of the file's flux, too: IesProfile
+    const double distance = glm::distance(scene_.rays.from_world(light.position), position) *
+                            std::sqrt(scene_.rays.square_metres());
+    bool any = false;
+    bool all = true;
+    double sum = 0.0;
+    for (const OpeningPoint& point : opening_points(light.opening, distance, tolerance)) {
+        const double brought = by_point(light, light.point(point.u), position, receiver);
+        any = any || brought > 0.0;
+        all = all && brought > 0.0;
+        sum += point.weight * brought;
+    }
+    if (all || !any) {
+        return sum;
+    }
+    constexpr int count = 1597;  // Fibonacci's 17th number, and the one before
+    constexpr int step = 987;
+    sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec2 at = (glm::dvec2(i, (i * step) % count) + 0.5) / double{count};
+        sum += by_point(light, light.point(at), position, receiver);
+    }
+    return sum / count;
 }
 
 ArrivedLight PointPaths::sample(const glm::dvec3& position, const Receiver& receiver,

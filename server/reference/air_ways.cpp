@@ -118,7 +118,7 @@ glm::dvec3 AirWays::reaching(const PlacedLight& light, const glm::dvec3& at, con
                 : glm::dvec3(scene_.open_towards(glm::vec3(at), to_light) ? 1.0 : 0.0);
         return share * light.intensity * transmittance_to_sky(at, to_light);
     }
-    const glm::dvec3 there = scene_.from_world(light.position);
+    const glm::dvec3 there = scene_.from_world(light.point(u));
     const double distance = glm::distance(at, there);
     if (!(distance > 0.0)) {
         return glm::dvec3(0.0);
@@ -148,7 +148,7 @@ glm::dvec3 AirWays::punctual(const glm::dvec3& origin, const glm::dvec3& directi
     const Place place =
         light.kind == PunctualKind::directional
             ? place_by_extinction(way, u)
-            : place_towards(scene_.from_world(light.position), origin, direction, way, u);
+            : place_towards(scene_.from_world(light.point(in_light)), origin, direction, way, u);
     if (!(place.density > 0.0)) {
         return glm::dvec3(0.0);
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lit_room.h"
+#include "luminous_panel.h"
 #include "measure/daylight_scene.h"
 #include "measure/point_measurement.h"
 #include "measure/requirement.h"
@@ -135,6 +136,42 @@ TEST(MeasuredPoints, RectangleLightsCylinders) {
     expect_exact(
         measure_at(luminous_ceiling(), Quantity::semicylindrical, {0, 0.75, 0}, {1, 0, 0}, 400),
         rectangle_on_cylinder(1.0), 0.002);
+}
+
+/// A panel of 0.6 m x 0.6 m with a EULUMDAT file: the sum over its area, without noise.
+TEST(MeasuredPoints, PanelIsAnArea) {
+    for (const double height : {0.3, 1.0, 3.0}) {
+        SceneBuilder builder;
+        sized(builder).scene.punctual_lights.push_back(panel_light(
+            {{0.1F, 0.75F + static_cast<float>(height), 0}, {0, -1, 0}, 30.0F}, 0.6, 0.6));
+        const glm::dvec3 point(0.0, 0.75, 0.0);
+        const double exact =
+            panel_illuminance(builder.scene.punctual_lights[0], 0.6, 0.6, point, {0.0, 1.0, 0.0});
+        const Measured found = measure_at(builder, Quantity::horizontal, point, {}, 1);
+        EXPECT_NEAR(found.value, exact, 1.5e-3 * exact) << height;  // 1e-3 is the table's
+        EXPECT_LT(found.error, 1e-6 * exact);
+    }
+}
+
+/// The edge of a screen half way up: a Fibonacci lattice knows the share that is seen.
+TEST(MeasuredPoints, ScreenHidesAPartOfAPanel) {
+    SceneBuilder builder;
+    const auto black = sized(builder).add_material(glm::vec3(0.0F));
+    builder.add_quad({-4, 1.75F, -4}, {0, 0, 8}, {4, 0, 0}, 1, 1, black);
+    builder.scene.punctual_lights.push_back(
+        panel_light({{0, 2.75F, 0}, {0, -1, 0}, 10.0F}, 0.6, 0.6));
+    for (const double x : {-0.2, -0.05, 0.0, 0.1, 0.25}) {
+        const glm::dvec3 point(x, 0.75, 0.1);
+        const auto illuminance = [&](const auto& sees) {
+            return panel_illuminance(builder.scene.punctual_lights[0], 0.6, 0.6, point,
+                                     {0.0, 1.0, 0.0}, 400, sees);
+        };
+        const double free = illuminance([](const glm::dvec3&) { return true; });
+        const double exact =
+            illuminance([&](const glm::dvec3& place) { return 0.5 * (place.x + x) > 0.0; });
+        const Measured found = measure_at(builder, Quantity::horizontal, point, {}, 1, true);
+        EXPECT_NEAR(found.value, exact, 5e-3 * free) << x;
+    }
 }
 
 /// A black screen hides half of the rectangle: the difference of two of them.

@@ -22,6 +22,7 @@ using std::numbers::pi;
 constexpr double peak = 1600.0;  // cd, of panel.ies
 constexpr double flux = pi * peak;
 constexpr double panel_height = 2.75;
+constexpr double panel_size = 0.6;
 constexpr double plane_height = 0.75;
 constexpr double above_plane = panel_height - plane_height;
 
@@ -95,6 +96,28 @@ double by_inverse_square(const Room& room, const glm::dvec3& point, const Share&
     return sum;
 }
 
+/// The same of panels that shine from their area: the mean over its points.
+template <class Share>
+double by_area(const Room& room, const glm::dvec3& point, const Share& share) {
+    constexpr int n = 100;
+    double sum = 0.0;
+    for (int i = 0; i < n * n; ++i) {
+        const glm::dvec2 aside = panel_size * ((glm::dvec2(i % n, i / n) + 0.5) / double{n} - 0.5);
+        sum += by_inverse_square(room, point - glm::dvec3(aside.x, 0.0, aside.y), share);
+    }
+    return sum / (n * n);
+}
+
+/// Share of a panel's flux that falls on a rectangle whose corner is below it, of the sides a and b
+/// at the distance of the plane.
+double corner_share(double a, double b) {
+    const double A = a / above_plane;
+    const double B = b / above_plane;
+    const double p = std::sqrt(1.0 + A * A);
+    const double q = std::sqrt(1.0 + B * B);
+    return (A / p * std::atan(B / p) + B / q * std::atan(A / q)) / (2.0 * pi);
+}
+
 /// Straight lines over the table's steps of a degree lie below the cosine by at most 1/8 of their
 /// square; the table has six digits.
 void expect_direct(double found, double exact) {
@@ -108,11 +131,11 @@ void expect_direct_on_plane(const Room& room, const std::vector<glm::dvec2>& pla
     for (const glm::dvec2& at : places) {
         const glm::dvec3 point(at.x, plane_height, at.y);
         expect_direct(example.direct_at(Quantity::horizontal, {point, {}}),
-                      by_inverse_square(room, point, [](const glm::dvec3& w) { return w.y; }));
+                      by_area(room, point, [](const glm::dvec3& w) { return w.y; }));
     }
 }
 
-TEST(WorkedExamples, DirectLightInTheOfficeIsThatOfTheInverseSquare) {
+TEST(WorkedExamples, DirectLightInTheOfficeIsThatOfThePanelsArea) {
     expect_direct_on_plane(office(), {{3.0, 2.5}, {1.0, 1.25}, {0.5, 0.5}});
 }
 
@@ -123,42 +146,42 @@ TEST(WorkedExamples, ThePagesFormulaIsThatOfTheTest) {
                                   [](const glm::dvec3& w) { return w.y; }),
                 middle, 1e-9 * middle);
     EXPECT_NEAR(middle, 693.6, 0.05);
+    // Straight below one: pi L of a rectangle's four quarters, each above its corner.
+    const double luminance = peak / (panel_size * panel_size);
+    const double below = pi * luminance * 4.0 * corner_share(panel_size / 2, panel_size / 2);
+    EXPECT_NEAR(below, 388.4, 0.05);
 }
 
-TEST(WorkedExamples, DirectLightInTheClassroomIsThatOfTheInverseSquare) {
+TEST(WorkedExamples, DirectLightInTheClassroomIsThatOfThePanelsArea) {
     expect_direct_on_plane(classroom(), {{4.5, 3.0}, {3.0, 2.0}});
     const Example example("classroom");
     const glm::dvec3 board(0.05, 1.5, 3.0);
-    expect_direct(example.direct_at(Quantity::vertical, {board, {1.0, 0.0, 0.0}}),
-                  by_inverse_square(classroom(), board,
-                                    [](const glm::dvec3& w) { return std::max(w.x, 0.0); }));
+    expect_direct(
+        example.direct_at(Quantity::vertical, {board, {1.0, 0.0, 0.0}}),
+        by_area(classroom(), board, [](const glm::dvec3& w) { return std::max(w.x, 0.0); }));
     const glm::dvec3 seat(6.0, 1.2, 3.0);
     expect_direct(example.direct_at(Quantity::cylindrical, {seat, {}}),
-                  by_inverse_square(classroom(), seat, [](const glm::dvec3& w) {
-                      return std::sqrt(1.0 - w.y * w.y) / pi;
-                  }));
+                  by_area(classroom(), seat,
+                          [](const glm::dvec3& w) { return std::sqrt(1.0 - w.y * w.y) / pi; }));
 }
 
-/// Share of a panel's flux that falls on a rectangle whose corner is below it, of the sides a and b
-/// at the distance of the plane.
-double corner_share(double a, double b) {
-    const double A = a / above_plane;
-    const double B = b / above_plane;
-    const double p = std::sqrt(1.0 + A * A);
-    const double q = std::sqrt(1.0 + B * B);
-    return (A / p * std::atan(B / p) + B / q * std::atan(A / q)) / (2.0 * pi);
-}
-
-/// Of all panels' flux, what falls on the work plane: each sees four quarters of it, and each pair
-/// of distances occurs four times.
+/// Of all panels' flux, what falls on the work plane: each point of a panel sees four quarters of
+/// it.
 double direct_share(const Room& room) {
+    constexpr int n = 20;
     double sum = 0.0;
-    for (const double a : room.xs) {
-        for (const double b : room.zs) {
-            sum += corner_share(a, b);
+    for (const double x : room.xs) {
+        for (const double z : room.zs) {
+            for (int i = 0; i < n * n; ++i) {
+                const double a = x + panel_size * ((i % n + 0.5) / n - 0.5);
+                const double b = z + panel_size * ((i / n + 0.5) / n - 0.5);
+                sum += corner_share(a, b) + corner_share(room.length - a, b) +
+                       corner_share(a, room.width - b) +
+                       corner_share(room.length - a, room.width - b);
+            }
         }
     }
-    return 4.0 * sum / room.panels();
+    return sum / (n * n * room.panels());
 }
 
 /// Reflectance of the opening of a cavity, A (m²), whose bottom has `bottom` and whose sides, of

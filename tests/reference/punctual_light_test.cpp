@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lit_room.h"
+#include "luminous_panel.h"
 #include "research/single_ray.h"
 #include "rooms.h"
 
@@ -78,6 +79,24 @@ TEST(PunctualLight, WhatStandsInTheWayShades) {
                        glm::vec3(100.0F));
     EXPECT_EQ(illuminance(b, 0.95, 0.95), 0.0);
     EXPECT_GT(illuminance(b, 1.05, 0.0), 0.0);
+}
+
+/// A panel of 0.6 m x 0.6 m shines from all of it: paths draw its points. Bounds of 4.5 standard
+/// errors.
+TEST(PunctualLight, PanelIsAnArea) {
+    for (const float height : {0.3F, 1.0F, 3.0F}) {
+        SceneBuilder b;
+        b.add_quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, 1, 1, b.add_material(glm::vec3(0.0F)));
+        b.scene.punctual_lights.push_back(
+            panel_light({{0.1F, height, 0}, {0, -1, 0}, 30.0F}, 0.6, 0.6));
+        const Tracing tracing(b);
+        const SurfacePoint floor = tracing.scene.point_on_patch(0, {0.0, 0.5});
+        const double exact = panel_illuminance(b.scene.punctual_lights[0], 0.6, 0.6,
+                                               glm::dvec3(0.0), {0.0, 1.0, 0.0});
+        const Estimate found = irradiance_at(tracing.tracer, floor, 40'000);
+        EXPECT_NEAR(found.mean, exact, 4.5 * found.standard_error + 1e-3 * exact) << height;
+        EXPECT_LT(found.standard_error, 3e-3 * exact) << height;
+    }
 }
 
 /// Of lights that are chosen by what they bring no sample says more than all of them do together,

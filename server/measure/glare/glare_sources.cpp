@@ -177,29 +177,13 @@ class Look {
 
     /// By a point of its opening.
     void add_lamp(std::size_t batch, Sampler& sampler) {
-        const glm::dvec3 share =
-            share_through_panes(rays_, position_, source_.middle + opening_point(sampler));
+        const glm::dvec3 share = share_through_panes(
+            rays_, position_, rays_.from_world(source_.lamp->point(sampler.next_pair())));
         const double light = luminance(glm::vec3(brought_ * share));
         if (light > 0.0) {
             const double square = square_ * rays_.square_metres();
             note(batch, source_.middle - position_, area_ / square, light, area_);
         }
-    }
-
-    [[nodiscard]] glm::dvec3 opening_point(Sampler& sampler) const {
-        const glm::dvec2 u = sampler.next_pair();
-        if (!source_.lamp->profile) {
-            return glm::dvec3(0.0);
-        }
-        const IesProfile::Opening& opening = source_.lamp->profile->data().opening;
-        glm::dvec2 on = 2.0 * u - 1.0;
-        if (opening.round) {
-            const double angle = 2.0 * glm::pi<double>() * u.y;
-            on = std::sqrt(u.x) * glm::dvec2(std::cos(angle), std::sin(angle));
-        }
-        return (0.5 * opening.length * on.x * source_.lamp->axes[0] +
-                0.5 * opening.width * on.y * source_.lamp->axes[1]) /
-               std::sqrt(rays_.square_metres());
     }
 
     void note(std::size_t batch, const glm::dvec3& offset, double solid_angle, double illuminance,

@@ -122,14 +122,14 @@ void LightSampling::choose_punctual_lights(double emitted) {
     sky_probability_ *= 1.0 - punctual_probability_;
 }
 
-/// What a punctual light brings where nothing is in its way; at: where on the disc of a directional
-/// one.
+/// What a punctual light brings where nothing is in its way; at: where on its opening, or on the
+/// disc of a directional one.
 LightSampling::Arrival LightSampling::arrival(const SurfacePoint& from, const PlacedLight& light,
                                               const glm::dvec2& at) const {
     if (light.kind == PunctualKind::directional) {
         return {in_disc(-light.direction(), light.angular_radius, at), light.intensity};
     }
-    const glm::dvec3 offset = scene_.from_world(light.position) - from.position;
+    const glm::dvec3 offset = scene_.from_world(light.point(at)) - from.position;
     const double square = glm::dot(offset, offset);
     if (!(square > 0.0)) {
         return {};
@@ -184,7 +184,7 @@ std::optional<LightSample> LightSampling::sample_punctual(const SurfacePoint& fr
     result.direction = arriving.direction;
     result.radiance = arriving.illuminance;
     if (light.kind != PunctualKind::directional) {
-        result.origin = scene_.from_world(light.position);
+        result.origin = scene_.from_world(light.point(at));
     }
     return result;
 }
@@ -209,7 +209,7 @@ EmittedParticle LightSampling::emit_punctual(double choice, const glm::dvec2& at
     const double angle = 2.0 * pi * direction.x;
     particle.direction =
         Frame(light.direction()).to_world({r * std::cos(angle), r * std::sin(angle), z});
-    particle.origin = scene_.from_world(light.position);
+    particle.origin = scene_.from_world(light.point(at));
     particle.power =
         light.towards(particle.direction) * (solid_angle / (probability * scene_.square_metres()));
     return particle;

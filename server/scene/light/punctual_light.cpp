@@ -54,6 +54,12 @@ PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_
     placed.inner_cosine = light.inner_cosine;
     placed.outer_cosine = light.outer_cosine;
     placed.profile = light.profile;
+    placed.opening = opening_of(light.profile.get());
+    if (light.part != PunctualLight::whole) {
+        const OpeningPart part = part_of(placed.opening, static_cast<unsigned>(light.part));
+        placed.position += placed.axes[0] * part.seen_from.x + placed.axes[1] * part.seen_from.y;
+        placed.opening = part.opening;
+    }
     return placed;
 }
 
@@ -81,6 +87,20 @@ std::vector<PunctualLight> without_discs(std::span<const PunctualLight> lights) 
         }
     }
     return result;
+}
+
+std::vector<PunctualLight> in_parts(const PunctualLight& light) {
+    std::vector<PunctualLight> parts(LuminousOpening::parts, light);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i].part = static_cast<int>(i);
+        parts[i].intensity /= static_cast<float>(parts.size());
+    }
+    return parts;
+}
+
+glm::dvec3 PlacedLight::point(const glm::dvec2& u) const {
+    const glm::dvec2 aside = opening.at(u);
+    return position + axes[0] * aside.x + axes[1] * aside.y;
 }
 
 /// KHR_lights_punctual, "Inner and Outer Cone Angles".

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/photometry/ies_profile.h"
+#include "scene/photometry/luminous_opening.h"
 
 namespace raybundle {
 
@@ -42,13 +43,14 @@ struct AddedLuminaire {
     std::string group;
 };
 
-/// A light without extent (glTF's KHR_lights_punctual): no ray can hit it. It shines along -z of
-/// its axes. Photometric, without a cut-off: glTF's `range` is not physical, and tells of many
-/// lights only which to look at first.
+/// A light that no ray can hit (glTF's KHR_lights_punctual): a point, or the opening that its
+/// photometric file states. It shines along -z of its axes. Photometric, without a cut-off: glTF's
+/// `range` is not physical, and tells of many lights only which to look at first.
 struct PunctualLight {
     /// Each of so many keeps shadow maps; where there are more, rays look for all of them.
     static constexpr std::size_t most_mapped = 256;
     static constexpr int no_object = -1;
+    static constexpr int whole = -1;
 
     std::string name;
     PunctualKind kind = PunctualKind::point;
@@ -68,6 +70,8 @@ struct PunctualLight {
     float outer_cosine = 0.0F;    ///< spot: dark outside this one; below inner_cosine
     /// Of a point light: its intensity over direction, whose factor `intensity` is then.
     std::shared_ptr<const IesProfile> profile;
+    /// Which quarter of the profile's opening it is, 0 to 3, or `whole`: see in_parts().
+    int part = whole;
     std::string photometry;  ///< name of the file of its profile; empty: none, or not known
     /// What it was like before its photometry was exchanged; null: it has not been.
     std::shared_ptr<const PunctualLight> as_loaded;
@@ -91,13 +95,19 @@ float intensity_unit(const PunctualLight& light);
 /// A punctual light in the world.
 struct PlacedLight {
     PunctualKind kind = PunctualKind::point;
-    glm::dvec3 position{0.0};  ///< m
+    glm::dvec3 position{0.0};  ///< m; the middle of its opening, or of a part where it is seen from
     glm::dmat3 axes{1.0};      ///< orthonormal; it shines along -axes[2]
     glm::dvec3 intensity{0.0};
     double angular_radius = 0.0;
     double inner_cosine = 1.0, outer_cosine = 0.0;
     std::shared_ptr<const IesProfile> profile;
+    LuminousOpening opening;  ///< its intensity comes from there, evenly
 
+    [[nodiscard]] bool has_opening() const {
+        return opening.shape != LuminousOpening::Shape::point;
+    }
+    /// Draws points evenly over its opening; its position where it has none. u: in [0, 1]².
+    [[nodiscard]] glm::dvec3 point(const glm::dvec2& u) const;
     [[nodiscard]] glm::dvec3 direction() const { return -axes[2]; }
     /// Directional: lx; else cd, towards a unit direction away from the light.
     [[nodiscard]] glm::dvec3 towards(const glm::dvec3& direction) const;
@@ -112,5 +122,8 @@ PlacedLight place_light(const PunctualLight& light, const glm::mat4& world_from_
 
 /// The same light by lights without a disc: one that has a disc becomes eight, spread over it.
 std::vector<PunctualLight> without_discs(std::span<const PunctualLight> lights);
+
+/// The same light by the four quarters of its opening.
+std::vector<PunctualLight> in_parts(const PunctualLight& light);
 
 }  // namespace raybundle

@@ -51,7 +51,9 @@ double IesProfile::Opening::projected_area(const glm::dvec3& direction) const {
     return plate + across_x * width + across_y * length;
 }
 
-IesProfile::IesProfile(Data data) : data_(std::move(data)), flux_(integrate()) {}
+IesProfile::IesProfile(Data data) : data_(std::move(data)) {
+    integrate();
+}
 
 /// Horizontal angle among those of the file, by the symmetry that they imply.
 double IesProfile::folded(double horizontal) const {
@@ -109,22 +111,39 @@ double IesProfile::candela(const glm::dvec3& direction) const {
 
 /// Midpoint rule over degrees from pole to pole and 2.5 degrees round it, where most tables have
 /// their angles: within 1e-4.
-double IesProfile::integrate() const {
+void IesProfile::integrate() {
     constexpr int rows = 180;
     constexpr int columns = 144;
     const double step = glm::pi<double>() / rows;
+    const double turn = glm::two_pi<double>() / columns;
+    std::vector<double> above(columns, 0.0);
     double sum = 0.0;
+    double squares = 0.0;
+    double slopes = 0.0;
+    // Squares of slopes; beside a zero the table ends, or goes on by less than a step.
+    const auto slope = [](double a, double b, double width) {
+        return a > 0.0 && b > 0.0 ? (a - b) * (a - b) / (width * width) : 0.0;
+    };
     for (int row = 0; row < rows; ++row) {
         const double theta = (row + 0.5) * step;
-        double ring = 0.0;
+        const double sine = std::sin(theta);
+        std::vector<double> ring(columns);
         for (int column = 0; column < columns; ++column) {
-            const double phi = glm::two_pi<double>() * (column + 0.5) / columns;
-            ring += candela({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                             -std::cos(theta)});
+            const double phi = turn * (column + 0.5);
+            ring[static_cast<std::size_t>(column)] =
+                candela({sine * std::cos(phi), sine * std::sin(phi), -std::cos(theta)});
         }
-        sum += std::sin(theta) * ring;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const double next = ring[(i + 1) % ring.size()];
+            sum += sine * ring[i];
+            squares += sine * ring[i] * ring[i];
+            slopes += sine * (slope(ring[i], above[i], step) + slope(ring[i], next, turn * sine));
+        }
+        above = ring;
     }
-    return sum * step * glm::two_pi<double>() / columns;
+    flux_ = sum * step * turn;
+    // Of a Lambert surface the slopes' squares, sin², have the mean 2 cos².
+    steepness_ = squares > 0.0 ? std::max(std::sqrt(0.5 * slopes / squares), 1.0) : 1.0;
 }
 
 }  // namespace raybundle

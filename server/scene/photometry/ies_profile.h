@@ -51,16 +51,20 @@ class IesProfile {
     [[nodiscard]] double candela(const glm::dvec3& direction) const;
     /// Of all directions, lm.
     [[nodiscard]] double flux() const { return flux_; }
+    /// How many times as steep over direction, root mean square, as that of a Lambert surface; at
+    /// least 1. Where a table ends does not count.
+    [[nodiscard]] double steepness() const { return steepness_; }
     [[nodiscard]] const Data& data() const { return data_; }
     void add_note(std::string note) { data_.notes.push_back(std::move(note)); }
 
   private:
     [[nodiscard]] double at(double vertical, double horizontal) const;
     [[nodiscard]] double folded(double horizontal) const;
-    [[nodiscard]] double integrate() const;
+    void integrate();
 
     Data data_;
     double flux_ = 0.0;
+    double steepness_ = 1.0;
 };
 
 /// Parses the bytes of an IES file; `file` is its name for errors. Throws SceneError with the line

@@ -353,16 +353,21 @@ struct Reflectance {
 #define PUNCTUAL_SPOT 1u
 #define PUNCTUAL_DIRECTIONAL 2u
 #define NO_PROFILE 0xffffffffu
+#define OPENING_POINT 0u  // the order of LuminousOpening::Shape
+#define OPENING_RECTANGLE 1u
+#define OPENING_ELLIPSE 2u
+#define OPENING_QUARTER 3u
 
 // A punctual light in the shifted world, see scene/light/punctual_light.h.
 struct PunctualData {
     vec4 position;   // w: half width of its map: tangent, or m (directional)
     vec4 axis_x;     // of its map; w: cosine of the inner cone
     vec4 axis_y;     // w: cosine of the outer cone
-    vec4 axis_z;     // opposite to its direction
+    vec4 axis_z;     // opposite to its direction; w: reach of its opening, m
     vec4 intensity;  // cd or lx, in radiance units
     uvec4 map;       // first layer; layers: 1, or 6 of a cube; PUNCTUAL_*; texels along an edge
-    uvec4 profile;   // x: IES profile, or NO_PROFILE; y: 1: part of the sky, which view rays show
+    uvec4 profile;   // x: IES profile, or NO_PROFILE; y: 1: part of the sky, which view rays show; z: OPENING_*
+    vec4 opening;    // along axis_x and axis_y: its middle from `position`, half its sizes; see LuminousOpening
     uvec4 touched[3];  // of each layer: first and last texel that a change reaches, 16 bits for each coordinate
     vec4 touched_cone;  // round all of them: axis; w: cosine of half its angle, below -1: everything
 };

@@ -17,7 +17,5 @@ layout(std430, binding = BINDING_LAMP_CELLS) readonly buffer LampCellBuffer { ui
 /// Irradiance of a point by a lamp that reaches it.
 vec3 lamp_irradiance(uint k, vec3 position, vec3 normal, out vec3 w_in) {
     vec3 to_light;
-    vec3 arriving = facing_illuminance(punctual[k], position, to_light);
-    w_in = normalize(to_light);
-    return arriving * max(dot(normal, w_in), 0.0);
+    return unhindered_irradiance(punctual[k], position, normal, to_light, w_in);
 }

@@ -48,8 +48,8 @@ vec3 propose_punctual(uint patch_id, vec3 normal, out LightSource source) {
 #ifdef MANY_LAMPS  // those that reach no patch of the cell are not among the drawn ones
     uvec2 drawn = lamp_proposals[lamp_cells[patch_id] * LAMP_SLOTS + min(uint(u.z * float(LAMP_SLOTS)), LAMP_SLOTS - 1u)];
     uint k = drawn.x;
-    vec3 arriving = facing_illuminance(punctual[k], point, w_in) * uintBitsToFloat(drawn.y);
-    arriving *= max(dot(normal, normalize(w_in)), 0.0);
+    vec3 to_light;
+    vec3 arriving = unhindered_irradiance(punctual[k], point, normal, to_light, w_in) * uintBitsToFloat(drawn.y);
 #else
     uint k = min(uint(u.z * float(punctual_count)), punctual_count - 1u);
     vec3 arriving = punctual_irradiance(k, point, normal, normal, NO_HIT, w_in) * float(punctual_count);

@@ -169,17 +169,34 @@ vec3 facing_illuminance(PunctualData light, vec3 position, out vec3 to_light) {
     return light.intensity.rgb * (share * share / square);
 }
 
+#ifdef IES
+#include "opening.glsl"
+#endif
+
+/// Irradiance (radiance units) of a surface of this normal by a light at a point, without obstacles. to_light: to
+/// where shadows are cast from; w_in: the same, of length 1.
+vec3 unhindered_irradiance(PunctualData light, vec3 position, vec3 normal, out vec3 to_light, out vec3 w_in) {
+#ifdef IES
+    if (light.profile.z != OPENING_POINT) {
+        to_light = light.position.xyz - position;
+        w_in = normalize(to_light);
+        return dot(normal, w_in) > 0.0 ? opening_irradiance(light, position, normal) : vec3(0.0);
+    }
+#endif
+    vec3 arriving = facing_illuminance(light, position, to_light);
+    w_in = normalize(to_light);
+    return arriving * max(dot(normal, w_in), 0.0);
+}
+
 /// Irradiance (radiance units) of a point of a facet by light k; w_in: unit direction that it comes from.
 /// normal: whose cosine counts; geometric: of the facet's lit side.
 vec3 punctual_irradiance(uint k, vec3 position, vec3 normal, vec3 geometric, uint own_facet, out vec3 w_in) {
     PunctualData light = punctual[k];
     vec3 to_light;
-    vec3 arriving = facing_illuminance(light, position, to_light);
-    w_in = normalize(to_light);
-    float cosine = dot(normal, w_in);
-    bool faces = cosine > 0.0 && dot(geometric, w_in) > 0.0 && arriving != vec3(0.0);
+    vec3 arriving = unhindered_irradiance(light, position, normal, to_light, w_in);
+    bool faces = dot(normal, w_in) > 0.0 && dot(geometric, w_in) > 0.0 && arriving != vec3(0.0);
     if (!faces || !is_lit(light, position, to_light, own_facet)) {
         return vec3(0.0);
     }
-    return arriving * cosine;
+    return arriving;
 }

@@ -7,6 +7,11 @@
 
 namespace raybundle {
 
+static_assert(static_cast<unsigned>(LuminousOpening::Shape::point) == OPENING_POINT &&
+              static_cast<unsigned>(LuminousOpening::Shape::rectangle) == OPENING_RECTANGLE &&
+              static_cast<unsigned>(LuminousOpening::Shape::ellipse) == OPENING_ELLIPSE &&
+              static_cast<unsigned>(LuminousOpening::Shape::quarter) == OPENING_QUARTER);
+
 IesProfiles profiles_of(std::span<const PunctualLight> lights) {
     IesProfiles profiles;
     for (const PunctualLight& light : lights) {
@@ -40,11 +45,12 @@ std::vector<layout::PunctualData> placed_lights(const GpuScene& scene,
                                     : glm::vec4(glm::vec3(placed.position), margin * tangent);
         data.axis_x = glm::vec4(glm::vec3(placed.axes[0]), light.inner_cosine);
         data.axis_y = glm::vec4(glm::vec3(placed.axes[1]), light.outer_cosine);
-        data.axis_z = glm::vec4(glm::vec3(placed.axes[2]), 0.0F);
+        data.axis_z = glm::vec4(glm::vec3(placed.axes[2]), placed.opening.reach());
         data.intensity = glm::vec4(glm::vec3(placed.intensity) / scene.radiance_unit(), 0.0F);
         data.map = {0U, 0U, static_cast<unsigned>(light.kind), 0U};
         data.profile = {light.profile ? number.at(light.profile.get()) : NO_PROFILE,
-                        light.of_sky ? 1U : 0U, 0U, 0U};
+                        light.of_sky ? 1U : 0U, static_cast<unsigned>(placed.opening.shape), 0U};
+        data.opening = glm::vec4(placed.opening.middle, placed.opening.half);
         result.push_back(data);
     }
     return result;

@@ -57,6 +57,19 @@ std::vector<glm::mat4> shifted_matrices(const Scene& scene) {
     return matrices;
 }
 
+/// Side of a square patch of mean size, m.
+double patch_length(const Scene& scene, const PatchMesh& mesh) {
+    double area = 0.0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::mat3 m(scene.objects[mesh.vertex_object[t.x]].world_from_object());
+        area += 0.5 * static_cast<double>(
+                          glm::length(glm::cross(m * (mesh.positions[t.y] - mesh.positions[t.x]),
+                                                 m * (mesh.positions[t.z] - mesh.positions[t.x]))));
+    }
+    return std::sqrt(area /
+                     static_cast<double>(std::max<std::size_t>(mesh.front_patch_count(), 1)));
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radiance, bool caustics)
@@ -75,7 +88,7 @@ GpuScene::GpuScene(const Scene& scene, const PatchMesh& mesh, bool constant_radi
       has_sky_(raybundle::has_sky(scene)),
       sky_(sky_of(scene)),
       sky_before_(sky_),
-      light_slots_(scene),
+      light_slots_(scene, patch_length(scene, mesh)),
       reflectance_(scene),
       world_positions_("world positions", 2 * mesh.positions.size() * sizeof(glm::vec4)),
       facets_(mesh, world_positions_),

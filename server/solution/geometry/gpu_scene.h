@@ -135,7 +135,7 @@ class GpuScene {
     [[nodiscard]] bool openings_changed() const { return openings_changed_; }
     /// The lights without extent and the sky as they are now. Requires covers_lights().
     void update_lights(const Scene& scene);
-    /// A light with a disc is several without; see LightSlots.
+    /// A light with a disc or a large opening is several; see LightSlots.
     [[nodiscard]] const std::vector<PunctualLight>& punctual_lights() const {
         return light_slots_.lights();
     }

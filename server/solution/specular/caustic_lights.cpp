@@ -236,7 +236,7 @@ std::optional<LightRay> CausticLights::from_point(const PlacedLight& light, doub
                                                   const Numbers& numbers) const {
     LightRay ray;
     ray.punctual = true;
-    ray.origin = glm::vec3(light.position);
+    ray.origin = glm::vec3(light.point({numbers[1], numbers[2]}));
     const Aim aimed = aim(ray.origin, nullptr, numbers);
     if (aimed.density <= 0.0F) {
         return std::nullopt;

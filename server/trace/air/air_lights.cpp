@@ -66,6 +66,10 @@ AirLight AirLights::choose(AirRandom& random) const {
     light.punctual = &punctual_[at - emitters_.size()];
     light.distant = light.punctual->kind == PunctualKind::directional;
     light.position = glm::vec3(light.punctual->position);
+    if (light.punctual->has_opening()) {
+        const double along = random.next();
+        light.position = glm::vec3(light.punctual->point({along, random.next()}));
+    }
     light.direction = light.distant ? glm::vec3(-light.punctual->direction()) : glm::vec3(0.0F);
     return light;
 }
