@@ -400,7 +400,7 @@ Appended RedisLog::append_note(const StreamEntry& entry) {
     }
 }
 
-Appended RedisLog::keep(NoteKind kind, std::uint32_t number, const std::string& body) {
+Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
     if (const auto reason = outage()) {
         throw JournalError(*reason);
     }
@@ -429,12 +429,8 @@ Appended RedisLog::keep(NoteKind kind, std::uint32_t number, const std::string& 
     throw JournalError("not reached");
 }
 
-Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
-    return keep(kind, number, body);
-}
-
 void RedisLog::drop_note(NoteKind kind, std::uint32_t number) {
-    static_cast<void>(keep(kind, number, {}));
+    static_cast<void>(keep_note(kind, number, {}));
     dropped_.insert({kind, number});
 }
 

@@ -86,7 +86,6 @@ class RedisLog final : public ProjectLog {
     void read_now();
     [[nodiscard]] Appended add(const StreamEntry& entry, bool again);
     [[nodiscard]] Appended append_note(const StreamEntry& entry);
-    [[nodiscard]] Appended keep(NoteKind kind, std::uint32_t number, const std::string& body);
     [[nodiscard]] bool overtaken(const StreamEntry& note) const;
     [[nodiscard]] bool arrived(const StreamEntry& entry) const;
     void keep_snapshot();
