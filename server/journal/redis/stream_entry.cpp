@@ -122,4 +122,13 @@ std::vector<StreamEntry> parse_entries(const RedisReply& reply) {
     return entries;
 }
 
+std::vector<StreamEntry> entries_read(const RedisReply& reply) {
+    const bool some = !reply.list.empty() && reply.list[0].list.size() == 2;
+    return some ? parse_entries(reply.list[0].list[1]) : std::vector<StreamEntry>();
+}
+
+bool is_conflict(const RedisRefusal& refusal) {
+    return std::string_view(refusal.what()).find("equal or smaller") != std::string_view::npos;
+}
+
 }  // namespace raybundle

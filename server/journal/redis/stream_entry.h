@@ -39,5 +39,9 @@ struct StreamEntry {
 std::vector<std::string> words_of(const StreamEntry& entry);
 /// Entries as XRANGE gives them; what has no ID is left out.
 std::vector<StreamEntry> parse_entries(const RedisReply& reply);
+/// Those that XREAD of one stream gives.
+std::vector<StreamEntry> entries_read(const RedisReply& reply);
+/// XADD's answer to an ID that is not above the last one.
+bool is_conflict(const RedisRefusal& refusal);
 
 }  // namespace raybundle
