@@ -33,6 +33,7 @@ JournalChoice::JournalChoice(const Options& options)
             host, port, of_environment("RAYBUNDLE_REDIS_USER", options.serve.redis_user),
             of_environment("RAYBUNDLE_REDIS_PASSWORD", options.serve.redis_password)};
         redis_->project = options.serve.project;
+        redis_->replicas = static_cast<std::uint32_t>(options.serve.redis_wait);
         return;
     }
     if (options.serve.journal.empty()) {

@@ -117,6 +117,7 @@ struct NetworkOptions {
 struct ServeOptions {
     std::string journal;  ///< file, "none", or empty: one of the user's folder
     std::string redis;    ///< HOST:PORT, in place of a journal; empty: none
+    int redis_wait = 0;   ///< replicas that must have each change
     std::string project;  ///< its name there; empty: by the scene file
     /// From the configuration file or the environment only.
     std::string redis_user, redis_password;

@@ -144,6 +144,9 @@ constexpr std::array serve_table{
         "HOST:PORT of a Redis that keeps changes and pins for several servers of one project, "
         "in place of a journal",
         field<&Options::serve, &ServeOptions::redis>(), 0, 0, redis_problem},
+    OptionRow{"redisWait",
+              "Replicas of it that must have a change before it is acknowledged (WAIT)",
+              field<&Options::serve, &ServeOptions::redis_wait>(), 0, 100},
     OptionRow{"project", "Name of the project in Redis (default: by the scene file)",
               field<&Options::serve, &ServeOptions::project>(), 0, 0, project_problem},
     OptionRow{"watch", "Read the scene again when its file is replaced",

@@ -275,6 +275,41 @@ TEST_F(RedisLogTest, TheBeginningIsForgottenAndTheStateStays) {
     EXPECT_EQ(log.past().size(), 4U);
 }
 
+/// Until Redis' replicas are so many.
+void wait_for_replicas(const RedisServer& server, std::int64_t count) {
+    while (server.command({"WAIT", "1", "20"}).number != count) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+}
+
+TEST(RedisReplicas, AChangeIsAcknowledgedOnceSoManyHaveIt) {
+    const RedisServer master({"--repl-diskless-sync-delay", "0"});
+    RedisLogSettings settings;
+    settings.address = master.address();
+    settings.project = "office";
+    settings.scene_digest = "abc";
+    settings.timeout_ms = 500;
+    settings.replicas = 1;
+    RedisLog log(settings);
+    EXPECT_THROW(static_cast<void>(log.append(light_of(1, 5.0F), {}, {})), JournalError);
+    EXPECT_THROW(static_cast<void>(log.keep_note(NoteKind::pin, 1, "glare")), JournalError);
+    EXPECT_EQ(master.command({"XLEN", "raybundle:{office}:log"}).number, 0)
+        << "what is refused for want of replicas is not made";
+    const RedisServer replica({"--replicaof", "127.0.0.1", std::to_string(master.address().port)});
+    wait_for_replicas(master, 1);
+    const auto length = [&replica] {
+        return replica.command({"XLEN", "raybundle:{office}:log"}).number;
+    };
+    EXPECT_EQ(log.append(light_of(1, 5.0F), {}, {}), Appended::yes);
+    EXPECT_EQ(length(), 1);
+    EXPECT_EQ(log.keep_note(NoteKind::pin, 1, "glare"), Appended::yes);
+    EXPECT_EQ(length(), 2);
+    replica.freeze();
+    EXPECT_THROW(static_cast<void>(log.append(light_of(2, 6.0F), {}, {})), JournalError);
+    replica.thaw();
+    EXPECT_EQ(entries_of(log, 1)[0].change.epoch(), 2U) << "the log has it";
+}
+
 TEST(RedisAccess, APasswordComesFromTheSettingsAndIsInNoMessage) {
     const RedisServer server({"--requirepass", "open sesame"});
     RedisLogSettings settings;

@@ -239,6 +239,30 @@ RedisConnection& RedisLog::writer() {
     return *writer_;
 }
 
+/// Waits until so many replicas as wanted have all that the writer has added. Throws JournalError
+/// where they have it not in time: it is in the log, comes back by take_entries(), and is to be
+/// refused all the same.
+void RedisLog::await_replicas() {
+    if (settings_.replicas == 0) {
+        return;
+    }
+    const RedisReply reply = writer().command(
+        {"WAIT", std::to_string(settings_.replicas), std::to_string(settings_.timeout_ms / 2)});
+    if (reply.number < std::int64_t{settings_.replicas}) {
+        throw JournalError("of Redis at " + settings_.address.text() + " " +
+                           std::to_string(reply.number) + " replicas answer, and " +
+                           std::to_string(settings_.replicas) + " are to have each change");
+    }
+}
+
+/// An entry was written by a connection that is gone. WAIT asks for what its own connection has
+/// written: something that comes behind the entry and changes nothing.
+void RedisLog::note_write() {
+    if (settings_.replicas > 0) {
+        writer().command({"HINCRBY", numbers_key_, "0", "0"});
+    }
+}
+
 void RedisLog::read_now() {
     std::string from;
     {
@@ -256,6 +280,7 @@ Appended RedisLog::add(const StreamEntry& entry, bool again) {
     if (again) {
         const auto there = parse_entries(writer().command({"XRANGE", stream_, id, id}));
         if (!there.empty() && there[0].worker == worker_ && there[0].request == entry.request) {
+            note_write();
             return Appended::yes;
         }
     }
@@ -295,8 +320,10 @@ Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged
     entry.before = before;
     for (const bool again : {false, true}) {
         try {
+            await_replicas();  // if they are away, nothing is written
             const Appended result = add(entry, again);
             if (result == Appended::yes) {
+                await_replicas();
                 done_.insert(entry.request);
                 epoch_ = change.epoch();
             }

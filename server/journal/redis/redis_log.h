@@ -31,12 +31,15 @@ struct RedisLogSettings {
     /// meanwhile, as while a journal's file is busy.
     int timeout_ms = 1000;
     int retry_ms = 200;  ///< from an outage to the next look whether it is over
+    /// Of Redis, that must have an entry before it is acknowledged; 0: the master alone.
+    std::uint32_t replicas = 0;
 };
 
 /// The log of a project that several servers share: a stream of Redis. A change's ID is its epoch,
 /// and Redis takes growing IDs only, so that adding is compare and set: who comes second has a
 /// conflict, reads on and tries again. A change that append() has returned `yes` of is as durable
-/// as Redis is set up to be (appendonly yes, appendfsync always). Another thread follows the
+/// as Redis is set up to be (appendonly yes, appendfsync always), and so many replicas have it as
+/// the settings want. Another thread follows the
 /// stream. While Redis is away nothing can be appended; what others have added comes once it is
 /// back.
 class RedisLog final : public ProjectLog {
@@ -86,6 +89,8 @@ class RedisLog final : public ProjectLog {
     void read_now();
     [[nodiscard]] Appended add(const StreamEntry& entry, bool again);
     [[nodiscard]] Appended append_note(const StreamEntry& entry);
+    void note_write();
+    void await_replicas();
     [[nodiscard]] bool overtaken(const StreamEntry& note) const;
     [[nodiscard]] bool arrived(const StreamEntry& entry) const;
     void keep_snapshot();

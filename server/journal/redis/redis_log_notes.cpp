@@ -68,6 +68,7 @@ Appended RedisLog::append_note(const StreamEntry& entry) {
             last = cursor_;
         }
         if (arrived(entry)) {
+            note_write();
             return Appended::yes;
         }
         if (!forgets && overtaken(entry)) {
@@ -99,8 +100,10 @@ Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::str
     entry.entry.body = body;
     for (const bool again : {false, true}) {
         try {
+            await_replicas();
             const Appended result = append_note(entry);
             if (result == Appended::yes) {
+                await_replicas();
                 done_.insert(entry.request);
             }
             return result;
