@@ -42,6 +42,7 @@ struct LogEntry {
     std::uint32_t number = 0;
     std::string body;              ///< of the note; empty: it is gone
     std::vector<RequestKey> keys;  ///< of the requests for the change
+    std::string traceparent;       ///< of the trace that the change is part of (W3C); empty: none
 };
 
 /// A change that somebody may ask for again.
@@ -85,12 +86,14 @@ class ProjectLog {
     [[nodiscard]] virtual std::vector<v1::SceneChanged> past() = 0;
 
     /// Adds a change, whose epoch must be one more than that of the last change known, and what its
-    /// subject was like before. What it has returned `yes` of survives the process and the machine.
+    /// subject was like before. traceparent: what other servers go on with; empty: nothing. What it
+    /// has returned `yes` of survives the process and the machine.
     /// Throws JournalError: the change is not in the log, or, where the connection broke meanwhile,
     /// comes back by take_entries().
     [[nodiscard]] virtual Appended append(const v1::SceneChanged& change,
                                           const v1::SceneChanged& before,
-                                          const std::vector<RequestKey>& keys) = 0;
+                                          const std::vector<RequestKey>& keys,
+                                          const std::string& traceparent) = 0;
 
     /// What other servers have added, in order; empty where there are no others.
     [[nodiscard]] virtual std::vector<LogEntry> take_entries() { return {}; }

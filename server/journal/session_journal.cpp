@@ -218,7 +218,8 @@ std::vector<KeyedChange> SessionJournal::keyed() {
 }
 
 Appended SessionJournal::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                                const std::vector<RequestKey>& keys) {
+                                const std::vector<RequestKey>& keys,
+                                const std::string& /*traceparent*/) {
     try {
         const std::int64_t subject = subject_of(change).second;
         SqliteTransaction transaction(*database_);

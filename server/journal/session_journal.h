@@ -42,7 +42,8 @@ class SessionJournal final : public ProjectLog {
     /// Without `before` nobody can go back beyond this change after a restart. Always `yes`; where
     /// it throws, nothing is written, and a later attempt may succeed.
     Appended append(const v1::SceneChanged& change, const v1::SceneChanged& before = {},
-                    const std::vector<RequestKey>& keys = {}) override;
+                    const std::vector<RequestKey>& keys = {},
+                    const std::string& traceparent = {}) override;
     /// most_past at most.
     [[nodiscard]] std::vector<v1::SceneChanged> past() override;
     /// The last most_request_keys of the last most_past changes.

@@ -38,8 +38,8 @@ struct SessionServices {
     SnapshotQueue snapshot_queue;
     SnapshotService snapshots;
     LightingService lighting;
-    AnimationService animations;
     ChangeTraces traces;
+    AnimationService animations;
     ChangeCoordinator changes;
     ErrorService errors;
     SolverDriver solver;

@@ -54,13 +54,15 @@ class RedisLogTest : public testing::Test {
 TEST_F(RedisLogTest, AChangeOfOneArrivesAtTheOther) {
     RedisLog one(settings());
     RedisLog other(settings());
-    EXPECT_EQ(one.append(light_of(1, 5.0F), light_of(0, 9.0F), {{"key"}}), Appended::yes);
+    EXPECT_EQ(one.append(light_of(1, 5.0F), light_of(0, 9.0F), {{"key"}}, "00-trace"),
+              Appended::yes);
     const auto entries = entries_of(other, 1);
     EXPECT_EQ(entries[0].change.epoch(), 1U);
     EXPECT_EQ(entries[0].change.set_light().intensity(), 5.0F);
     ASSERT_EQ(entries[0].keys.size(), 1U);
     EXPECT_EQ(entries[0].keys[0].text, "key");
     EXPECT_TRUE(entries[0].keys[0].complete());
+    EXPECT_EQ(entries[0].traceparent, "00-trace");
     EXPECT_EQ(other.append(light_of(2, 6.0F), {}, {}), Appended::yes);
     EXPECT_EQ(entries_of(one, 1)[0].change.epoch(), 2U) << "its own change does not come back";
 }

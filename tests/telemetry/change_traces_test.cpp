@@ -128,5 +128,37 @@ TEST(ChangeTraces, WaitForNoFrameForEver) {
     EXPECT_EQ(names(sink.spans()), "change setLight, inbox, special phase");
 }
 
+TEST(ChangeTraces, GoOnWithThatOfTheServerThatMadeTheChange) {
+    CollectedSpans here;
+    CollectedSpans there;
+    const ChangeTraces asked(&here, "room");
+    const ChangeTraces following(&there, "room");
+    PendingChange made;
+    EXPECT_EQ(traceparent_of(made), "");
+    made.traces = {asked.begin(dim(1))};
+    LogEntry entry;
+    entry.change.mutable_set_light()->set_light(1);
+    EXPECT_EQ(following.begin(entry), nullptr) << "the other server keeps no trace";
+    entry.traceparent = traceparent_of(made);
+    ChangeQueue queue;
+    queue.add_recorded(entry, following.begin(entry));
+    end_stage(queue.take(), "queue");
+    made.traces.clear();
+    ASSERT_EQ(names(there.spans()), "follow setLight, queue");
+    ASSERT_FALSE(here.spans().empty());
+    EXPECT_EQ(there.spans()[0].trace, here.spans()[0].trace);
+    EXPECT_EQ(there.spans()[0].parent, here.spans()[0].id);
+}
+
+TEST(ChangeTraces, OfWhatPlaysFollowTheFirstChange) {
+    CollectedSpans sink;
+    const ChangeTraces traces(&sink, "room");
+    ChangeQueue queue;
+    queue.add_steps(std::vector<v1::SceneChanged>(2), traces.begin(dim(1)));
+    EXPECT_EQ(queue.take().traces.size(), 1U);
+    EXPECT_TRUE(queue.take().traces.empty());
+    EXPECT_EQ(sink.spans().size(), 2U) << "the request, and its time in the inbox";
+}
+
 }  // namespace
 }  // namespace raybundle

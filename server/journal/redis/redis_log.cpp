@@ -306,7 +306,7 @@ Appended RedisLog::add(const StreamEntry& entry, bool again) {
 }
 
 Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                          const std::vector<RequestKey>& keys) {
+                          const std::vector<RequestKey>& keys, const std::string& traceparent) {
     if (const auto reason = outage()) {
         throw JournalError(*reason);
     }
@@ -317,6 +317,7 @@ Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged
     entry.is_change = true;
     entry.entry.change = change;
     entry.entry.keys = keys;
+    entry.entry.traceparent = traceparent;
     entry.before = before;
     for (const bool again : {false, true}) {
         try {

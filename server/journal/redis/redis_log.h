@@ -56,7 +56,8 @@ class RedisLog final : public ProjectLog {
     [[nodiscard]] std::vector<v1::SceneChanged> past() override { return past_; }
     [[nodiscard]] std::vector<KeyedChange> keyed() override { return keyed_; }
     [[nodiscard]] Appended append(const v1::SceneChanged& change, const v1::SceneChanged& before,
-                                  const std::vector<RequestKey>& keys) override;
+                                  const std::vector<RequestKey>& keys,
+                                  const std::string& traceparent = {}) override;
     [[nodiscard]] std::vector<LogEntry> take_entries() override;
 
     [[nodiscard]] std::uint32_t new_number(NoteKind kind, std::uint32_t free) override;

@@ -54,6 +54,8 @@ void read_field(const std::string& name, const std::string& value, StreamEntry& 
         parse_number(value, entry.request);
     } else if (name == "keys") {
         entry.entry.keys = split_keys(value);
+    } else if (name == "traceparent") {
+        entry.entry.traceparent = value;
     } else if (name == "change") {
         entry.is_change = true;
         if (!entry.entry.change.ParseFromString(value)) {
@@ -101,6 +103,9 @@ std::vector<std::string> words_of(const StreamEntry& entry) {
                                entry.before.SerializeAsString()});
     if (!keys.empty()) {
         words.insert(words.end(), {"keys", keys});
+    }
+    if (!entry.entry.traceparent.empty()) {
+        words.insert(words.end(), {"traceparent", entry.entry.traceparent});
     }
     return words;
 }

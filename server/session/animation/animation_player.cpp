@@ -166,6 +166,10 @@ std::vector<std::size_t> AnimationPlayer::make_way(const v1::SceneChanged& chang
     return paused;
 }
 
+bool AnimationPlayer::playing() const {
+    return std::any_of(states_.begin(), states_.end(), [](const State& s) { return s.playing; });
+}
+
 std::vector<std::size_t> AnimationPlayer::stop_all() {
     std::vector<std::size_t> stopped;
     for (std::size_t i = 0; i < states_.size(); ++i) {

@@ -45,6 +45,8 @@ class AnimationPlayer {
     /// longest: to the last place of one that does not play any more, else only while `watched`.
     /// Empty: all are there.
     std::vector<v1::SceneChanged> step(bool watched);
+    /// Whether any of them plays.
+    [[nodiscard]] bool playing() const;
     /// Animations that have come to their end since the last call.
     std::vector<std::size_t> take_ended() { return std::exchange(ended_, {}); }
 

@@ -28,11 +28,17 @@ void AnimationService::tell(const std::vector<std::size_t>& animations, std::uin
 
 HandlerResult AnimationService::play(ViewerSession& session, const ClientEvent& event) {
     const v1::PlayAnimation& request = event.message.play_animation();
+    std::shared_ptr<Trace> trace = parts_.traces.begin(event);
+    const TraceScope scope(trace.get());
     const v1::Error problem = player_.problem_of(request);
     if (problem.code() != v1::Error::CODE_UNSPECIFIED) {
+        if (trace) {
+            trace->fail(problem.message());
+        }
         parts_.server.reply_error(event, problem.code(), problem.message());
         return HandlerResult::answered;
     }
+    trace_ = std::move(trace);
     const std::vector<std::size_t> changed = player_.play(request, event.viewer, session.name());
     const v1::ServerMessage message = message_of(changed.front(), event.viewer);
     parts_.server.reply(event, message);
@@ -44,6 +50,9 @@ HandlerResult AnimationService::play(ViewerSession& session, const ClientEvent& 
 std::vector<v1::SceneChanged> AnimationService::step() {
     std::vector<v1::SceneChanged> changes = player_.step(!parts_.viewers.empty());
     tell(player_.take_ended(), 0);
+    if (changes.empty() && !player_.playing()) {
+        trace_.reset();  // it has changed nothing
+    }
     return changes;
 }
 

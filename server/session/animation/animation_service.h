@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "net/server.h"
 #include "session/animation/animation_player.h"
+#include "session/changes/change_traces.h"
 #include "session/handler_result.h"
 #include "session/live_scene.h"
 #include "session/viewers/viewer_session.h"
@@ -19,8 +22,9 @@ namespace raybundle {
 class AnimationService {
   public:
     struct Parts {
-        const LiveScene& scene;
+        LiveScene& scene;
         const Viewers& viewers;
+        const ChangeTraces& traces;
         Server& server;
     };
     AnimationService(const Parts& parts, const Clock& clock);
@@ -29,6 +33,8 @@ class AnimationService {
 
     /// What is to be changed next; see AnimationPlayer::step().
     std::vector<v1::SceneChanged> step();
+    /// That of the request whose first changes step() has given; null where nobody wants it.
+    [[nodiscard]] std::shared_ptr<Trace> take_trace() { return std::exchange(trace_, nullptr); }
     /// A change of step() gets this number.
     void number(v1::SceneChanged& change, std::uint32_t epoch) const {
         player_.number(change, epoch);
@@ -54,6 +60,7 @@ class AnimationService {
 
     Parts parts_;
     AnimationPlayer player_;
+    std::shared_ptr<Trace> trace_;  ///< of the request whose changes are to come
 };
 
 }  // namespace raybundle

@@ -96,7 +96,8 @@ void ChangeCoordinator::start_pending() {
         return;
     }
     if (!queue_.has_steps()) {
-        queue_.add_steps(parts_.animations.step());
+        const std::vector<v1::SceneChanged> steps = parts_.animations.step();
+        queue_.add_steps(steps, steps.empty() ? nullptr : parts_.animations.take_trace());
     }
     if (fades_are_next()) {
         step_fades();

@@ -51,7 +51,10 @@ class ChangeCoordinator {
     HandlerResult request(ViewerSession& session, const ClientEvent& event);
 
     /// A change that another server of the project has made and recorded: its turn is next.
-    void follow(LogEntry entry) { queue_.add_recorded(std::move(entry)); }
+    void follow(LogEntry entry) {
+        std::shared_ptr<Trace> trace = parts_.traces.begin(entry);
+        queue_.add_recorded(std::move(entry), std::move(trace));
+    }
 
     /// Makes the change that waits longest, a step of what plays among them, with those right
     /// behind it that one special phase can work in: lights and materials, or some moved objects.

@@ -286,14 +286,14 @@ v1::Error ChangeLog::refusal(const std::string& text) const {
 }
 
 Recorded ChangeLog::record(v1::SceneChanged& change, const v1::SceneChanged& before,
-                           const std::vector<RequestKey>& keys) {
+                           const std::vector<RequestKey>& keys, const std::string& traceparent) {
     change.set_epoch(epoch_ + 1);
     if (!usable()) {
         return Recorded::no;
     }
     try {
-        if (journal_ &&
-            journal_->append(change, signed_state(before, change), keys) == Appended::conflict) {
+        if (journal_ && journal_->append(change, signed_state(before, change), keys, traceparent) ==
+                            Appended::conflict) {
             return Recorded::later;
         }
     } catch (const JournalError& error) {

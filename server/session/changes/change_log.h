@@ -61,9 +61,10 @@ class ChangeLog {
     void restore(Scene& scene, PatchMesh& mesh);
 
     /// Numbers the change and stores it, with what its subject is like before it, who makes it
-    /// when, and the keys of the requests for it.
+    /// when, the keys of the requests for it, and the trace that other servers go on with.
     [[nodiscard]] Recorded record(v1::SceneChanged& change, const v1::SceneChanged& before,
-                                  const std::vector<RequestKey>& keys = {});
+                                  const std::vector<RequestKey>& keys = {},
+                                  const std::string& traceparent = {});
     /// What other servers of the project have added, in order.
     [[nodiscard]] std::vector<LogEntry> take_entries();
     /// Takes up the next change that is in the log already, of another server. False: it is not

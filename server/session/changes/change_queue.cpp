@@ -117,10 +117,13 @@ std::deque<PendingChange>::iterator ChangeQueue::behind_recorded() {
                         [](const PendingChange& pending) { return !pending.recorded; });
 }
 
-void ChangeQueue::add_recorded(LogEntry entry) {
+void ChangeQueue::add_recorded(LogEntry entry, std::shared_ptr<Trace> trace) {
     PendingChange pending{std::move(entry.change), {}};
     pending.recorded = true;
     pending.keys = std::move(entry.keys);
+    if (trace) {
+        pending.traces.push_back(std::move(trace));
+    }
     pending_.insert(behind_recorded(), std::move(pending));
 }
 
@@ -132,9 +135,13 @@ void ChangeQueue::put_back(std::vector<PendingChange> changes) {
                     std::make_move_iterator(changes.end()));
 }
 
-void ChangeQueue::add_steps(const std::vector<v1::SceneChanged>& changes) {
+void ChangeQueue::add_steps(const std::vector<v1::SceneChanged>& changes,
+                            std::shared_ptr<Trace> trace) {
     for (const v1::SceneChanged& change : changes) {
         pending_.push_back({change, {}, false});
+        if (trace) {
+            pending_.back().traces.push_back(std::exchange(trace, nullptr));
+        }
     }
 }
 

@@ -48,11 +48,13 @@ class ChangeQueue {
     void add_expanded(const std::vector<v1::SceneChanged>& changes, const PendingChange& request,
                       std::uint32_t made = 0, bool fresh = false);
     /// A change that another server has made: behind those of the kind, before all others.
-    void add_recorded(LogEntry entry);
+    void add_recorded(LogEntry entry, std::shared_ptr<Trace> trace = nullptr);
     /// Puts changes back whose turn has not come after all, in order, behind recorded ones.
     void put_back(std::vector<PendingChange> changes);
-    /// Changes that an animation makes, behind all others.
-    void add_steps(const std::vector<v1::SceneChanged>& changes);
+    /// Changes that an animation makes, behind all others. trace: of the request that has it
+    /// played, which the first of them is part of.
+    void add_steps(const std::vector<v1::SceneChanged>& changes,
+                   std::shared_ptr<Trace> trace = nullptr);
     [[nodiscard]] bool has_steps() const;
     /// The change that requests ask for, once it is known which that is; answered by it.
     void put_first(PendingChange pending);

@@ -187,7 +187,8 @@ Recorded ChangeRecorder::number(PendingChange& pending, const v1::SceneChanged& 
     if (played) {
         parts_.animations.number(pending.change, log.epoch() + 1);
     }
-    const Recorded recorded = log.record(pending.change, before, keys_of(pending));
+    const Recorded recorded =
+        log.record(pending.change, before, keys_of(pending), traceparent_of(pending));
     if (recorded == Recorded::no) {
         some_failed_ = true;
         fail(pending.traces, not_saved);

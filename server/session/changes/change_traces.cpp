@@ -25,6 +25,20 @@ std::shared_ptr<Trace> ChangeTraces::begin(const ClientEvent& request) const {
     return trace;
 }
 
+std::shared_ptr<Trace> ChangeTraces::begin(const LogEntry& followed) const {
+    const auto parent = parse_traceparent(followed.traceparent);
+    if (sink_ == nullptr || !parent || !parent->sampled) {
+        return nullptr;
+    }
+    const auto* const field = v1::SceneChanged::descriptor()->FindFieldByNumber(
+        static_cast<int>(followed.change.change_case()));
+    const std::string kind = field == nullptr ? "change" : field->json_name();
+    auto trace = std::make_shared<Trace>(*sink_, "follow " + kind, parent, Clock::now());
+    trace->set("raybundle.change", kind);
+    trace->set("raybundle.scene", scene_);
+    return trace;
+}
+
 void ChangeTraces::begin_phase(const PendingChange& change) {
     in_phase_.insert(in_phase_.end(), change.traces.begin(), change.traces.end());
 }
@@ -94,6 +108,10 @@ void fail(const std::vector<std::shared_ptr<Trace>>& traces, const std::string& 
     for (const std::shared_ptr<Trace>& trace : traces) {
         trace->fail(reason);
     }
+}
+
+std::string traceparent_of(const PendingChange& change) {
+    return change.traces.empty() ? std::string() : traceparent_of(change.traces.front()->context());
 }
 
 TraceScope scope_of(const PendingChange& change) {

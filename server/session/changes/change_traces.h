@@ -21,7 +21,9 @@ namespace raybundle {
 
 /// Follows each change that a viewer asks for, from its message to the first frames that show it:
 /// a trace with the stages inbox, queue, record, apply and special phase, then a frame for each
-/// viewer. Where nobody wants traces there are none, and every call returns at once.
+/// viewer. What plays is followed to the first frames of it, and a change of another server from
+/// when it has come, as part of the trace there. Where nobody wants traces there are none, and
+/// every call returns at once.
 class ChangeTraces {
   public:
     using Clock = Trace::Clock;
@@ -34,6 +36,8 @@ class ChangeTraces {
 
     /// The trace of a request that has come out of the inbox; null where there is to be none.
     [[nodiscard]] std::shared_ptr<Trace> begin(const ClientEvent& request) const;
+    /// The trace of a change that another server has made; null where that one keeps none.
+    [[nodiscard]] std::shared_ptr<Trace> begin(const LogEntry& followed) const;
 
     /// The special phase of a change begins.
     void begin_phase(const PendingChange& change);
@@ -65,6 +69,8 @@ class ChangeTraces {
 void end_stage(const PendingChange& change, const std::string& name);
 /// What they tell of has failed.
 void fail(const std::vector<std::shared_ptr<Trace>>& traces, const std::string& reason);
+/// What other servers go on with; empty where there is no trace.
+[[nodiscard]] std::string traceparent_of(const PendingChange& change);
 /// What is logged belongs to the first of them.
 [[nodiscard]] TraceScope scope_of(const PendingChange& change);
 
