@@ -23,7 +23,8 @@ enum class NoteKind : std::uint8_t {
     target = 3,
     lighting_scene = 4,
     zone = 140,
-    requirements = 141
+    requirements = 141,
+    played = 180  ///< by number of the animation: its last request with a key
 };
 
 /// By what a request is known again that has been answered.
@@ -41,7 +42,7 @@ struct LogEntry {
     NoteKind kind = NoteKind::pin;
     std::uint32_t number = 0;
     std::string body;              ///< of the note; empty: it is gone
-    std::vector<RequestKey> keys;  ///< of the requests for the change
+    std::vector<RequestKey> keys;  ///< of the requests for it
     std::string traceparent;       ///< of the trace that the change is part of (W3C); empty: none
 };
 
@@ -50,6 +51,13 @@ struct KeyedChange {
     v1::SceneChanged change;
     v1::SceneChanged before;  ///< as append() had it; unset: not known any more
     std::vector<RequestKey> keys;
+};
+
+/// A note that somebody may ask for again.
+struct KeyedNote {
+    std::string key;  ///< ClientMessage.request_key
+    NoteKind kind = NoteKind::pin;
+    std::uint32_t number = 0;  ///< which may be gone meanwhile
 };
 
 /// What another server of the project tells and nobody keeps.
@@ -104,11 +112,15 @@ class ProjectLog {
     /// A number that no note of that kind has, on any server; `free` is one that this one knows
     /// none of. Throws JournalError.
     [[nodiscard]] virtual std::uint32_t new_number(NoteKind kind, std::uint32_t free) = 0;
-    /// Keeps a note, in place of an earlier one of its number. Survives as a change does.
-    /// `conflict`: another server has kept or forgotten it meanwhile, which is in what
-    /// take_entries() gives next; nothing is written then. Throws JournalError: likewise.
+    /// Keeps a note, in place of an earlier one of its number. Survives as a change does. key: of
+    /// the request for it; empty: none. `conflict`: another server has kept or forgotten it
+    /// meanwhile, or kept what the key asks for, which is in what take_entries() gives next;
+    /// nothing is written then. Throws JournalError: likewise.
     [[nodiscard]] virtual Appended keep_note(NoteKind kind, std::uint32_t number,
-                                             const std::string& body) = 0;
+                                             const std::string& body, const std::string& key) = 0;
+    /// Notes of before the log was opened that had a key, newest last, as far as they are known.
+    /// Throws JournalError.
+    [[nodiscard]] virtual std::vector<KeyedNote> keyed_notes() = 0;
     /// Forgets a note, whatever others have kept meanwhile; no error where there is none.
     virtual void drop_note(NoteKind kind, std::uint32_t number) = 0;
     /// Bodies of all notes of a kind, by number. Throws JournalError.

@@ -50,7 +50,11 @@ void create_key_tables(SqliteDatabase& database) {
         "CREATE INDEX IF NOT EXISTS request_key_epoch ON request_key(session, epoch);"
         // body: serialised SceneChanged
         "CREATE TABLE IF NOT EXISTS keyed(session INTEGER NOT NULL REFERENCES session(id),"
-        " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID");
+        " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID;"
+        // position: counts up
+        "CREATE TABLE IF NOT EXISTS note_key(position INTEGER PRIMARY KEY,"
+        " session INTEGER NOT NULL REFERENCES session(id), text TEXT NOT NULL,"
+        " kind INTEGER NOT NULL, number INTEGER NOT NULL, UNIQUE(session, text))");
 }
 
 void keep_keys(SqliteDatabase& database, std::int64_t session, const v1::SceneChanged& change,
@@ -91,6 +95,32 @@ std::vector<KeyedChange> keyed_changes(SqliteDatabase& database, std::int64_t se
         result.back().keys.push_back({select.bytes(1),
                                       static_cast<std::uint32_t>(select.integer(2)),
                                       static_cast<std::uint32_t>(select.integer(3))});
+    }
+    return result;
+}
+
+void keep_note_key(SqliteDatabase& database, std::int64_t session, const KeyedNote& note) {
+    auto insert = database.prepare(
+        "INSERT OR REPLACE INTO note_key(session, text, kind, number) VALUES(?, ?, ?, ?)");
+    insert.bind(1, session);
+    insert.bind(2, note.key);
+    insert.bind(3, static_cast<std::int64_t>(note.kind));
+    insert.bind(4, std::int64_t{note.number});
+    insert.run();
+    auto most = database.prepare(
+        "DELETE FROM note_key WHERE position<=(SELECT max(position) FROM note_key)-?");
+    most.bind(1, std::int64_t{most_request_keys});
+    most.run();
+}
+
+std::vector<KeyedNote> keyed_notes(SqliteDatabase& database, std::int64_t session) {
+    auto select = database.prepare(
+        "SELECT text, kind, number FROM note_key WHERE session=? ORDER BY position");
+    select.bind(1, session);
+    std::vector<KeyedNote> result;
+    while (select.step()) {
+        result.push_back({std::string(select.bytes(0)), static_cast<NoteKind>(select.integer(1)),
+                          static_cast<std::uint32_t>(select.integer(2))});
     }
     return result;
 }

@@ -24,4 +24,11 @@ void keep_keys(SqliteDatabase& database, std::int64_t session, const v1::SceneCh
 /// its epoch only. Throws SqliteError.
 std::vector<KeyedChange> keyed_changes(SqliteDatabase& database, std::int64_t session);
 
+/// Keeps the key of the request for a note, as part of the transaction that keeps the note. Throws
+/// SqliteError.
+void keep_note_key(SqliteDatabase& database, std::int64_t session, const KeyedNote& note);
+
+/// Newest last. Throws SqliteError.
+std::vector<KeyedNote> keyed_notes(SqliteDatabase& database, std::int64_t session);
+
 }  // namespace raybundle

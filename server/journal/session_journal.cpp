@@ -282,14 +282,28 @@ std::string SessionJournal::remembered_scene(const std::string& file,
     }
 }
 
-Appended SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+std::vector<KeyedNote> SessionJournal::keyed_notes() {
     try {
+        return raybundle::keyed_notes(*database_, session_);
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+Appended SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                                   const std::string& key) {
+    try {
+        SqliteTransaction transaction(*database_);
         auto insert = database_->prepare("INSERT OR REPLACE INTO note VALUES(?, ?, ?, ?)");
         insert.bind(1, session_);
         insert.bind(2, static_cast<std::int64_t>(kind));
         insert.bind(3, std::int64_t{number});
         insert.bind_blob(4, body);
         insert.run();
+        if (!key.empty()) {
+            keep_note_key(*database_, session_, {key, kind, number});
+        }
+        transaction.commit();
         return Appended::yes;
     } catch (const SqliteError& error) {
         throw JournalError(file_ + ": " + error.what());

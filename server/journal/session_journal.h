@@ -52,8 +52,10 @@ class SessionJournal final : public ProjectLog {
     [[nodiscard]] std::uint32_t new_number(NoteKind /*kind*/, std::uint32_t free) override {
         return free;
     }
-    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number,
-                                     const std::string& body) override;
+    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                                     const std::string& key = {}) override;
+    /// The last most_request_keys.
+    [[nodiscard]] std::vector<KeyedNote> keyed_notes() override;
     void drop_note(NoteKind kind, std::uint32_t number) override;
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind) override;
 

@@ -175,6 +175,21 @@ TEST_F(RedisLogTest, ANoteThatHasBeenForgottenStaysSo) {
     EXPECT_TRUE(RedisLog(settings()).notes(NoteKind::pin).empty());
 }
 
+TEST_F(RedisLogTest, WhatHasLeftANoteUnderAKeyLeavesNoSecondOne) {
+    RedisLog one(settings());
+    RedisLog other(settings());
+    ASSERT_EQ(one.keep_note(NoteKind::pin, 1, "glare", "a-1"), Appended::yes);
+    EXPECT_EQ(other.keep_note(NoteKind::pin, 2, "glare", "a-1"), Appended::conflict);
+    const auto entries = entries_of(other, 1);
+    EXPECT_EQ(entries[0].number, 1U);
+    ASSERT_EQ(entries[0].keys.size(), 1U);
+    EXPECT_EQ(entries[0].keys[0].text, "a-1");
+    RedisLog later(settings());
+    ASSERT_EQ(later.keyed_notes().size(), 1U);
+    EXPECT_EQ(later.keyed_notes()[0].key, "a-1");
+    EXPECT_EQ(later.keyed_notes()[0].number, 1U);
+}
+
 TEST_F(RedisLogTest, AProjectHasOneScene) {
     const RedisLog log(settings());
     RedisLogSettings wrong = settings();

@@ -146,6 +146,15 @@ TEST_F(Animations, StandWhereTheyStoodAfterARestart) {
     begin();
     ASSERT_TRUE(play("door", {{"seconds", 1.5}}).contains("animationChanged"));
     step_of(*viewer_, door_, true);
+    Json pin = {{"requestKey", "pin-1"},
+                {"addPin", {{"text", "glare"}, {"position", {{"x", 0}, {"y", 0}, {"z", 0}}}}}};
+    Json saved = {{"requestKey", "scene-1"}, {"saveLightingScene", {{"name", "evening"}}}};
+    Json played = {{"requestKey", "play-1"},
+                   {"playAnimation", {{"animation", "handle"}, {"seconds", 0.5}}}};
+    const Json number = viewer_->request(pin).at("pinChanged").at("pin");
+    ASSERT_TRUE(viewer_->request(saved).contains("lightingSceneChanged"));
+    ASSERT_TRUE(viewer_->request(played).contains("animationChanged"));
+    EXPECT_EQ(viewer_->request(pin).at("pinChanged").at("pin"), number);
     restart();
     EXPECT_NEAR(turn_now(), 75.0, 1e-3);
     EXPECT_EQ(named(scene_.at("animations"), "door").at("state").at("seconds"), 1.5);
@@ -159,6 +168,16 @@ TEST_F(Animations, StandWhereTheyStoodAfterARestart) {
         named(scene_now().at("objects"), "handle").at("transform").at("translation");
     EXPECT_NE(at, closed);
     EXPECT_NEAR(turn_now(), 0.0, 1e-3);
+    // What is asked for again is not done again.
+    EXPECT_EQ(viewer_->request(pin).at("pinChanged").at("pin"), number);
+    EXPECT_TRUE(viewer_->request({{"removePin", {{"pin", number}}}}).contains("pinChanged"));
+    EXPECT_TRUE(viewer_->request(pin).at("pinChanged").at("removed").get<bool>());
+    EXPECT_TRUE(viewer_->request({{"removeLightingScene", {{"name", "evening"}}}})
+                    .contains("lightingSceneChanged"));
+    EXPECT_TRUE(viewer_->request(saved).at("lightingSceneChanged").at("removed").get<bool>());
+    EXPECT_TRUE(scene_now().at("lightingScenes").empty());
+    ASSERT_TRUE(play("handle", {{"seconds", 0.25}}).contains("animationChanged"));
+    EXPECT_EQ(viewer_->request(played).at("animationChanged").at("state").at("seconds"), 0.25);
 }
 
 TEST_F(Animations, AHandTakesWhatPlays) {

@@ -256,7 +256,7 @@ TEST_F(SessionJournalTest, AChangeThatCannotBeReadIsLostAlone) {
 }
 
 TEST_F(SessionJournalTest, AFullDiskIsAnErrorAndChangesNothing) {
-    settings_.max_bytes = 14 * 4096;
+    settings_.max_bytes = 16 * 4096;  // its tables and indices alone take a page each
     SessionJournal journal(settings_);
     std::uint32_t epoch = 0;
     bool full = false;
@@ -358,6 +358,23 @@ TEST_F(SessionJournalTest, KeepsNotesUntilTheyAreDropped) {
     journal.drop_note(NoteKind::pin, 99);
     EXPECT_EQ(journal.notes(NoteKind::pin).size(), 1U);
     EXPECT_EQ(journal.notes(NoteKind::viewpoint), std::vector<std::string>{"from the door"});
+}
+
+TEST_F(SessionJournalTest, KnowsWhichRequestsHaveLeftNotes) {
+    {
+        SessionJournal journal(settings_);
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 1, "glare", "a"), Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::viewpoint, 1, "from the door"), Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 1, "glare, 3 %", "b"), Appended::yes);
+        journal.drop_note(NoteKind::pin, 1);
+    }
+    SessionJournal journal(settings_);
+    const auto keyed = journal.keyed_notes();
+    ASSERT_EQ(keyed.size(), 2U);
+    EXPECT_EQ(keyed[0].key, "a");
+    EXPECT_EQ(keyed[1].key, "b");
+    EXPECT_EQ(keyed[1].kind, NoteKind::pin);
+    EXPECT_EQ(keyed[1].number, 1U) << "also of one that is gone";
 }
 
 TEST_F(SessionJournalTest, NotesOfAnotherSceneAreNotThisOnes) {

@@ -82,6 +82,9 @@ void RedisLog::load(RedisConnection& connection) {
         for (const StreamEntry& entry : page) {
             state_.apply(entry);
             if (!entry.is_change) {
+                for (const RequestKey& key : entry.entry.keys) {
+                    keyed_notes_.push_back({key.text, entry.entry.kind, entry.entry.number});
+                }
                 continue;
             }
             const bool known = entry.before.change_case() != v1::SceneChanged::CHANGE_NOT_SET;
@@ -103,6 +106,7 @@ void RedisLog::load(RedisConnection& connection) {
     };
     shorten(past_, settings_.most_past);
     shorten(keyed_, keyed_changes);
+    shorten(keyed_notes_, keyed_changes);
 }
 
 /// Why the log in Redis does not go on where this server is: it was emptied, or its beginning is

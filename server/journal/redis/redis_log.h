@@ -61,8 +61,9 @@ class RedisLog final : public ProjectLog {
     [[nodiscard]] std::vector<LogEntry> take_entries() override;
 
     [[nodiscard]] std::uint32_t new_number(NoteKind kind, std::uint32_t free) override;
-    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number,
-                                     const std::string& body) override;
+    [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                                     const std::string& key = {}) override;
+    [[nodiscard]] std::vector<KeyedNote> keyed_notes() override { return keyed_notes_; }
     void drop_note(NoteKind kind, std::uint32_t number) override;
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind) override {
         return state_.notes(kind);
@@ -107,6 +108,7 @@ class RedisLog final : public ProjectLog {
     LogState state_;
     std::vector<v1::SceneChanged> past_;
     std::vector<KeyedChange> keyed_;
+    std::vector<KeyedNote> keyed_notes_;
     std::unique_ptr<RedisConnection> writer_;
 
     mutable std::mutex mutex_;

@@ -33,12 +33,16 @@ std::uint32_t RedisLog::new_number(NoteKind kind, std::uint32_t free) {
     }
 }
 
-/// Whether another server has kept or forgotten a note, which whoever asks has not taken yet.
+/// Whether another server has kept or forgotten a note, or somebody has kept what its key asks for,
+/// which whoever asks has not taken yet.
 bool RedisLog::overtaken(const StreamEntry& note) const {
     const std::lock_guard lock(mutex_);
     return std::any_of(received_.begin(), received_.end(), [&](const StreamEntry& entry) {
-        return !entry.is_change && entry.worker != worker_ && entry.entry.kind == note.entry.kind &&
-               entry.entry.number == note.entry.number;
+        const bool same = entry.worker != worker_ && entry.entry.kind == note.entry.kind &&
+                          entry.entry.number == note.entry.number;
+        const bool asked = !note.entry.keys.empty() && !entry.entry.keys.empty() &&
+                           entry.entry.keys[0].text == note.entry.keys[0].text;
+        return !entry.is_change && (same || asked);
     });
 }
 
@@ -88,7 +92,8 @@ Appended RedisLog::append_note(const StreamEntry& entry) {
     }
 }
 
-Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                             const std::string& key) {
     if (const auto reason = outage()) {
         throw JournalError(*reason);
     }
@@ -98,6 +103,9 @@ Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::str
     entry.entry.kind = kind;
     entry.entry.number = number;
     entry.entry.body = body;
+    if (!key.empty()) {
+        entry.entry.keys.push_back({key});
+    }
     for (const bool again : {false, true}) {
         try {
             await_replicas();

@@ -89,18 +89,18 @@ std::optional<StreamId> parse_stream_id(const std::string& text) {
 std::vector<std::string> words_of(const StreamEntry& entry) {
     std::vector<std::string> words{"worker", entry.worker, "request",
                                    std::to_string(entry.request)};
-    if (!entry.is_change) {
+    if (entry.is_change) {
+        words.insert(words.end(), {"change", entry.entry.change.SerializeAsString(), "before",
+                                   entry.before.SerializeAsString()});
+    } else {
         words.insert(words.end(),
                      {"kind", std::to_string(static_cast<unsigned>(entry.entry.kind)), "number",
                       std::to_string(entry.entry.number), "body", entry.entry.body});
-        return words;
     }
     std::string keys;
     for (const RequestKey& key : entry.entry.keys) {
         keys += (keys.empty() ? "" : std::string(1, key_separator)) + text_of(key);
     }
-    words.insert(words.end(), {"change", entry.entry.change.SerializeAsString(), "before",
-                               entry.before.SerializeAsString()});
     if (!keys.empty()) {
         words.insert(words.end(), {"keys", keys});
     }

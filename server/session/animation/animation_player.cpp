@@ -73,6 +73,10 @@ v1::Error AnimationPlayer::problem_of(const v1::PlayAnimation& request) const {
     return problem;
 }
 
+std::size_t AnimationPlayer::index_of(const v1::PlayAnimation& request) const {
+    return find_animation(scene_, request.animation());
+}
+
 /// Where an animation is by now.
 double AnimationPlayer::place_of(std::size_t index, bool& ended) const {
     const State& state = states_[index];
@@ -115,7 +119,7 @@ void AnimationPlayer::begin_run(std::size_t index, std::uint32_t by, const std::
 
 std::vector<std::size_t> AnimationPlayer::play(const v1::PlayAnimation& request, std::uint32_t by,
                                                const std::string& by_name) {
-    const std::size_t index = find_animation(scene_, request.animation());
+    const std::size_t index = index_of(request);
     State& state = states_[index];
     begin_run(index, by, by_name);
     settle(index);

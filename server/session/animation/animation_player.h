@@ -27,6 +27,9 @@ class AnimationPlayer {
     /// Why a request cannot be met; an unset code where it can.
     [[nodiscard]] v1::Error problem_of(const v1::PlayAnimation& request) const;
 
+    /// Of the animation that a request without problem names.
+    [[nodiscard]] std::size_t index_of(const v1::PlayAnimation& request) const;
+
     /// Meets a request without problem of a viewer. Returns the animations whose state has changed:
     /// the one that is asked for, and those that it pauses, since they move the same.
     std::vector<std::size_t> play(const v1::PlayAnimation& request, std::uint32_t by,

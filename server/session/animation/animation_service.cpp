@@ -26,6 +26,28 @@ void AnimationService::tell(const std::vector<std::size_t>& animations, std::uin
     }
 }
 
+/// Keeps the key of a request, and answers it where that is not new or cannot be kept. False: it is
+/// to be carried out.
+bool AnimationService::answer_kept(const ClientEvent& event) {
+    if (!event.message.has_request_key()) {
+        return false;
+    }
+    ChangeLog& log = parts_.scene.log();
+    const std::size_t animation = player_.index_of(event.message.play_animation());
+    if (log.kept(event.message.request_key()) != nullptr) {
+        parts_.server.reply(event, message_of(animation, event.viewer));
+        return true;
+    }
+    const std::string body = event.message.play_animation().SerializeAsString();
+    if (log.keep_note(NoteKind::played, static_cast<std::uint32_t>(animation) + 1, body,
+                      event.message.request_key())) {
+        return false;
+    }
+    const v1::Error refusal = log.refusal("the animation's request could not be saved");
+    parts_.server.reply_error(event, refusal.code(), refusal.message());
+    return true;
+}
+
 HandlerResult AnimationService::play(ViewerSession& session, const ClientEvent& event) {
     const v1::PlayAnimation& request = event.message.play_animation();
     std::shared_ptr<Trace> trace = parts_.traces.begin(event);
@@ -36,6 +58,9 @@ HandlerResult AnimationService::play(ViewerSession& session, const ClientEvent& 
             trace->fail(problem.message());
         }
         parts_.server.reply_error(event, problem.code(), problem.message());
+        return HandlerResult::answered;
+    }
+    if (answer_kept(event)) {
         return HandlerResult::answered;
     }
     trace_ = std::move(trace);

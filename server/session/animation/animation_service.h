@@ -54,6 +54,7 @@ class AnimationService {
     void describe(v1::Scene* message) const { player_.describe(message); }
 
   private:
+    bool answer_kept(const ClientEvent& event);
     void tell(const std::vector<std::size_t>& animations, std::uint32_t by,
               std::size_t but_not_first = 0);
     [[nodiscard]] v1::ServerMessage message_of(std::size_t animation, std::uint32_t by) const;

@@ -243,7 +243,10 @@ void ChangeLog::restore_keys() {
         for (const KeyedChange& keyed : journal_->keyed()) {
             v1::SceneChanged record = keyed.change;
             set_before(unsigned_state(keyed.before), record);
-            note_keys(keyed.keys, record);
+            made_.note(keyed.keys, record);
+        }
+        for (const KeyedNote& note : journal_->keyed_notes()) {
+            made_.note(note);
         }
     } catch (const JournalError& error) {
         spdlog::error("what is asked for again may be made twice: {}", error.what());
@@ -309,7 +312,13 @@ std::vector<LogEntry> ChangeLog::take_entries() {
         return {};
     }
     working_ = !journal_->outage();
-    return journal_->take_entries();
+    std::vector<LogEntry> entries = journal_->take_entries();
+    for (const LogEntry& entry : entries) {
+        if (entry.change.epoch() == 0 && !entry.keys.empty()) {
+            made_.note(KeyedNote{entry.keys.front().text, entry.kind, entry.number});
+        }
+    }
+    return entries;
 }
 
 bool ChangeLog::accept(const v1::SceneChanged& change, const v1::SceneChanged& before,
@@ -320,7 +329,7 @@ bool ChangeLog::accept(const v1::SceneChanged& change, const v1::SceneChanged& b
     ++epoch_;
     v1::SceneChanged record = change;
     set_before(before, record);
-    note_keys(keys, record);
+    made_.note(keys, record);
     records_.add(std::move(record));
     return true;
 }
@@ -335,24 +344,6 @@ std::vector<PeerNews> ChangeLog::take_news() {
     return shared() ? journal_->take_news() : std::vector<PeerNews>();
 }
 
-void ChangeLog::note_keys(const std::vector<RequestKey>& keys, const v1::SceneChanged& change) {
-    for (const RequestKey& key : keys) {
-        const MadeRequest made{key.parts == 0 ? change : v1::SceneChanged(), key};
-        if (made_.insert_or_assign(key.text, made).second) {
-            keys_.push_back(key.text);
-        }
-    }
-    while (keys_.size() > max_keys) {
-        made_.erase(keys_.front());
-        keys_.pop_front();
-    }
-}
-
-const MadeRequest* ChangeLog::made(const std::string& key) const {
-    const auto found = made_.find(key);
-    return found == made_.end() ? nullptr : &found->second;
-}
-
 std::optional<std::uint32_t> ChangeLog::new_number(NoteKind kind, std::uint32_t free) {
     if (!usable()) {
         return std::nullopt;
@@ -365,7 +356,8 @@ std::optional<std::uint32_t> ChangeLog::new_number(NoteKind kind, std::uint32_t 
     }
 }
 
-bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body) {
+bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                          const std::string& key) {
     if (!usable()) {
         return false;
     }
@@ -373,11 +365,14 @@ bool ChangeLog::keep_note(NoteKind kind, std::uint32_t number, const std::string
         if (journal_ && body.empty()) {
             journal_->drop_note(kind, number);
         } else if (journal_) {
-            overtaken_ = journal_->keep_note(kind, number, body) == Appended::conflict;
+            overtaken_ = journal_->keep_note(kind, number, body, key) == Appended::conflict;
         }
     } catch (const JournalError& error) {
         refused("a note", error.what());
         return false;
+    }
+    if (!overtaken_) {
+        made_.note(KeyedNote{key, kind, number});
     }
     return !overtaken_;
 }

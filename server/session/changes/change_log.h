@@ -3,9 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +15,7 @@
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "session/changes/change_records.h"
+#include "session/changes/made_requests.h"
 #include "session/changes/scene_history.h"
 
 namespace raybundle {
@@ -28,18 +27,11 @@ enum class Recorded : std::uint8_t {
     no,     ///< it could not be stored and must not be made; refusal() says why
 };
 
-/// What was made of a request with a key.
-struct MadeRequest {
-    v1::SceneChanged change;  ///< unset where the request stands for several
-    RequestKey key;           ///< of its last change so far
-};
-
 /// The one ordered log of scene changes: gives each its epoch and, where a journal is configured,
 /// puts it there before anybody hears of it.
 class ChangeLog {
   public:
     using Opener = std::function<std::unique_ptr<ProjectLog>()>;
-    static constexpr std::size_t max_keys = 16384;
 
     ChangeLog() = default;  ///< without a journal
 
@@ -73,7 +65,7 @@ class ChangeLog {
                               const std::vector<RequestKey>& keys);
     /// Notes what a change is announced as; it answers its requests also when they come again.
     void note_answer(const std::vector<RequestKey>& keys, const v1::SceneChanged& change) {
-        note_keys(keys, change);
+        made_.note(keys, change);
     }
     /// Whether other servers have it, too.
     [[nodiscard]] bool shared() const { return journal_ && journal_->shared(); }
@@ -81,16 +73,22 @@ class ChangeLog {
     void publish(const v1::ServerMessage& message, bool lasting);
     [[nodiscard]] std::vector<PeerNews> take_news();
     /// What was made of a request with that key; null where it is not known.
-    [[nodiscard]] const MadeRequest* made(const std::string& key) const;
+    [[nodiscard]] const MadeRequest* made(const std::string& key) const {
+        return made_.change(key);
+    }
+    /// Which note a request with that key has left; null where it is not known.
+    [[nodiscard]] const KeyedNote* kept(const std::string& key) const { return made_.kept(key); }
     /// Why nothing was stored, for who asked: what is answered in place of `text`.
     [[nodiscard]] v1::Error refusal(const std::string& text) const;
 
     /// A number for a new note; `free` is one that no known one has. Nothing where the log cannot
     /// be used.
     [[nodiscard]] std::optional<std::uint32_t> new_number(NoteKind kind, std::uint32_t free);
-    /// Stores a note that a viewer leaves, or forgets it where `body` is empty. False: it could not
-    /// be stored, or another server has changed it meanwhile; refusal() says which.
-    [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body);
+    /// Stores a note that a viewer leaves, or forgets it where `body` is empty. key: of the request
+    /// for it; empty: none. False: it could not be stored, or another server has changed it
+    /// meanwhile; refusal() says which.
+    [[nodiscard]] bool keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
+                                 const std::string& key = {});
     /// Bodies of the notes that the journal holds, by number.
     [[nodiscard]] std::vector<std::string> notes(NoteKind kind);
     /// What the subject of a recorded change was before it and is after it.
@@ -126,7 +124,6 @@ class ChangeLog {
     bool usable();
     void open_again();
     void refused(const std::string& what, const std::string& reason);
-    void note_keys(const std::vector<RequestKey>& keys, const v1::SceneChanged& change);
     void restore_history(const Scene& scene);
     void restore_keys();
     void note_animation(const v1::SceneChanged& change);
@@ -144,8 +141,7 @@ class ChangeLog {
     ChangeRecords records_;
     std::vector<v1::AnimationStep> animation_steps_;
     std::uint64_t failures_ = 0;
-    std::map<std::string, MadeRequest> made_;  ///< by request key
-    std::deque<std::string> keys_;             ///< of made_, oldest first
+    MadeRequests made_;
 };
 
 }  // namespace raybundle

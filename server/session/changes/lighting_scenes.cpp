@@ -100,7 +100,8 @@ bool LightingScenes::refuse(v1::Error::Code code, const std::string& reason) {
     return false;
 }
 
-bool LightingScenes::save(const std::string& name, const std::string& by_name, const Scene& scene) {
+bool LightingScenes::save(const std::string& name, const std::string& by_name, const Scene& scene,
+                          const std::string& key) {
     const auto known = scenes_.find(name);
     if (known == scenes_.end() && scenes_.size() >= max_scenes) {
         return refuse(v1::Error::RESOURCE_EXHAUSTED,
@@ -118,7 +119,8 @@ bool LightingScenes::save(const std::string& name, const std::string& by_name, c
             *saved.add_lights() = setting_of_light(scene, id);
         }
     }
-    if (!number || !log_.keep_note(NoteKind::lighting_scene, *number, saved.SerializeAsString())) {
+    if (!number ||
+        !log_.keep_note(NoteKind::lighting_scene, *number, saved.SerializeAsString(), key)) {
         refusal_ = log_.refusal("the lighting scene could not be saved");
         return false;
     }

@@ -31,7 +31,9 @@ class LightingScenes {
 
     /// Keeps the lights as they are, in place of what has that name. False where there are too many
     /// or it cannot be stored; the reason is in refusal().
-    bool save(const std::string& name, const std::string& by_name, const Scene& scene);
+    /// key: of the request for it; empty: none.
+    bool save(const std::string& name, const std::string& by_name, const Scene& scene,
+              const std::string& key = {});
     /// Takes up one that another server of the project has stored or, where `body` is empty, taken
     /// away. What is to be told to viewers; unset where that is nothing.
     v1::ServerMessage follow(std::uint32_t number, const std::string& body);
@@ -39,6 +41,7 @@ class LightingScenes {
     bool remove(const std::string& name);
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
 
+    [[nodiscard]] bool contains(const std::string& name) const { return scenes_.contains(name); }
     /// What brings the lights of the scene to what was saved; nothing for a name that is not known.
     [[nodiscard]] std::optional<std::vector<v1::SceneChanged>> changes_to(const std::string& name,
                                                                           const Scene& scene) const;

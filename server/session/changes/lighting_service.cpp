@@ -24,11 +24,19 @@ void LightingService::follow(const LogEntry& note) {
 
 HandlerResult LightingService::save(ViewerSession& session, const ClientEvent& event) {
     const std::string& name = event.message.save_lighting_scene().name();
-    const bool done = scenes_.save(name, session.name(), parts_.scene.scene());
+    const std::string& key = event.message.request_key();
+    const bool kept = event.message.has_request_key() && parts_.scene.log().kept(key) != nullptr;
+    const bool done = kept || scenes_.save(name, session.name(), parts_.scene.scene(), key);
     v1::ServerMessage message;
     message.mutable_lighting_scene_changed()->set_name(name);
     message.mutable_lighting_scene_changed()->set_by_name(session.name());
-    return answer(event, done, message);
+    if (!kept) {
+        return answer(event, done, message);
+    }
+    message.mutable_lighting_scene_changed()->set_by(event.viewer);
+    message.mutable_lighting_scene_changed()->set_removed(!scenes_.contains(name));
+    parts_.server.reply(event, message);  // nothing is new to the others
+    return HandlerResult::answered;
 }
 
 HandlerResult LightingService::remove(ViewerSession& session, const ClientEvent& event) {

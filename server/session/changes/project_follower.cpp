@@ -22,6 +22,8 @@ void ProjectFollower::step() {
             case NoteKind::lighting_scene:
                 parts_.lighting.follow(entry);
                 break;
+            case NoteKind::played:  // its changes come as such
+                break;
             case NoteKind::zone:
             case NoteKind::requirements:
                 parts_.measurements.follow(entry);

@@ -100,14 +100,14 @@ bool ReviewBoard::refuse(v1::Error::Code code, const std::string& reason) {
     return false;
 }
 
-const Pin* ReviewBoard::add_pin(Pin pin) {
+const Pin* ReviewBoard::add_pin(Pin pin, const std::string& key) {
     if (pins_.size() >= max_pins) {
         refuse(v1::Error::RESOURCE_EXHAUSTED, "addPin: there are 256 pins, remove some");
         return nullptr;
     }
     const auto number = log_.new_number(NoteKind::pin, next_pin_number_);
     pin.message.set_pin(number.value_or(0));
-    if (!number || !log_.keep_note(NoteKind::pin, *number, stored(pin))) {
+    if (!number || !log_.keep_note(NoteKind::pin, *number, stored(pin), key)) {
         refuse_unsaved("the pin could not be saved, so it was not set");
         return nullptr;
     }
@@ -115,19 +115,39 @@ const Pin* ReviewBoard::add_pin(Pin pin) {
     return &(pins_[*number] = std::move(pin));
 }
 
-const v1::ViewpointChanged* ReviewBoard::add_viewpoint(v1::ViewpointChanged viewpoint) {
+const v1::ViewpointChanged* ReviewBoard::add_viewpoint(v1::ViewpointChanged viewpoint,
+                                                       const std::string& key) {
     if (viewpoints_.size() >= max_viewpoints) {
         refuse(v1::Error::RESOURCE_EXHAUSTED, "saveViewpoint: there are 64, remove some");
         return nullptr;
     }
     const auto number = log_.new_number(NoteKind::viewpoint, next_viewpoint_number_);
     viewpoint.set_viewpoint(number.value_or(0));
-    if (!number || !log_.keep_note(NoteKind::viewpoint, *number, viewpoint.SerializeAsString())) {
+    if (!number ||
+        !log_.keep_note(NoteKind::viewpoint, *number, viewpoint.SerializeAsString(), key)) {
         refuse_unsaved("the viewpoint could not be saved");
         return nullptr;
     }
     next_viewpoint_number_ = *number + 1;
     return &(viewpoints_[*number] = std::move(viewpoint));
+}
+
+v1::ServerMessage ReviewBoard::answer_of(const KeyedNote& kept) const {
+    v1::ServerMessage answer;
+    if (kept.kind == NoteKind::pin) {
+        const auto pin = pins_.find(kept.number);
+        v1::PinChanged& changed = *answer.mutable_pin_changed();
+        changed = pin == pins_.end() ? v1::PinChanged() : pin->second.message;
+        changed.set_pin(kept.number);
+        changed.set_removed(pin == pins_.end());
+    } else if (kept.kind == NoteKind::viewpoint) {
+        const auto viewpoint = viewpoints_.find(kept.number);
+        v1::ViewpointChanged& changed = *answer.mutable_viewpoint_changed();
+        changed = viewpoint == viewpoints_.end() ? v1::ViewpointChanged() : viewpoint->second;
+        changed.set_viewpoint(kept.number);
+        changed.set_removed(viewpoint == viewpoints_.end());
+    }
+    return answer;
 }
 
 bool ReviewBoard::remove_pin(std::uint32_t number) {
@@ -142,7 +162,8 @@ bool ReviewBoard::remove_pin(std::uint32_t number) {
 }
 
 const Pin* ReviewBoard::change_pin(std::uint32_t number, const std::string& what,
-                                   const std::function<std::string(v1::PinChanged&)>& change) {
+                                   const std::function<std::string(v1::PinChanged&)>& change,
+                                   const std::string& key) {
     const auto found = pins_.find(number);
     if (found == pins_.end()) {
         refuse(v1::Error::NOT_FOUND, what + ".pin: no pin " + std::to_string(number));
@@ -153,7 +174,7 @@ const Pin* ReviewBoard::change_pin(std::uint32_t number, const std::string& what
         refuse(v1::Error::RESOURCE_EXHAUSTED, what + ": " + problem);
         return nullptr;
     }
-    if (!log_.keep_note(NoteKind::pin, number, stored(changed))) {
+    if (!log_.keep_note(NoteKind::pin, number, stored(changed), key)) {
         refuse_unsaved("the pin could not be saved");
         return nullptr;
     }

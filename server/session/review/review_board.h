@@ -39,8 +39,13 @@ class ReviewBoard {
 
     /// Numbers a pin and stores it. Nothing where the board is full or it cannot be stored; the
     /// reason is in refusal().
-    const Pin* add_pin(Pin pin);
-    const v1::ViewpointChanged* add_viewpoint(v1::ViewpointChanged viewpoint);
+    /// key: of the request for it; empty: none.
+    const Pin* add_pin(Pin pin, const std::string& key = {});
+    const v1::ViewpointChanged* add_viewpoint(v1::ViewpointChanged viewpoint,
+                                              const std::string& key = {});
+    /// What a request for a note is answered by that has been kept before; one that is gone since
+    /// is removed there.
+    [[nodiscard]] v1::ServerMessage answer_of(const KeyedNote& kept) const;
 
     /// Takes a note away; false where there is none (NOT_FOUND) or that cannot be stored.
     bool remove_pin(std::uint32_t number);
@@ -48,7 +53,8 @@ class ReviewBoard {
     /// Replaces what a pin says by what `change` makes of it. Nothing where there is no such pin
     /// (NOT_FOUND), `change` refuses with a text, or it cannot be stored.
     const Pin* change_pin(std::uint32_t number, const std::string& what,
-                          const std::function<std::string(v1::PinChanged&)>& change);
+                          const std::function<std::string(v1::PinChanged&)>& change,
+                          const std::string& key = {});
     [[nodiscard]] const v1::Error& refusal() const { return refusal_; }
 
     /// Takes up a pin or viewpoint that another server of the project has stored or, where `body`

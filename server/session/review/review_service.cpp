@@ -37,7 +37,28 @@ void ReviewService::refuse(const ClientEvent& event) {
     parts_.server.reply_error(event, board_.refusal().code(), board_.refusal().message());
 }
 
+/// Answers a request for a note that has been carried out before, under its key. False: it has not.
+bool ReviewService::answer_kept(const ClientEvent& event) {
+    const KeyedNote* const kept = event.message.has_request_key()
+                                      ? parts_.scene.log().kept(event.message.request_key())
+                                      : nullptr;
+    if (kept == nullptr) {
+        return false;
+    }
+    v1::ServerMessage answer = board_.answer_of(*kept);
+    if (answer.body_case() == v1::ServerMessage::BODY_NOT_SET) {
+        parts_.server.reply_error(event, v1::Error::INVALID_ARGUMENT,
+                                  "requestKey: another request had it");
+    } else {
+        parts_.server.reply(event, answer);
+    }
+    return true;
+}
+
 HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& event) {
+    if (answer_kept(event)) {
+        return HandlerResult::answered;
+    }
     const v1::AddPin& wanted = event.message.add_pin();
     if (wanted.patch() >= parts_.scene.mesh().side_count()) {
         parts_.server.reply_error(event, v1::Error::NOT_FOUND,
@@ -65,7 +86,7 @@ HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& 
         message.mutable_camera()->set_vertical_fov(camera.vertical_fov);
     }
     measure(session, pin);
-    announce_pin(event, board_.add_pin(std::move(pin)));
+    announce_pin(event, board_.add_pin(std::move(pin), event.message.request_key()));
     return HandlerResult::answered;
 }
 
@@ -127,8 +148,11 @@ void ReviewService::announce_pin(const ClientEvent& event, const Pin* pin) {
 }
 
 HandlerResult ReviewService::reply_to_pin(ViewerSession& session, const ClientEvent& event) {
+    if (answer_kept(event)) {
+        return HandlerResult::answered;
+    }
     const v1::ReplyToPin& wanted = event.message.reply_to_pin();
-    announce_pin(event, board_.change_pin(wanted.pin(), "replyToPin", [&](v1::PinChanged& pin) {
+    const auto add_reply = [&](v1::PinChanged& pin) {
         if (pin.replies_size() >= ReviewBoard::max_replies) {
             return std::string("the pin has 100 replies");
         }
@@ -137,7 +161,9 @@ HandlerResult ReviewService::reply_to_pin(ViewerSession& session, const ClientEv
         reply.set_text(wanted.text());
         reply.set_at_ms(unix_ms());
         return std::string();
-    }));
+    };
+    announce_pin(event, board_.change_pin(wanted.pin(), "replyToPin", add_reply,
+                                          event.message.request_key()));
     return HandlerResult::answered;
 }
 
@@ -156,6 +182,9 @@ HandlerResult ReviewService::set_pin(ViewerSession& /*session*/, const ClientEve
 }
 
 HandlerResult ReviewService::save_viewpoint(ViewerSession& /*session*/, const ClientEvent& event) {
+    if (answer_kept(event)) {
+        return HandlerResult::answered;
+    }
     const v1::SaveViewpoint& wanted = event.message.save_viewpoint();
     v1::ViewpointChanged viewpoint;
     viewpoint.set_by(event.viewer);
@@ -168,7 +197,8 @@ HandlerResult ReviewService::save_viewpoint(ViewerSession& /*session*/, const Cl
         *camera.mutable_up() = wanted.up();
     }
     camera.set_vertical_fov(wanted.vertical_fov());
-    const v1::ViewpointChanged* const added = board_.add_viewpoint(std::move(viewpoint));
+    const v1::ViewpointChanged* const added =
+        board_.add_viewpoint(std::move(viewpoint), event.message.request_key());
     if (added == nullptr) {
         refuse(event);
         return HandlerResult::answered;

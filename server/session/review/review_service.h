@@ -53,6 +53,7 @@ class ReviewService {
 
   private:
     void announce(const ClientEvent& event, const v1::ServerMessage& message);
+    bool answer_kept(const ClientEvent& event);
     void refuse(const ClientEvent& event);
     [[nodiscard]] Pin placed(const v1::PinChanged& topic);
     void announce_pin(const ClientEvent& event, const Pin* pin);
