@@ -38,6 +38,7 @@ class Hemicube {
     void draw(const GpuScene& scene, const BundleFrame& frame, float near_distance, Place place,
               const FaceRectangles& rectangles);
     void bind_textures() const;  ///< units 0: surface ids, 1: depths
+    [[nodiscard]] const Texture2D& surface_ids() const { return surface_ids_; }
     /// First row of a face in the stacked picture.
     [[nodiscard]] int first_row(int face) const { return face == 0 ? 0 : n_ + (face - 1) * n_ / 2; }
     [[nodiscard]] std::size_t bytes() const;

@@ -35,5 +35,6 @@ static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16
 static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);
 static_assert(sizeof(BundleParameters) == 16 * (19 + 4 * MOST_MOVED));
+static_assert(sizeof(OpeningParameters) == 16 * (5 * MOST_OPENINGS + 1));
 static_assert(sizeof(ViewParameters) == 64 + 16 * 21);
 }  // namespace raybundle::layout

@@ -44,6 +44,8 @@ class BundleReceiver {
     virtual void begin_sample() {}
     virtual void receive_hemicube(const Context& context) = 0;
     virtual void receive_layers(const Context& context) = 0;
+    /// Light of the sky through an opening; of normal iterations only.
+    virtual void receive_opening(const Context& context) = 0;
     /// Of normal iterations only.
     virtual void receive_planes(const Context& context) = 0;
     /// A sample was not taken after all: its bundle had no room for all hits.

@@ -37,10 +37,20 @@ enum ParallelDimension : unsigned {
     shift_x = 3,
     shift_y = 4
 };
+enum OpeningDimension : unsigned {
+    choose_opening = 0,
+    opening_u = 1,
+    opening_v = 2,
+    opening_w = 3,
+    opening_turn = 4,
+    opening_shift_x = 6,
+    opening_shift_y = 7
+};
 constexpr double turn_range = 2.0 * glm::pi<double>();
 constexpr std::uint64_t strategy_key = 0x5851f42dU;
 constexpr std::uint64_t layered_key = 0x2545f491U;
 constexpr std::uint64_t plane_key = 0x9d2c5680U;  // tells the sequence of plane bundles apart
+constexpr std::uint64_t opening_key = 0x61c88647U;
 
 }  // namespace
 
@@ -57,10 +67,12 @@ IterationSchedule::IterationSchedule(std::uint64_t seed, const StrategyProbabili
       planes_per_direction_(std::max(planes_per_direction, 1U)),
       numbers_(seed),
       plane_numbers_(mix_bits(seed ^ plane_key)),
+      opening_numbers_(mix_bits(seed ^ opening_key)),
       strategies_(mix_bits(seed ^ strategy_key), shuffled ? direction_block : 1),
       layered_(mix_bits(seed ^ layered_key), shuffled ? direction_block : 1),
       planes_(mix_bits(seed ^ plane_key), shuffled ? direction_block : 1),
-      perspective_(seed, shuffled ? shooter_block : 1) {}
+      perspective_(seed, shuffled ? shooter_block : 1),
+      openings_(mix_bits(seed ^ opening_key), shuffled ? shooter_block : 1) {}
 
 std::uint64_t IterationSchedule::Indices::next() {
     const auto length = static_cast<unsigned>(order_.size());
@@ -80,11 +92,14 @@ IterationSample IterationSchedule::next() {
     IterationSample sample;
     const double which = numbers_.golden(strategies_.next() - 1);
     const auto layered = static_cast<double>(probabilities_.layered);
+    const double parallel = layered + static_cast<double>(probabilities_.plane);
     if (which < layered) {
         sample.strategy = Strategy::layered;
         sample_window(sample, numbers_, layered_.next());
-    } else if (which < layered + static_cast<double>(probabilities_.plane)) {
+    } else if (which < parallel) {
         sample_plane(sample, planes_.next() - 1);
+    } else if (which < parallel + static_cast<double>(probabilities_.opening)) {
+        sample_opening(sample, openings_.next());
     } else {
         sample_shooter(sample, perspective_.next());
     }
@@ -124,6 +139,19 @@ void IterationSchedule::sample_shooter(IterationSample& sample, std::uint64_t k)
     sample.shift = {static_cast<float>(numbers_.sample(point_x, k)),
                     static_cast<float>(numbers_.sample(point_y, k))};
     sample.faces = static_cast<float>(numbers_.sample(faces, k));
+}
+
+void IterationSchedule::sample_opening(IterationSample& sample, std::uint64_t k) const {
+    const RandomisedHalton& numbers = opening_numbers_;
+    const auto number = [&](unsigned dimension) {
+        return static_cast<float>(numbers.sample(dimension, k));
+    };
+    sample.strategy = Strategy::opening;
+    sample.row_phase = numbers.sample(rows, k);
+    sample.opening_numbers = {number(choose_opening), number(opening_u), number(opening_v),
+                              number(opening_w)};
+    sample.angle = turn_range * numbers.sample(opening_turn, k);
+    sample.shift = {number(opening_shift_x), number(opening_shift_y)};
 }
 
 }  // namespace raybundle

@@ -10,12 +10,13 @@
 
 namespace raybundle {
 
-enum class Strategy { layered, plane, perspective };
+enum class Strategy { layered, plane, perspective, opening };
 
 /// The random numbers of one iteration.
 struct IterationSample {
     Strategy strategy = Strategy::perspective;
     glm::vec4 shooter_numbers{0.0F};  ///< perspective: see solution_shooters.comp
+    glm::vec4 opening_numbers{0.0F};  ///< opening: which one, and where in it, [0, 1)
     double row_phase = 0.0;           ///< which pixel rows sum for the patches, [0, 1)
     double angle = 0.0;               ///< of the bundle about its z axis, radians
     glm::vec3 direction{0.0F, 0.0F,
@@ -67,11 +68,12 @@ class IterationSchedule {
                               std::uint64_t k);
     void sample_shooter(IterationSample& sample, std::uint64_t k) const;
     void sample_plane(IterationSample& sample, std::uint64_t k) const;
+    void sample_opening(IterationSample& sample, std::uint64_t k) const;
 
     StrategyProbabilities probabilities_;
     unsigned planes_per_direction_;
-    RandomisedHalton numbers_, plane_numbers_;
-    Indices strategies_, layered_, planes_, perspective_;
+    RandomisedHalton numbers_, plane_numbers_, opening_numbers_;
+    Indices strategies_, layered_, planes_, perspective_, openings_;
 };
 
 /// Uniform direction on the sphere from two numbers in [0, 1).

@@ -51,6 +51,7 @@ unsigned scatter_kind(Strategy strategy) {
         case Strategy::perspective:
             return SCATTER_PERSPECTIVE;
         case Strategy::plane:
+        case Strategy::opening:
             break;
     }
     return SCATTER_NOT_MEASURED;
@@ -120,15 +121,18 @@ void Solver::refresh_slopes() {
 }
 
 StrategyProbabilities Solver::planned_probabilities() const {
-    const StrategyProbabilities& later = mix_.probabilities();
-    if (!settings_.first_probabilities) {
-        return later;
+    StrategyProbabilities planned = mix_.probabilities();
+    if (settings_.first_probabilities) {
+        const StrategyProbabilities& first = *settings_.first_probabilities;
+        const float share = std::min(static_cast<float>(iterations_) / transient_, 1.0F);
+        planned = {glm::mix(first.layered, planned.layered, share),
+                   glm::mix(first.plane, planned.plane, share),
+                   glm::mix(first.perspective, planned.perspective, share)};
     }
-    const StrategyProbabilities& first = *settings_.first_probabilities;
-    const float share = std::min(static_cast<float>(iterations_) / transient_, 1.0F);
-    return {glm::mix(first.layered, later.layered, share),
-            glm::mix(first.plane, later.plane, share),
-            glm::mix(first.perspective, later.perspective, share)};
+    planned.opening = openings_.probability;
+    planned.layered *= 1.0F - planned.opening;
+    planned.perspective *= 1.0F - planned.opening;
+    return planned;
 }
 
 void Solver::plan_group() {
@@ -141,8 +145,13 @@ void Solver::plan_group() {
         const glm::dvec2 scatter = store_.take_scatter();
         mix_.adapt({scatter.x, scatter.y});
     }
+    refresh_openings();
     probabilities_ = planned_probabilities();
     schedule_.set_probabilities(probabilities_);
+    coarse_->set_openings(openings_, transfer_settings());
+    if (fine_) {
+        fine_->set_openings(openings_, transfer_settings());
+    }
     store_.set_shoots_only(probabilities_.perspective >= 1.0F);
     std::vector<glm::vec4> numbers;
     for (std::size_t i = 0; i < group_size; ++i) {
@@ -255,11 +264,7 @@ float Solver::iterate_age() const {
     return settings_.main_part ? std::min(static_cast<float>(iterate_age_), oldest) : 0.0F;
 }
 
-void Solver::run(const Planned& planned, unsigned slot,
-                 std::span<BundleReceiver* const> receivers) {
-    for (BundleReceiver* receiver : receivers) {
-        receiver->begin_sample();
-    }
+TransferSettings Solver::transfer_settings() const {
     TransferSettings settings;
     settings.probabilities = probabilities_;
     settings.density_error = settings_.density_error;
@@ -267,52 +272,70 @@ void Solver::run(const Planned& planned, unsigned slot,
     settings.context.constant_irradiance = glm::pi<float>() * constant_;
     settings.context.sample_weight = sample_weight();
     settings.context.seed = static_cast<std::uint32_t>(settings_.seed);
-    settings.slot = slot;
     settings.noise_horizon = static_cast<float>(settings_.noise_horizon);
+    return settings;
+}
+
+/// Of a bundle that carries its light itself.
+BundleUpdate Solver::update_of(const TransferSettings& settings) const {
+    return {.weight = settings.context.sample_weight,
+            .iterate_age = iterate_age(),
+            .iteration = iterations_,
+            .constant_irradiance = settings.context.constant_irradiance};
+}
+
+void Solver::run(const Planned& planned, unsigned slot,
+                 std::span<BundleReceiver* const> receivers) {
+    for (BundleReceiver* receiver : receivers) {
+        receiver->begin_sample();
+    }
+    TransferSettings settings = transfer_settings();
+    settings.slot = slot;
     settings.row_phase = planned.sample.row_phase;
-    last_strategy_ = planned.sample.strategy;
-    mix_.count(planned.sample.strategy);
-    const unsigned scatter =
-        mix_.adaptive() ? scatter_kind(planned.sample.strategy) : SCATTER_NOT_MEASURED;
-    if (planned.sample.strategy == Strategy::perspective) {
-        BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
-                                       static_cast<float>(planned.sample.angle));
-        frame.pixel_shift = planned.sample.shift - 0.5F;
-        Hemicube::FaceRectangles faces = transfer().hemicube().full();
-        if (settings_.random_faces && planned.shooter.glossy != 0) {
-            settings.face_weights =
-                choose_faces(frame.to_bundle(frame.origin + glm::vec3(planned.shooter.lobe)),
-                             planned.shooter.lobe.w, planned.sample.faces);
-            for (std::size_t face = 0; face < faces.size(); ++face) {
-                if (settings.face_weights[face] == 0.0F) {
-                    faces[face] = {};
-                }
-            }
-        }
-        transfer().perspective(frame, planned.shooter, faces, settings, receivers);
-        ++shots_.all;
-        shots_.from_emitters += planned.shooter.emitter;
-        store_.update({.scalar = planned.shooter.glossy == 0,
-                       .weight = settings.context.sample_weight,
-                       .iterate_age = iterate_age(),
-                       .shooter_density = planned.shooter.density,
-                       .iteration = iterations_,
-                       .scatter = scatter,
-                       .constant_irradiance = settings.context.constant_irradiance});
+    const Strategy strategy = planned.sample.strategy;
+    last_strategy_ = strategy;
+    mix_.count(strategy);
+    BundleUpdate update = update_of(settings);
+    update.scatter = mix_.adaptive() ? scatter_kind(strategy) : SCATTER_NOT_MEASURED;
+    if (strategy == Strategy::perspective) {
+        run_perspective(planned, settings, receivers);
+        update.scalar = planned.shooter.glossy == 0;
+        update.from_point = true;
+        update.shooter_density = planned.shooter.density;
+    } else if (strategy == Strategy::opening) {
+        run_opening(planned.sample, settings, receivers);
+        update.from_point = true;
     } else {
         const ParallelWindow window = transfer().parallel_window(planned.sample);
-        if (planned.sample.strategy == Strategy::plane) {
+        if (strategy == Strategy::plane) {
             transfer().plane(window, settings, receivers);
         } else {
             transfer().layered(window, window.full(), settings, receivers);
         }
-        store_.update({.weight = settings.context.sample_weight,
-                       .iterate_age = iterate_age(),
-                       .iteration = iterations_,
-                       .scatter = scatter,
-                       .constant_irradiance = settings.context.constant_irradiance});
     }
+    store_.update(update);
     after_iteration();
+}
+
+void Solver::run_perspective(const Planned& planned, TransferSettings& settings,
+                             std::span<BundleReceiver* const> receivers) {
+    BundleFrame frame = make_frame(planned.shooter.position, planned.shooter.normal,
+                                   static_cast<float>(planned.sample.angle));
+    frame.pixel_shift = planned.sample.shift - 0.5F;
+    Hemicube::FaceRectangles faces = transfer().hemicube().full();
+    if (settings_.random_faces && planned.shooter.glossy != 0) {
+        settings.face_weights =
+            choose_faces(frame.to_bundle(frame.origin + glm::vec3(planned.shooter.lobe)),
+                         planned.shooter.lobe.w, planned.sample.faces);
+        for (std::size_t face = 0; face < faces.size(); ++face) {
+            if (settings.face_weights[face] == 0.0F) {
+                faces[face] = {};
+            }
+        }
+    }
+    transfer().perspective(frame, planned.shooter, faces, settings, receivers);
+    ++shots_.all;
+    shots_.from_emitters += planned.shooter.emitter;
 }
 
 /// Layered iterations whose lists were too small have done nothing: they are done now.

@@ -42,6 +42,9 @@ struct SolverSettings {
     /// Single rays follow light by mirrors and glass (effects plan: `caustics`); false: to measure
     /// what they cost.
     bool caustics = true;
+    /// Bundles that start where zones are open to the sky, beside those of adapted probabilities
+    /// (zones/sky_openings.h).
+    bool openings = true;
     /// Glossy shooters send through some faces of their hemicubes only (ch. 5.2).
     bool random_faces = false;
     /// Probabilities follow the kinds of light and what is measured, see suited_to() and
@@ -148,6 +151,14 @@ class Solver {
     void restart_caustics();
     [[nodiscard]] bool noise_is_low() const;
     void run(const Planned& planned, unsigned slot, std::span<BundleReceiver* const> receivers);
+    void run_perspective(const Planned& planned, TransferSettings& settings,
+                         std::span<BundleReceiver* const> receivers);
+    void run_opening(const IterationSample& sample, const TransferSettings& settings,
+                     std::span<BundleReceiver* const> receivers);
+    [[nodiscard]] TransferSettings transfer_settings() const;
+    [[nodiscard]] BundleUpdate update_of(const TransferSettings& settings) const;
+    void refresh_openings();
+    [[nodiscard]] bool wants_openings() const;
     void finish_group(std::span<BundleReceiver* const> receivers);
     void after_iteration();
     /// A change of lights or materials as it is worked in.
@@ -194,6 +205,8 @@ class Solver {
     CarriedLight carried_light_;
     std::optional<SpecialPhase> phase_;
     unsigned special_bundles_ = 0;
+    SkyOpenings openings_;  // to the sky, as they were at the last but few changes
+    std::optional<std::uint64_t> openings_change_;  // number of changes by then
     std::vector<Planned> group_;
     std::size_t group_next_ = 0;
     std::optional<Strategy> last_strategy_;

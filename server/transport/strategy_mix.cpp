@@ -24,7 +24,7 @@ StrategyMix::StrategyMix(const StrategyProbabilities& start, bool adaptive)
                 start.plane == 0.0F) {}
 
 void StrategyMix::count(Strategy strategy, int bundles) {
-    if (strategy != Strategy::plane) {
+    if (strategy == Strategy::layered || strategy == Strategy::perspective) {
         counted_[strategy == Strategy::perspective ? 1 : 0] += bundles;
         since_ += static_cast<unsigned>(bundles);
     }

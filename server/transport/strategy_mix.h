@@ -34,7 +34,7 @@ class StrategyMix {
 
     [[nodiscard]] const StrategyProbabilities& probabilities() const { return now_; }
 
-    /// A bundle of the strategy was transferred (plane bundles are not counted), or undone.
+    /// A bundle of the strategy was transferred, or undone; layered and perspective ones count.
     void count(Strategy strategy, int bundles = 1);
     [[nodiscard]] bool adaptive() const { return adaptive_; }
     /// Whether enough bundles were counted since the last adapt().

@@ -96,7 +96,13 @@ Transfer::Transfer(const GpuScene& scene, const RadianceStore& store,
       hemicube_patches_({"transport_hemicube_patches.comp"}, scene.defines()),
       hemicube_patches_coloured_({"transport_hemicube_patches.comp"},
                                  with(scene.defines(), "COLOURED 1")),
-      layers_patches_(layered_patches(longest_list(layers_.capacity()))) {
+      layers_patches_(layered_patches(longest_list(layers_.capacity()))),
+      openings_("openings to the sky", sizeof(layout::OpeningParameters)),
+      no_openings_("no openings", sizeof(layout::OpeningParameters)),
+      sheltered_("sheltered patches", (scene.patch_count() + 31) / 32 * sizeof(std::uint32_t)) {
+    const layout::OpeningParameters none{};
+    openings_.write(std::span(&none, 1), 0);
+    no_openings_.write(std::span(&none, 1), 0);
     if (scene.reflectance().any_glossy()) {
         hemicube_patches_glossy_ = ShaderProgram({"transport_hemicube_patches.comp"},
                                                  with(scene.defines(), "SHOOTER_GLOSSY 1"));
@@ -154,9 +160,27 @@ layout::BundleParameters Transfer::common_parameters(const BundleFrame& frame,
     return p;
 }
 
-void Transfer::upload(const layout::BundleParameters& parameters) {
+void Transfer::upload(const layout::BundleParameters& parameters, bool special) {
     parameters_.write(std::span(&parameters, 1), 0);
     parameters_.bind_uniform(BINDING_BUNDLE);
+    (special ? no_openings_ : openings_).bind_uniform(BINDING_OPENINGS);
+    if (!special) {
+        sheltered_.bind_storage(BINDING_SHELTERED);
+    }
+}
+
+/// Pixel rows of one face, or of all as one stacked picture whose row first_row it begins at.
+void Transfer::transfer_rows(const ShaderProgram& patches, const PixelRectangle& rectangle,
+                             int first_row, const TransferSettings& settings) const {
+    const PixelRectangle& r = rectangle;
+    const auto columns = static_cast<unsigned>(r.width() + hemicube_run - 1) / hemicube_run;
+    patches.set("first_column", static_cast<unsigned>(r.x0));
+    patches.set("last_column", static_cast<unsigned>(r.x1));
+    patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
+    patches.set("run_columns", columns);
+    patches.set("rows", static_cast<unsigned>(r.height()));
+    const unsigned sampled = set_rows(patches, first_row + r.y0, r.height(), settings);
+    patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
 }
 
 void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shooter,
@@ -177,7 +201,7 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     for (std::size_t face = 0; face < rectangles.size(); ++face) {
         p.scissor[face] = to_vector(rectangles[face]);
     }
-    upload(p);
+    upload(p, settings.context.special);
     hemicube_.draw(scene_, frame, p.origin.w, place, rectangles);
     hemicube_.bind_textures();
 
@@ -185,24 +209,14 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
                                    : settings.coloured ? hemicube_patches_coloured_
                                                        : hemicube_patches_;
     set_bases(patches, place);
-    const auto transfer_rows = [&](const PixelRectangle& r, int first_row) {
-        const auto columns = static_cast<unsigned>(r.width() + hemicube_run - 1) / hemicube_run;
-        patches.set("first_column", static_cast<unsigned>(r.x0));
-        patches.set("last_column", static_cast<unsigned>(r.x1));
-        patches.set("first_row", static_cast<unsigned>(first_row + r.y0));
-        patches.set("run_columns", columns);
-        patches.set("rows", static_cast<unsigned>(r.height()));
-        const unsigned sampled = set_rows(patches, first_row + r.y0, r.height(), settings);
-        patches.dispatch(std::size_t{columns} * ((sampled + 7) / 8 * 8));
-    };
     const bool whole = !settings.context.special && settings.face_weights == all_faces;
     if (whole) {  // all faces are one stacked picture
-        transfer_rows({0, 0, hemicube_.size(), 3 * hemicube_.size()}, 0);
+        transfer_rows(patches, {0, 0, hemicube_.size(), 3 * hemicube_.size()}, 0, settings);
     } else {
         for (int face = 0; face < Hemicube::face_count; ++face) {
             const PixelRectangle& r = rectangles[static_cast<std::size_t>(face)];
             if (!r.empty()) {
-                transfer_rows(r, hemicube_.first_row(face));
+                transfer_rows(patches, r, hemicube_.first_row(face), settings);
             }
         }
     }
@@ -210,6 +224,66 @@ void Transfer::perspective(const BundleFrame& frame, const layout::Shooter& shoo
     context.glossy_shooter = shooter.glossy != 0;
     for (BundleReceiver* receiver : receivers) {
         receiver->receive_hemicube(context);
+    }
+}
+
+void Transfer::set_openings(const SkyOpenings& found, const TransferSettings& settings) {
+    layout::OpeningParameters p{};
+    const auto across = [](const glm::vec3& edge) {
+        return glm::vec4(edge / glm::dot(edge, edge), 0.0F);
+    };
+    for (const SkyOpening& opening : found.openings) {
+        const float density = settings.probabilities.opening * opening.share / opening.volume() *
+                              settings.density_error;
+        p.opening[p.number.x++] = {glm::vec4(opening.corner, density), across(opening.edges[0]),
+                                   across(opening.edges[1]), across(opening.edges[2]),
+                                   glm::vec4(opening.inward, 0.0F)};
+    }
+    openings_.write<layout::OpeningParameters>(std::span(&p, 1), 0);
+    if (p.number.x > 0) {
+        sheltered_.write<std::uint32_t>(found.sheltered, 0);
+    }
+}
+
+void Transfer::opening(const BundleFrame& frame, const TransferSettings& settings,
+                       std::span<BundleReceiver* const> receivers) {
+    if (!outside_) {
+        outside_ = Outside{Hemicube(hemicube_.size(), scene_.defines(),
+                                    scene_.traces(SeenAs::hemicube, 3 * square(hemicube_.size()))),
+                           ShaderProgram({"transport_opening_patches.comp"}, scene_.defines())};
+    }
+    const Place place = settings.context.place;
+    const auto parameters_of = [&](const BundleFrame& half) {
+        layout::BundleParameters p = common_parameters(half, settings);
+        p.axis_x.w = frame.pixel_shift.x;
+        p.axis_y.w = frame.pixel_shift.y;
+        p.resolution.x = p.resolution.y = static_cast<unsigned>(hemicube_.size());
+        const Sky& sky = scene_.sky();
+        p.sky = glm::vec4(sky.uniform / scene_.radiance_unit() - settings.constant, p.sky.w);
+        p.sky_behind.w = sky.environment ? 1.0F / scene_.radiance_unit() : 0.0F;
+        const Hemicube::FaceRectangles all = hemicube_.full();
+        for (std::size_t face = 0; face < all.size(); ++face) {
+            p.scissor[face] = to_vector(all[face]);
+        }
+        return p;
+    };
+    store_.bind();
+    BundleFrame outwards = frame;
+    outwards.x = -frame.x;
+    outwards.y = -frame.y;
+    outwards.z = -frame.z;
+    const layout::BundleParameters behind = parameters_of(outwards);
+    upload(behind);
+    outside_->picture.draw(scene_, outwards, behind.origin.w, place, hemicube_.full());
+    upload(parameters_of(frame));
+    hemicube_.draw(scene_, frame, behind.origin.w, place, hemicube_.full());
+    hemicube_.bind_textures();
+    glBindTextureUnit(UNIT_OUTSIDE_IDS, outside_->picture.surface_ids().get());
+
+    set_bases(outside_->patches, place);
+    transfer_rows(outside_->patches, {0, 0, hemicube_.size(), 3 * hemicube_.size()}, 0, settings);
+    for (BundleReceiver* receiver : receivers) {
+        receiver->receive_opening(settings.context);
     }
 }
 
@@ -234,7 +308,7 @@ void Transfer::layered(const ParallelWindow& window, const PixelRectangle& recta
     layout::BundleParameters p = parallel_parameters(window, settings);
     p.resolution.z = layers_.capacity();
     p.scissor[0] = to_vector(rectangle);
-    upload(p);
+    upload(p, settings.context.special);
     store_.send_along_bundle(place);
     layers_.draw(scene_, window, place, rectangle, store_.counters());
 
@@ -288,7 +362,8 @@ void Transfer::set_bases(const ShaderProgram& program, Place place) const {
 }
 
 std::size_t Transfer::bytes() const {
-    return hemicube_.bytes() + layers_.bytes() + (planes_ ? planes_->pictures.bytes() : 0);
+    return hemicube_.bytes() + layers_.bytes() + (planes_ ? planes_->pictures.bytes() : 0) +
+           (outside_ ? outside_->picture.bytes() : 0);
 }
 
 std::uint32_t Transfer::take_overflow() {

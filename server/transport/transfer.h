@@ -13,6 +13,7 @@
 #include "solution/store/radiance_store.h"
 #include "transport/bundle_receiver.h"
 #include "transport/iteration_schedule.h"
+#include "zones/sky_openings.h"
 
 namespace raybundle {
 
@@ -60,6 +61,14 @@ class Transfer {
     void plane(const ParallelWindow& window, const TransferSettings& settings,
                std::span<BundleReceiver* const> receivers);
 
+    /// Openings whose bundles have a part in the light of the sky from now on, but in special
+    /// phases; the probability of such bundles, and whether densities are wrong, are those of the
+    /// settings.
+    void set_openings(const SkyOpenings& found, const TransferSettings& settings);
+    /// Light of the sky through a point of an opening. frame.z points inwards.
+    void opening(const BundleFrame& frame, const TransferSettings& settings,
+                 std::span<BundleReceiver* const> receivers);
+
     /// Reads and clears the counters. Bit s is set where the layered transfer in slot s found too
     /// little room: nothing of it was transferred; the lists are larger now, do it again.
     std::uint32_t take_overflow();
@@ -75,7 +84,9 @@ class Transfer {
     layout::BundleParameters parallel_parameters(const ParallelWindow& window,
                                                  const TransferSettings& settings) const;
     void set_bases(const ShaderProgram& program, Place place) const;
-    void upload(const layout::BundleParameters& parameters);
+    void upload(const layout::BundleParameters& parameters, bool special = false);
+    void transfer_rows(const ShaderProgram& patches, const PixelRectangle& rectangle, int first_row,
+                       const TransferSettings& settings) const;
 
     const GpuScene& scene_;
     const RadianceStore& store_;
@@ -97,6 +108,13 @@ class Transfer {
         ShaderProgram patches;
     };
     std::optional<Planes> planes_;
+    /// Exists from the first bundle from an opening on.
+    struct Outside {
+        Hemicube picture;  ///< what the lines of the other one meet in the opposite direction
+        ShaderProgram patches;
+    };
+    std::optional<Outside> outside_;
+    Buffer openings_, no_openings_, sheltered_;
     std::uint64_t non_finite_ = 0;
 };
 

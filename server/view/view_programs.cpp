@@ -124,6 +124,9 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
         compose[i] = ShaderProgram({"view_compose.comp"}, defines);
         compose_scaled[i] = ShaderProgram({"view_compose.comp"}, with(defines, "SCALED 1"));
     }
+    if (scene.has_sky()) {
+        opening_pixels = make_receive("transport_opening_pixels.comp", scene, variant);
+    }
     if (scene.reflectance().draws_lobes()) {
         const auto defines = with_all(scene.defines(), variant);
         gloss_rays = {ShaderProgram({"view_gloss_rays.comp"}, defines),

@@ -57,6 +57,7 @@ struct ViewPrograms {
     };
     ReceiveHemicube hemicube_pixels, hemicube_pixels_special;
     Receive layers_pixels, layers_pixels_special, planes_pixels;
+    Receive opening_pixels;  ///< only where the scene has a sky
     Receive layers_crowded;  ///< to crowded pixels, which layers_pixels leaves out
     GlossRayPrograms gloss_rays;
     EdgePrograms edges;

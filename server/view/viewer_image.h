@@ -146,6 +146,7 @@ class ViewerImage : public BundleReceiver {
     void receive_hemicube(const Context& context) override;
     void receive_layers(const Context& context) override;
     void receive_planes(const Context& context) override;
+    void receive_opening(const Context& context) override;
     void discard_sample(const Context& context) override;
     void complete_start() override;
     void begin_moves() override;

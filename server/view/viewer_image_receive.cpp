@@ -138,6 +138,13 @@ void ViewerImage::receive_planes(const Context& context) {
     }
 }
 
+void ViewerImage::receive_opening(const Context& context) {
+    receive(programs_.opening_pixels, context);
+    if (continued() != nullptr) {
+        continued()->receive_opening(context);
+    }
+}
+
 void ViewerImage::discard_sample(const Context& context) {
     if (continued() != nullptr) {
         continued()->discard_sample(context);

@@ -149,6 +149,7 @@ void ExchangeRays::place(std::span<const glm::mat4> world_from_object, float dia
         vertices_[3 * i + 1] = at.b;
         vertices_[3 * i + 2] = at.c;
     }
+    diameter_ = diameter;
     lift_ = lift_share * diameter;
     rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry_);
@@ -296,6 +297,7 @@ ExchangeRay ExchangeRays::follow(std::uint32_t patch, std::uint64_t number) cons
                            std::max(glm::length(across), 1e-30F));
     }
     origin += lift_ * facing;
+    result.origin = origin;
     const glm::vec3 direction = cosine_direction(facing, p, q);
     result.area = static_cast<float>(static_cast<double>(areas_[patch]) /
                                      (shares_[patch] * static_cast<double>(starts_.size())));

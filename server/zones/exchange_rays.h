@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct ExchangeRay {
     glm::vec3 sky{0.0F};      ///< cd/m²: radiance of the sky that it meets
     glm::vec3 towards{0.0F};  ///< where the sky meets it; 0 where it meets none
     float left_by_air = 1.0F;  ///< share of the sky's light that the air lets through
+    glm::vec3 origin{0.0F};    ///< m
 };
 
 /// Single rays between patches (Embree) that measure how surfaces exchange light, independently of
@@ -58,6 +60,14 @@ class ExchangeRays {
     void look_up_sky(ExchangeRay& ray) const;
     /// All rays, in the order of their patches. On all cores; the same bits always.
     [[nodiscard]] std::vector<ExchangeRay> trace() const;
+
+    /// So many rays from some patches, evenly over their area, besides those of trace().
+    [[nodiscard]] std::vector<ExchangeRay> trace_from(std::span<const std::uint32_t> patches,
+                                                      std::size_t count) const;
+    /// Where a ray that meets the sky passes between surfaces for the last time: along it the
+    /// distance from the nearest surface falls, and then rises above what it was. That is in a
+    /// window's plane, mostly, or in a pane that the ray goes through. Nothing: it is free at once.
+    [[nodiscard]] std::optional<glm::vec3> last_narrow_place(const ExchangeRay& ray) const;
 
     [[nodiscard]] const std::vector<glm::vec3>& centres() const { return centres_; }
     [[nodiscard]] const std::vector<glm::vec3>& normals() const { return normals_; }
@@ -102,6 +112,7 @@ class ExchangeRays {
     std::vector<double> shares_;
     std::vector<std::uint32_t> starts_;  // patch of each ray
     glm::vec4 offsets_;                  // of the sequence of points
+    float diameter_ = 0.0F;              // m, of the scene
     float lift_ = 0.0F;                  // m
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
     std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> rays_;

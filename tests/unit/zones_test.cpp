@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bare_rooms.h"
 #include "zones/exchange_rays.h"
 #include "zones/first_reflection.h"
 #include "zones/kept_light.h"
@@ -16,58 +17,6 @@
 
 namespace raybundle {
 namespace {
-
-/// Boxes with fronts inwards, cut into patches; no files, no tessellator.
-struct Rooms {
-    Scene scene;
-    PatchMesh mesh;
-
-    Rooms() {
-        scene.objects.emplace_back();
-        scene.materials.emplace_back();
-    }
-    void quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, unsigned n) {
-        const auto count = static_cast<float>(n);
-        for (unsigned i = 0; i < n * n; ++i) {
-            const glm::vec3 at = corner + u * (static_cast<float>(i % n) / count) +
-                                 v * (static_cast<float>(i / n) / count);
-            triangle(at, at + u / count, at + (u + v) / count);
-            triangle(at, at + (u + v) / count, at + v / count);
-        }
-    }
-    void triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (const glm::vec3& corner : {a, b, c}) {
-            mesh.positions.push_back(corner);
-            mesh.vertex_object.push_back(0);
-        }
-        mesh.side_triangle.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-        mesh.triangles.push_back(first + glm::uvec3(0, 1, 2));
-        mesh.triangle_material.push_back(0);
-        mesh.back_side.push_back(PatchMesh::no_patch);
-        mesh.base_colour.emplace_back(0.7F);
-        mesh.emission.emplace_back(0.0F);
-    }
-    /// Room [low, high]; its wall towards +x has a hole where `open`.
-    void room(const glm::vec3& low, const glm::vec3& high, bool open = false, unsigned n = 6) {
-        const glm::vec3 e = high - low;
-        const glm::vec3 x(e.x, 0, 0);
-        const glm::vec3 y(0, e.y, 0);
-        const glm::vec3 z(0, 0, e.z);
-        quad(low, z, x, n);      // floor
-        quad(low + y, x, z, n);  // ceiling
-        quad(low, x, y, n);      // z low
-        quad(low + z, y, x, n);  // z high
-        quad(low, y, z, n);      // x low
-        if (!open) {
-            quad(low + x, z, y, n);  // x high
-        }
-    }
-    [[nodiscard]] ExchangeRays rays() const {
-        const glm::mat4 world(1.0F);
-        return {scene, mesh, std::span(&world, 1), 20.0F, 1};
-    }
-};
 
 TEST(ExchangeRays, StayInAClosedRoom) {
     Rooms rooms;

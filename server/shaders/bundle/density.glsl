@@ -15,6 +15,12 @@ float cosine_over_density(float r, float cos_y, float density_y) {
     return cos_y / (cos_y * blind + bundle.densities.z * density_y * r * r);
 }
 
+/// The same of a line that bundles from openings have, too, by a density `beside`, 1/sr.
+float cosine_over_density(float r, float cos_y, float density_y, float beside) {
+    float blind = bundle.densities.x + bundle.densities.y * r + beside;
+    return cos_y / (cos_y * blind + bundle.densities.z * density_y * r * r);
+}
+
 /// Bias for noise (ch. 5.4, eq. 5.6) with mean value substitution: where the shooter's probability p_j is below
 /// F/(2M), the estimate is farther from its mean than the mean is from 0, and the mean takes its place.
 /// irradiance: what one unit of the shooter's radiance brings, pi F/p_j; limit: 2 pi M, 0 = none.

@@ -37,11 +37,19 @@ float plane_depth(vec4 plane, vec3 point) {
 /// Surface on the side of a triangle that looks towards +z (far = true) or -z, as seen of `surface`.
 uint side_of_surface(uint surface, bool far) { return far == faces_far(surface) ? 0u : 1u; }
 
+#ifdef SKY
+#include "sky_openings.glsl"
+#endif
+
 /// Radiance of a line that meets nothing, from far along +z or -z.
 vec3 sky_radiance(bool far) { return far ? bundle.sky.rgb : bundle.sky_behind.rgb; }
 
-/// d(omega) of a line that meets nothing beyond a depth: as if the sky were where the window's slab ends,
-/// since that is the farthest that a plane can lie.
-float sky_density(float depth, bool far) {
-    return bundle.densities.x + bundle.densities.y * (far ? bundle.axis_y.w - depth : depth);
+/// d(omega) of a line that meets nothing beyond x, at a depth of the window's slab: as if the sky were where the slab
+/// ends, since that is the farthest that a plane can lie. Bundles from openings to the sky may have the line, too.
+float sky_density(vec3 x, float depth, bool far) {
+    float density = bundle.densities.x + bundle.densities.y * (far ? bundle.axis_y.w - depth : depth);
+#ifdef SKY
+    density += opening_density(x, far ? bundle.axis_z.xyz : -bundle.axis_z.xyz, 1e12);
+#endif
+    return density;
 }

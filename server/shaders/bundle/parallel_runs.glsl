@@ -139,8 +139,9 @@ void deposit(Run run, float pixel_area) {
 }
 
 #ifdef SKY
-float sky_weight(float depth, bool far) {
-    float density = sky_density(depth, far);
+/// point: of the line, in the window's plane; depth: of the receiver.
+float sky_weight(vec3 point, float depth, bool far) {
+    float density = sky_density(point + depth * bundle.axis_z.xyz, depth, far);
     return density > 0.0 ? 1.0 / density : 0.0;
 }
 #endif
@@ -161,10 +162,26 @@ Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3
 #ifdef CONSTANT_RADIANCE
     e.dark = 0.0;
 #endif
+#ifdef SKY
+    bool opens_to_behind = openings_carry(ahead.patch_id, behind.patch_id);
+    bool opens_to_ahead = openings_carry(behind.patch_id, ahead.patch_id);
+#endif
     do {
         float r = ahead.depth - behind.depth;
         vec2 w = vec2(cosine_over_density(r, ahead.cosine, ahead.radiance.w),
                       cosine_over_density(r, behind.cosine, behind.radiance.w));
+#ifdef SKY
+        RARELY(opens_to_behind) {
+            vec3 towards = bundle.axis_z.xyz;
+            float beside = opening_density(point + behind.depth * towards, towards, r);
+            w.x = cosine_over_density(r, ahead.cosine, ahead.radiance.w, beside);
+        }
+        RARELY(opens_to_ahead) {
+            vec3 towards = -bundle.axis_z.xyz;
+            float beside = opening_density(point - ahead.depth * towards, towards, r);
+            w.y = cosine_over_density(r, behind.cosine, behind.radiance.w, beside);
+        }
+#endif
         // Closer surfaces coincide; only rounding could put the plane between them.
 #ifdef CONSTANT_RADIANCE
         bool met = behind.surface != NO_HIT && ahead.surface != NO_HIT;
@@ -175,8 +192,8 @@ Exchange follow(inout Run behind, inout Run ahead, inout ivec2 texel, inout vec3
         w = r > bundle.sky.w ? w * left_by_air(r) : w;
 #endif
 #ifdef SKY
-        w.x = ahead.surface == NO_HIT ? sky_weight(behind.depth, true) : w.x;
-        w.y = behind.surface == NO_HIT ? sky_weight(ahead.depth, false) : w.y;
+        w.x = ahead.surface == NO_HIT ? sky_weight(point, behind.depth, true) : w.x;
+        w.y = behind.surface == NO_HIT ? sky_weight(point, ahead.depth, false) : w.y;
 #ifdef MEDIUM
         vec3 axis = bundle.axis_z.xyz;
         w.x *= ahead.surface == NO_HIT ? left_by_air_from_sky(point + behind.depth * axis, axis) : 1.0;

@@ -77,6 +77,7 @@
 #define BINDING_SLOPES 42             // RadianceSlope[]
 #define BINDING_ZONES 33              // zones of patches and their levels, see zone_level.glsl
 #define BINDING_KEPT 50               // vec4[]: mean irradiance that was kept over the last change, w = weight
+#define BINDING_SHELTERED 52         // uint[]: see sky_openings.glsl; not in special phases
 #define BINDING_COMPLETION 50         // vec4[]: reflected light that the first group of bundles could not carry to patches
 #define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
@@ -169,10 +170,13 @@
 #define UNIT_SHADOW_MAPS 28       // r32ui array: see first_shot.glsl
 #define UNIT_PIXEL_FIRST_SHOT 29  // rgba32f
 #define UNIT_ENVIRONMENT 30       // rgba32f, equirectangular: cd/m^2, see environment.glsl
+#define UNIT_OUTSIDE_IDS 34       // r32ui: as UNIT_SURFACE_IDS, seen the other way from an opening
+#define UNIT_CARRIED_SKY 35   // rgba32f, equirectangular: cd/m^2, what bundles carry of it
 
 // Uniform block bindings.
 #define BINDING_BUNDLE 0
 #define BINDING_VIEW 1
+#define BINDING_OPENINGS 2
 
 #define CREASE_SHIFT 29  // bit CREASE_SHIFT + k of a triangle's w: the edge opposite to vertex k is a crease
 #define MATERIAL_MASK 0x0fffffffu
@@ -445,6 +449,21 @@ struct BundleParameters {
     ivec4 scissor[6];    // hemicube faces (x0, y0, x1, y1) in face pixels, [0] also the window's
     mat4 before_from_now[MOST_MOVED];  // rotations of the objects that are elsewhere at place 1
     uvec4 moved;                       // those objects, the rest NO_PATCH
+};
+
+// A box that light of the sky passes on its way to surfaces, see sky_openings.glsl.
+struct SkyOpening {
+    vec4 corner;    // world space; w: probability density of the points that bundles start from, 1/m^3
+    vec4 across_u;  // edge / its square, 1/m: times (point - corner) it is 0 to 1 within
+    vec4 across_v;
+    vec4 across_w;
+    vec4 inward;    // unit: light has a part of it
+};
+#define MOST_OPENINGS 24
+
+struct OpeningParameters {
+    SkyOpening opening[MOST_OPENINGS];
+    uvec4 number;  // x: of openings in use
 };
 
 struct ViewParameters {

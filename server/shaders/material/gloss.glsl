@@ -7,13 +7,10 @@
 #include "octahedral.glsl"
 #include "brdf.glsl"
 #include "mesh.glsl"
+#include "reflectors.glsl"
 
-/// Base colour, and the reflectance record (bits) of a glossy patch or NOT_GLOSSY.
-layout(binding = UNIT_REFLECTORS) uniform usamplerBuffer reflector_texels;
 /// PackedGloss.
 layout(binding = UNIT_GLOSS) uniform usamplerBuffer gloss_texels;
-
-bool is_glossy(uint patch_id) { return texelFetch(reflector_texels, int(patch_id)).w != NOT_GLOSSY; }
 
 /// BRDF of a glossy patch.
 Brdf patch_brdf(uint patch_id) {

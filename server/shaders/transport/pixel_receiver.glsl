@@ -72,6 +72,7 @@ struct Receiver {
     uint surface;    // the facet and its receiving side
     uint object;     // SPECIAL only
     uint albedo;     // of PixelSurface; GLOSSY_PIXELS only
+    uint patch_id;
 };
 
 /// Whether a pixel is one for this program. facet: with its flags.
@@ -116,6 +117,7 @@ bool load_receiver(uint index, out Receiver x) {
     x.position = world_position(t.x) * (1.0 - v.x - v.y) + world_position(t.y) * v.x + world_position(t.z) * v.y;
 #endif
     x.albedo = q.y;
+    x.patch_id = p.w == NO_PATCH ? NO_PATCH : patch_of_side(p.w);
 #ifdef SPECIAL
     // SPECIAL: signed increments instead of samples of the mean, at either place of moved objects.
     x.object = facet_object(facet_base + facet);

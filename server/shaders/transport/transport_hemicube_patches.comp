@@ -10,98 +10,19 @@ layout(local_size_x = 64) in;
 #include "linear_index.glsl"
 #include "luminance.glsl"
 #include "accumulator.glsl"
+#include "rarely.glsl"
 #include "density.glsl"
+#ifdef SKY
+#include "sky_openings.glsl"
+#endif
 #include "scene_geometry.glsl"
 #ifdef SHOOTER_GLOSSY
 #include "sending_gloss.glsl"
 #endif
 #include "facets.glsl"
-#include "hemicube.glsl"
-#ifdef THIN_WALLS
-#include "crease.glsl"
-#endif
-layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
+#include "hemicube_runs.glsl"
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 #include "radiance_slope.glsl"
-uniform uint first_column;  // the rectangle of the stacked picture that is transferred
-uniform uint first_row;
-uniform uint run_columns;   // runs of 8 pixels a row
-uniform uint rows;
-uniform uint last_column;   // one past the end
-uniform uint row_stride;    // rows are sampled: every row_stride-th from row_phase on
-uniform uint row_phase;
-uniform uint patch_base;    // patches, facets and vertices of the place that was drawn
-uniform uint facet_base;
-uniform uint vertex_base;
-
-const uint run_length = 8u;
-
-/// Consecutive pixels of a row that see one triangle. D is the direction through a pixel, in world
-/// space, with 1 along the face's axis; it is linear along the row, and so are the reciprocal of the
-/// distance in units of D and the triangle's barycentric weights divided by that distance.
-struct Run {
-    uint surface;
-    uint triangle;
-    uint patch_id;  // NO_PATCH: nothing receives
-    float reciprocal, reciprocal_step;
-    vec3 weights, weights_step;
-    uint creases;
-};
-
-Run start_run(uint surface, vec3 d, vec3 d_step) {
-    Run run;
-    run.surface = surface;
-    run.triangle = 0u;
-    run.patch_id = NO_PATCH;
-    run.reciprocal = 1.0;
-    run.reciprocal_step = 0.0;
-    run.weights = vec3(1.0);
-    run.weights_step = vec3(0.0);
-    run.creases = 0u;
-#ifdef DOUBLE_SIDED
-    bool blocked = surface == NO_HIT;
-#else
-    bool blocked = surface == NO_HIT || (surface & 1u) != 0u;
-#endif
-    Facet facet = load_facet(facet_base + (blocked ? 0u : surface >> 1));
-    vec3 o = bundle.origin.xyz;
-    float height = facet.plane.w - dot(facet.plane.xyz, o);
-    // A shooter in the receiver's own plane sends it nothing; only rounding could say otherwise, and it
-    // would leak through a wall without thickness.
-    if (blocked || ((surface & 1u) != 0u ? height : -height) <= bundle.origin.w) {
-        return run;
-    }
-    vec3 row = facet.plane.xyz / height;
-    vec3 row1 = facet.weight1.xyz + row * dot(facet.weight1, vec4(o, 1.0));
-    vec3 row2 = facet.weight2.xyz + row * dot(facet.weight2, vec4(o, 1.0));
-    vec3 row0 = row - row1 - row2;
-    run.reciprocal = dot(row, d);
-    run.reciprocal_step = dot(row, d_step);
-    run.weights = vec3(dot(row0, d), dot(row1, d), dot(row2, d));
-    run.weights_step = vec3(dot(row0, d_step), dot(row1, d_step), dot(row2, d_step));
-    run.triangle = triangle_at(facet.root, run.weights, run.weights_step);
-    run.patch_id = patch_of_surface(2u * run.triangle + (surface & 1u));
-#ifdef THIN_WALLS
-    run.creases = crease_flags(run.triangle);
-#endif
-    return run;
-}
-
-/// Share of a pixel's light that counts: 0 too close to a crease, else a factor that makes up for that.
-float crease_factor(Run run, vec3 d, float inverse_length, float r) {
-#ifdef THIN_WALLS
-    if (run.creases == 0u) {
-        return 1.0;
-    }
-    float pixel_width = 2.0 * inverse_length * r / float(bundle.resolution.x);
-    return near_crease(run.triangle, run.creases, vertex_base, bundle.origin.xyz, d, snap_distance * pixel_width)
-               ? 0.0
-               : crease_compensation(run.triangle, run.creases, vertex_base, d * inverse_length, pixel_width);
-#else
-    return 1.0;
-#endif
-}
-
 /// What is summed over pixels: form factors, or irradiance where the shooter is glossy.
 #ifdef SHOOTER_GLOSSY
 #define Sum vec3
@@ -139,16 +60,11 @@ void main() {
         counters.shooter_radiance = vec4(sent.rgb - bundle.constant.rgb, sent.w);
         counters.overflowed = 0u;
     }
-    // Neighbouring invocations take neighbouring rows: their runs end at nearly the same places.
-    uint block = linear_index() >> 3;
-    uint row_block = block / run_columns;
-    uint row = row_stride * (row_block * 8u + (linear_index() & 7u)) + row_phase;
-    if (row >= rows) {
+    ivec2 texel;
+    int end;
+    if (!take_pixels(texel, end)) {
         return;
     }
-    uint x = first_column + (block - row_block * run_columns) * run_length;
-    int end = int(min(x + run_length, last_column));
-    ivec2 texel = ivec2(x, first_row + row);
     float n = float(bundle.resolution.x);
     float pixel_area = 4.0 * float(row_stride) / (n * n);  // at unit focal distance
     int face;
@@ -170,6 +86,9 @@ void main() {
     uint surface = texelFetch(surface_ids, texel, 0).r;
     while (texel.x < end) {
         Run run = start_run(surface, d, d_step);
+#if defined(SKY) && !defined(SHOOTER_GLOSSY)
+        bool opens = openings_carry(bundle.resolution.z, run.patch_id);
+#endif
         Sum sum = Sum(0.0);
         float missed = 0.0;
         bool same;
@@ -179,8 +98,15 @@ void main() {
             float inverse_square = inverse_length * inverse_length;
             float cosine = d_z * inverse_square * inverse_square;  // cos_y domega / pixel area
             float r = min(1.0 / (max(run.reciprocal, 1e-20) * inverse_length), farthest);
+            float beside = 0.0;
+#if defined(SKY) && !defined(SHOOTER_GLOSSY)
+            RARELY(opens) {
+                vec3 outwards = -inverse_length * d;
+                beside = opening_density(bundle.origin.xyz - r * outwards, outwards, r);
+            }
+#endif
             float form_factor = r * r * inverse_length * inverse_square * crease_factor(run, d, inverse_length, r) *
-                                cosine_over_density(r, d_z * inverse_length, bundle.densities.w);
+                                cosine_over_density(r, d_z * inverse_length, bundle.densities.w, beside);
 #ifdef MEDIUM
             form_factor *= left_by_air(r);
 #endif

@@ -3,15 +3,16 @@
 //   E(x) += L(y) cos_x cos_y/d(y)-form, where the hemicube of y sees x.
 #include "layouts.glsl"
 #include "density.glsl"
+#ifdef SKY
+#include "sky_openings.glsl"
+#endif
 #include "scene_geometry.glsl"
 #ifdef SHOOTER_GLOSSY
 #include "sending_gloss.glsl"
 #endif
 #include "facets.glsl"
-#include "hemicube.glsl"
 #include "pixel_receiver.glsl"
-layout(binding = UNIT_SURFACE_IDS) uniform usampler2D surface_ids;
-layout(binding = UNIT_DEPTHS) uniform sampler2D depths;
+#include "hemicube_visible.glsl"
 layout(binding = UNIT_RADIANCE) uniform samplerBuffer radiance_texels;
 #include "radiance_slope.glsl"
 
@@ -25,21 +26,6 @@ vec3 sent_radiance(vec3 w_out) {
     return sent;
 }
 
-/// True where the shooter sees x. d: x in bundle coordinates.
-bool visible(Receiver x, ivec2 texel, float depth, float r, float cos_x, vec3 d) {
-    uint surface = texelFetch(surface_ids, texel, 0).r;
-    float hit_depth = bundle.origin.w / texelFetch(depths, texel, 0).r;
-    bool seen = surface == NO_HIT || surface == x.surface || depth <= hit_depth * 1.0001;
-    WHERE(!seen) {
-        int face;
-        vec3 hit = hemicube_direction(sample_point(texel), float(bundle.resolution.x), face) * hit_depth;
-        float footprint = 3.0 * depth / float(bundle.resolution.x) / max(cos_x, 0.02);
-        vec3 towards_shooter = (bundle.origin.xyz - x.position) / r;
-        seen = beside_receiver(x, surface, hit - d, towards_shooter, footprint, 2e-5 * r);
-    }
-    return seen;
-}
-
 vec3 gather(Receiver x, out vec3 w_in) {
     vec3 value = vec3(0.0);
     vec3 offset = x.position - bundle.origin.xyz;
@@ -51,7 +37,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
         float depth;
         vec2 pixel = hemicube_pixel(d, float(bundle.resolution.x), face, depth);
         ivec4 rectangle = bundle.scissor[face];
-        ivec2 origin = ivec2(0, face == 0 ? 0 : int(bundle.resolution.x) + (face - 1) * int(bundle.resolution.x) / 2);
+        ivec2 origin = face_origin(face);
         ivec2 texel = nearest_sample(pixel) - origin;
         bool inside = all(greaterThanEqual(texel, rectangle.xy)) && all(lessThan(texel, rectangle.zw));
 #ifndef SPECIAL
@@ -65,7 +51,11 @@ vec3 gather(Receiver x, out vec3 w_in) {
 #endif
         float cos_x = max(-dot(x.normal, offset) / r, 0.0);
         if (inside && cos_x > 0.0 && visible(x, origin + texel, depth, r, cos_x, d)) {
-            found_density = cosine_over_density(r, d.z / r, bundle.densities.w);
+            float beside = 0.0;
+#if defined(SKY) && !defined(SPECIAL)
+            beside = density_beside(x.patch_id, x.position, bundle.resolution.z, -offset / r, r);
+#endif
+            found_density = cosine_over_density(r, d.z / r, bundle.densities.w, beside);
             float irradiance = weight * cos_x * found_density;
             value = sent_radiance(offset / r) * trade_bias_for_noise(irradiance, bundle.weights.z, bundle.axis_z.w);
 #ifdef MEDIUM

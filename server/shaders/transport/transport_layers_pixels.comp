@@ -92,13 +92,17 @@ Seen look(uint pixel, Receiver x, bool far, float x_depth, vec3 line, vec2 later
     return seen;
 }
 
-/// L(y) cos_y / d(omega) of what lies `ahead`, m. point: on the facet; side: of it.
-vec3 sent_by(Facet facet, vec3 point, uint side, float ahead) {
+/// L(y) cos_y / d(omega) of what lies `ahead`, m, of x. point: on the facet; side: of it.
+vec3 sent_by(Receiver x, vec3 towards, Facet facet, vec3 point, uint side, float ahead) {
     vec3 weights;
     uint y = patch_of_surface(2u * triangle_at(facet, point, weights) + side);
     vec4 l = y != NO_PATCH ? radiance_at(y, weights) : vec4(0.0);
     float cos_y = abs(dot(facet.plane.xyz, bundle.axis_z.xyz));
-    found_density = cosine_over_density(ahead, cos_y, l.w);
+    float beside = 0.0;
+#if defined(SKY) && !defined(SPECIAL)
+    beside = density_beside(x.patch_id, x.position, y, towards, ahead);
+#endif
+    found_density = cosine_over_density(ahead, cos_y, l.w, beside);
 #ifdef MEDIUM
     l.rgb *= left_by_air(ahead);
 #endif
@@ -129,7 +133,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
         Met met = nearest_facet(x.position, w_in, own_ray_reach, bundle.sky.w);
         if (met.facet != NO_HIT) {
             Facet facet = load_facet(facet_base + met.facet);
-            return cos_x * sent_by(facet, x.position + met.ahead * w_in, met.back ? 1u : 0u, met.ahead);
+            return cos_x * sent_by(x, w_in, facet, x.position + met.ahead * w_in, met.back ? 1u : 0u, met.ahead);
         }
 #endif
         Seen seen = look(pixel, x, far, d.z, line, lateral, footprint);
@@ -160,11 +164,11 @@ vec3 gather(Receiver x, out vec3 w_in) {
         }
         if (beyond.facet != NO_HIT) {
             vec3 point = x.position + beyond.ahead * w_in;
-            return cos_x * sent_by(load_facet(beyond.facet), point, beyond.back ? 1u : 0u, beyond.ahead);
+            return cos_x * sent_by(x, w_in, load_facet(beyond.facet), point, beyond.back ? 1u : 0u, beyond.ahead);
         }
 #endif
         if (seen.surface == NO_HIT) {
-            float density = sky_density(d.z, far);
+            float density = sky_density(x.position, d.z, far);
             found_density = density > 0.0 ? 1.0 / density : 0.0;
             value = density > 0.0 ? sky_radiance(far) * (cos_x / density) : vec3(0.0);
 #ifdef MEDIUM
@@ -174,7 +178,7 @@ vec3 gather(Receiver x, out vec3 w_in) {
             Facet facet = load_facet(facet_base + (seen.surface >> 1));
             float depth = plane_depth(facet.plane, line);
             vec3 point = line + depth * bundle.axis_z.xyz;
-            value = cos_x * sent_by(facet, point, side_of_surface(seen.surface, !far), abs(depth - d.z));
+            value = cos_x * sent_by(x, w_in, facet, point, side_of_surface(seen.surface, !far), abs(depth - d.z));
         }
     }
     return value;

@@ -46,7 +46,7 @@ bool plane_visible(Receiver x, Line line, uint surface) {
 /// Radiance over density from the surface beyond the plane, m.
 vec3 incoming(Receiver x, Line line, uint surface) {
     if (surface == NO_HIT) {
-        float density = sky_density(line.depth, line.far);
+        float density = sky_density(x.position, line.depth, line.far);
         found_density = density > 0.0 ? 1.0 / density : 0.0;
 #ifdef MEDIUM
         density /= left_by_air_from_sky(x.position, line.far ? bundle.axis_z.xyz : -bundle.axis_z.xyz);

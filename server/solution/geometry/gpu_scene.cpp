@@ -324,6 +324,9 @@ void GpuScene::bind() const {
     }
     if (sky_.environment) {
         glBindTextureUnit(UNIT_ENVIRONMENT, environment_texture_.get());
+        const bool other = carried_sky_texture_.get() != 0;
+        glBindTextureUnit(UNIT_CARRIED_SKY,
+                          (other ? carried_sky_texture_ : environment_texture_).get());
     }
     if (reflectance_.any_glossy()) {
         glBindTextureUnit(UNIT_REFLECTORS, reflector_texture_.get());

@@ -225,6 +225,7 @@ class GpuScene {
     Sky sky_, sky_before_;
     glm::vec3 sky_factor_{1.0F};     // of what has been transferred of sky_before_
     Texture2D environment_texture_;  // only where there is one
+    Texture2D carried_sky_texture_;  // where it is another: what bundles carry
     std::size_t environment_bytes_ = 0;
     LightSlots light_slots_;
     std::vector<Bounds> object_bounds_;         // object space

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/gtc/constants.hpp>
 
 #include "gpu/egl_context.h"
@@ -42,13 +43,11 @@ void GpuScene::set_background(layout::ViewParameters& view) const {
     view.sun_radiance = glm::vec4(sun.illuminance / (glm::pi<float>() * sine * sine), 0.0F);
 }
 
-/// The environment as views show it, but for suns that are drawn as discs.
-void GpuScene::upload_environment() {
-    if (!sky_.environment) {
-        return;
-    }
-    const Environment& environment = *sky_.environment;
-    const bool discs = environment.draws_sources();
+namespace {
+
+/// An equirectangular picture of radiance over direction, cd/m².
+Texture2D make_sky_texture(const std::string& label,
+                           const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
     constexpr float most = 1e30F;
     std::vector<glm::vec4> texels(std::size_t{background_width} * background_height);
     tbb::parallel_for(0, background_height, [&](int y) {
@@ -57,21 +56,42 @@ void GpuScene::upload_environment() {
             const double azimuth = glm::two_pi<double>() * ((x + 0.5) / background_width - 0.5);
             const glm::dvec3 direction(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                        -std::cos(elevation) * std::cos(azimuth));
-            const glm::dvec3 radiance =
-                discs ? environment.radiance(direction) : environment.shown(direction);
             texels[static_cast<std::size_t>(y) * background_width + static_cast<std::size_t>(x)] =
-                glm::vec4(glm::min(glm::vec3(radiance), most), 1.0F);
+                glm::vec4(glm::min(glm::vec3(radiance(direction)), most), 1.0F);
         }
     });
-    environment_texture_ =
-        create_texture_2d("environment", GL_RGBA32F, background_width, background_height);
-    glTextureSubImage2D(environment_texture_.get(), 0, 0, 0, background_width, background_height,
-                        GL_RGBA, GL_FLOAT, texels.data());
-    glTextureParameteri(environment_texture_.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(environment_texture_.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(environment_texture_.get(), GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTextureParameteri(environment_texture_.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    environment_bytes_ = texels.size() * sizeof(glm::vec4);
+    Texture2D texture = create_texture_2d(label, GL_RGBA32F, background_width, background_height);
+    glTextureSubImage2D(texture.get(), 0, 0, 0, background_width, background_height, GL_RGBA,
+                        GL_FLOAT, texels.data());
+    glTextureParameteri(texture.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(texture.get(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTextureParameteri(texture.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+}  // namespace
+
+/// The environment as views show it, but for suns that are drawn as discs, and as bundles carry it:
+/// without its sources.
+void GpuScene::upload_environment() {
+    if (!sky_.environment) {
+        return;
+    }
+    const Environment& environment = *sky_.environment;
+    const auto carried = [&](const glm::dvec3& d) { return environment.radiance(d); };
+    const auto shown = [&](const glm::dvec3& d) { return environment.shown(d); };
+    constexpr std::size_t bytes =
+        sizeof(glm::vec4) * std::size_t{background_width} * background_height;
+    if (environment.draws_sources()) {
+        environment_texture_ = make_sky_texture("environment", carried);
+        carried_sky_texture_ = Texture2D();
+        environment_bytes_ = bytes;
+    } else {
+        environment_texture_ = make_sky_texture("environment", shown);
+        carried_sky_texture_ = make_sky_texture("environment without sources", carried);
+        environment_bytes_ = 2 * bytes;
+    }
 }
 
 /// Air and its box as constants of shaders/scene/air.glsl.

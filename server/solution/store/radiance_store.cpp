@@ -155,7 +155,7 @@ void RadianceStore::update(const BundleUpdate& bundle) const {
     update_.set("weight", bundle.weight);
     update_.set("iterate_age", bundle.iterate_age);
     update_.set("constant_irradiance", bundle.constant_irradiance);
-    update_.set("perspective", bundle.shooter_density > 0.0F ? 1 : 0);
+    update_.set("perspective", bundle.from_point ? 1 : 0);
     update_.set("scatter_kind", bundle.scatter);
     update_.set("scout_stride", measures_.scout_stride());
     update_.set("iteration_number", static_cast<std::uint32_t>(bundle.iteration));

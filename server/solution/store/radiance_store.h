@@ -25,9 +25,10 @@ namespace raybundle {
 /// How one bundle joins the solution.
 struct BundleUpdate {
     bool scalar = false;       ///< the sums are form factors of one Lambert shooter
+    bool from_point = false;   ///< all light came through one point; else from one direction
     float weight = 1.0F;       ///< of the sample in the mean
     float iterate_age = 0.0F;  ///< samples that the iterate is worth; see ITERATE_EXPONENT
-    /// p_j / A_j of a perspective bundle, 1/m²; 0: a parallel one.
+    /// p_j / A_j of a shooter, 1/m²; 0: there is none.
     float shooter_density = 0.0F;
     std::uint64_t iteration = 0;
     unsigned scatter = SCATTER_NOT_MEASURED;  ///< which sum of take_scatter() it joins

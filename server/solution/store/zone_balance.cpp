@@ -58,7 +58,6 @@ void ZoneBalance::interrupt() {
     older_share_.assign(older_share_.size(), 1.0);
 }
 
-/// Finds rays and zones of the scene as it is.
 void ZoneBalance::refresh() {
     if (stale_ == Stale::nothing) {
         return;
@@ -77,6 +76,11 @@ void ZoneBalance::refresh() {
     find_light();
 }
 
+SkyOpenings ZoneBalance::find_openings() {
+    refresh();
+    return find_sky_openings(rays_, partition_, lost_, sent_, MOST_OPENINGS);
+}
+
 void ZoneBalance::find_rays() {
     std::vector<ExchangeRay> traced = rays_.trace();
     partition_ = find_zones(rays_, traced);
@@ -85,6 +89,10 @@ void ZoneBalance::find_rays() {
                  [](const ExchangeRay& ray) { return ray.to == ExchangeRay::lost; });
     reflection_ = started_ ? FirstReflection()  // of a start that is over
                            : FirstReflection(partition_, traced, base_colour_);
+    sent_.assign(partition_.clusters, 0.0);
+    for (const ExchangeRay& ray : traced) {
+        sent_[partition_.cluster[ray.from]] += static_cast<double>(ray.area);
+    }
     sort_patches();
     sort_rays(std::move(traced));
     sums_ = Buffer("zone sums",

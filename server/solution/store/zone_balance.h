@@ -15,6 +15,7 @@
 #include "zones/exchange_rays.h"
 #include "zones/first_reflection.h"
 #include "zones/kept_light.h"
+#include "zones/sky_openings.h"
 #include "zones/zone_levels.h"
 #include "zones/zone_partition.h"
 
@@ -47,6 +48,8 @@ class ZoneBalance {
     /// That iteration turned out to have done nothing.
     void forget_step(float iterate_age, float weight);
 
+    /// Finds rays and zones of the scene as it is, where they are not known.
+    void refresh();
     /// Two means of the irradiance of patches, BINDING_KEPT and BINDING_SINCE.
     struct Means {
         const Buffer* kept = nullptr;
@@ -55,6 +58,8 @@ class ZoneBalance {
     /// Finds the levels of the iterate as it is, and judges what has been kept over the last
     /// change, where there is any. The store's buffers are bound; BINDING_ZONES is from now on.
     void balance(const Means& means);
+    /// Where the scene is open to the sky as it is.
+    [[nodiscard]] SkyOpenings find_openings();
     /// After the first group of iterations, whose bundles carried nothing but emission: irradiance
     /// of each patch that will be reflected light, radiance units.
     [[nodiscard]] std::vector<glm::vec4> complete_start();
@@ -83,7 +88,6 @@ class ZoneBalance {
     /// the sky that rays meet, the rays, the places of the objects.
     enum class Stale { nothing, light, rays, places };
 
-    void refresh();
     void find_rays();
     void find_light();
     void sort_patches();
@@ -110,6 +114,7 @@ class ZoneBalance {
     double iterate_age_ = 0.0;       // of those others
     std::vector<float> shooting_;    // of zones, see shooting_factors()
     std::vector<ExchangeRay> lost_;  // rays that meet no surface
+    std::vector<double> sent_;       // area of all rays, of each cluster
     Stale stale_ = Stale::rays;
     bool started_ = false;               // some bundle has come in
     FirstReflection reflection_;         // until complete_start()

@@ -5,6 +5,9 @@
 layout(local_size_x = 64) in;
 #include "linear_index.glsl"
 #include "density.glsl"
+#ifdef SKY
+#include "sky_openings.glsl"
+#endif
 #include "scene_geometry.glsl"
 #include "sending_gloss.glsl"
 #include "sides.glsl"
@@ -49,6 +52,7 @@ struct Start {
     Brdf brdf;
     vec2 lobes;
     uint facet;
+    uint patch_id;
 };
 
 bool load_start(uint index, out Start x) {
@@ -62,6 +66,7 @@ bool load_start(uint index, out Start x) {
         return false;
     }
     x.facet = q.w & PIXEL_FACET_MASK;
+    x.patch_id = patch_of_side(p.w);
     // The surface point itself: the stored one is kept away from creases.
     uvec3 t = triangle_of(p.w).xyz;
     vec2 v = unpackUnorm2x16(q.z);
@@ -108,6 +113,9 @@ vec3 arriving(GlossRay ray, Start x, out float inverse_density) {
     float densities = bundle.densities.x;
     if (ray.surface == NO_HIT) {
         densities += bundle.densities.y * max(0.5 * slab.w + dot(slab.xyz - x.position, ray.direction), 0.0);
+#ifdef SKY
+        densities += opening_density(x.position, ray.direction, 1e12);
+#endif
         inverse_density = 1.0 / max(densities, 1e-30);
 #ifdef MEDIUM
         return ray.origin * left_by_air_from_sky(x.position, ray.direction);
@@ -125,7 +133,11 @@ vec3 arriving(GlossRay ray, Start x, out float inverse_density) {
         return vec3(0.0);
     }
     vec4 l = radiance[y] + vec4(rise(slope_of(y), clamp(weights, 0.0, 1.0)), 0.0);
-    inverse_density = cosine_over_density(r, abs(along), l.w);
+    float beside = 0.0;
+#ifdef SKY
+    beside = density_beside(x.patch_id, x.position, y, ray.direction, r);
+#endif
+    inverse_density = cosine_over_density(r, abs(along), l.w, beside);
     RARELY(is_glossy(y)) {
         vec3 normal = patch_plane(y).xyz;
         vec3 middle = centroid_of(triangle_of_patch(y), 0u);
