@@ -13,6 +13,8 @@
 #include <string_view>
 #include <utility>
 
+#include "gpu/binding_counts.h"
+
 namespace raybundle {
 
 namespace {
@@ -242,6 +244,7 @@ EglContext create_egl_context(const EglSettings& settings) {
                        "libegl-mesa0 libgl1-mesa-dri");
     }
     enable_debug_output(settings.debug);
+    check_bindings(bindings_needed(), bindings_of_driver());
     if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile")) {
         glMaxShaderCompilerThreadsKHR(std::numeric_limits<GLuint>::max());  // as many as it likes
     }

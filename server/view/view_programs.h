@@ -62,7 +62,7 @@ struct ViewPrograms {
     GlossRayPrograms gloss_rays;
     EdgePrograms edges;
     AffectedTilePrograms affected_tiles;
-    std::unique_ptr<ViewPrograms> continued;  ///< of ContinuedView; only where view rays go on
+    std::unique_ptr<ViewPrograms> continued;  ///< of SpecularView; only where view rays go on
 };
 
 }  // namespace raybundle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels behind the picture, where the view rays of its specular pixels end (view/specular/continued_view.h). They come in
+// Pixels behind the picture, where the view rays of its specular pixels end (view/specular/specular_view.h). They come in
 // tiles: for each tile of the picture that shows a mirror or glass anywhere there is a row of up to four tiles, the
 // first with the strongest end of every pixel, at the pixel's own place in the tile, the next with the second.
 layout(std430, binding = BINDING_CONTINUED) readonly buffer ContinuedBuffer { ContinuedPixel continued[]; };
