@@ -3,7 +3,11 @@
 
 /** Profile 0, 8 bits; level 5.1, which 3840x2160 needs. */
 const CODEC = 'vp09.00.51.08';
-/** BT.709 in limited range, as the server makes it of sRGB. */
+/**
+ * BT.709 in limited range, as the server makes it of sRGB.
+ *
+ * @type {VideoColorSpaceInit}
+ */
 const COLOURS = {primaries: 'bt709', transfer: 'iec61966-2-1', matrix: 'bt709', fullRange: false};
 /** A decoder that keeps a frame back for so long is none for live pictures, ms. */
 const LONGEST_MS = 2000;
