@@ -17,7 +17,7 @@ namespace raybundle {
 class VideoEncoders {
   public:
     /// Bytes of all encoders: 1 GiB, but an eighth of the machine's memory at most. 1 GiB is one
-    /// picture of 3840x2160, or 20 of 800x600.
+    /// picture of 3840x2160, or 18 of 800x600.
     static std::size_t room();
 
     struct Load {
