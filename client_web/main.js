@@ -67,6 +67,7 @@ const app = new RaybundleApp({
     name: inAddress.get('name') ?? remembered('name') ?? '',
     token: inAddress.get('token') ?? '',
     view: shared.view,
+    video: {on: true, off: false}[inAddress.get('video') ?? ''],
 });
 const history = new History();
 const marks = new Marks(app);

@@ -20,7 +20,8 @@ packages=(
     libcli11-dev libcurl4-openssl-dev libdraco-dev libegl-dev libembree-dev libepoxy-dev libglm-dev
     libhiredis-dev
     libmeshoptimizer-dev libopenimageio-dev libpng-dev libprotobuf-dev libspdlog-dev
-    libsqlite3-dev libssl-dev libtbb-dev libtinygltf-dev libturbojpeg0-dev libwebsockets-dev
+    libsqlite3-dev libssl-dev libtbb-dev libtinygltf-dev libturbojpeg0-dev libvpx-dev
+    libwebsockets-dev
     nlohmann-json3-dev
     protobuf-compiler
     libegl1 libegl-mesa0 libgl1-mesa-dri

@@ -62,7 +62,7 @@ export class RaybundleApp extends EventTarget {
     /** This viewer's number at the last connection. */
     #number = 0;
 
-    /** @param {{url: string, name: string, token: string, view?: View | null}} settings */
+    /** @param {{url: string, name: string, token: string, view?: View | null, video?: boolean}} settings */
     constructor(settings) {
         super();
         this.#firstView = settings.view ?? null;

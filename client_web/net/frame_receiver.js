@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary messages to pictures: header parsing, decoding off the main thread, acknowledgement as soon as it is
-// decoded. While one frame is being decoded only the newest of those that arrive is kept.
+// decoded. While one frame is being decoded only the newest of those that arrive is kept; of a video those from its last
+// key frame on, since each needs the one before it.
 
 import {decodeDepths} from '../picture/depths.js';
+import {VideoStream} from './video_stream.js';
 
 /**
  * @typedef {import('./protocol.js').FrameHeader} FrameHeader
@@ -14,14 +16,18 @@ import {decodeDepths} from '../picture/depths.js';
  * @property {number} decodeMs
  * @typedef {object} FrameSink
  * @property {(frame: Frame) => void} show
- * @property {(frame: number, decodeMs: number) => void} acknowledge
+ * @property {(frame: number, decodeMs: number, wantsKey: boolean) => void} acknowledge
  * @property {(error: Error) => void} fail
+ * @property {() => void} [videoFailed]  this browser does not decode the video after all
  */
 
 /** Larger headers than this are not ours. */
 const MAX_HEADER_BYTES = 65536;
 
 const MIME_TYPES = {JPEG: 'image/jpeg', PNG: 'image/png'};
+const VIDEO = 'VP9';
+/** Frames of a video that may wait. The server has 12 on their way at most (CongestionSettings::max_in_flight). */
+const MAX_WAITING = 16;
 
 /**
  * Takes a binary message apart: u32 little-endian header length, header as JSON, and what belongs to it.
@@ -52,7 +58,7 @@ export function splitMessage(message) {
  */
 export function parseFrame(message) {
     const {header, body} = splitMessage(message);
-    if (!Number.isInteger(header?.frame) || !(header.codec in MIME_TYPES)) {
+    if (!Number.isInteger(header?.frame) || !(header.codec in MIME_TYPES || header.codec === VIDEO)) {
         throw new Error('frame: header lacks frame number or a known codec');
     }
     const depthBytes = header.depthBytes ?? 0;
@@ -64,8 +70,11 @@ export function parseFrame(message) {
 }
 
 export class FrameReceiver {
-    /** @type {ArrayBuffer | null} */
-    #newest = null;
+    /** @type {ReturnType<typeof parseFrame>[]}  first the one to be decoded next */
+    #waiting = [];
+    #video = new VideoStream();
+    /** Whether a key frame is to be asked for with the next acknowledgement. */
+    #wantsKey = false;
     #decoding = false;
     #paused = false;
     /** Counts connections, so that a frame of the last one is not acknowledged to the next. */
@@ -87,13 +96,28 @@ export class FrameReceiver {
 
     /** @param {ArrayBuffer} message */
     push(message) {
-        this.#newest = message;
+        let frame;
+        try {
+            frame = parseFrame(message);
+        } catch (error) {
+            this.#fail(error);
+            return;
+        }
+        if (frame.header.codec !== VIDEO || frame.header.key) {
+            this.#waiting = [];
+        } else if (this.#waiting.length >= MAX_WAITING) {
+            this.#waiting = [];
+            this.#loseVideo();
+        }
+        this.#waiting.push(frame);
         this.#decodeNewest();
     }
 
     /** Forgets what has not been shown, for a new connection. */
     reset() {
-        this.#newest = null;
+        this.#waiting = [];
+        this.#video.end();
+        this.#wantsKey = false;
         ++this.#generation;
     }
 
@@ -102,39 +126,85 @@ export class FrameReceiver {
             return;
         }
         this.#decoding = true;
-        while (this.#newest && !this.#paused) {
-            const message = this.#newest;
-            this.#newest = null;
-            await this.#decode(message, this.#generation);
+        while (this.#waiting.length > 0 && !this.#paused) {
+            const frame = /** @type {ReturnType<typeof parseFrame>} */ (this.#waiting.shift());
+            await this.#decode(frame, this.#generation);
         }
         this.#decoding = false;
     }
 
+    /** The video goes on with a key frame. */
+    #loseVideo() {
+        this.#video.end();
+        this.#wantsKey = true;
+    }
+
     /**
-     * @param {ArrayBuffer} message
+     * @param {ReturnType<typeof parseFrame>} parsed
      * @param {number} generation
      */
-    async #decode(message, generation) {
+    async #decode(parsed, generation) {
         const start = performance.now();
-        let parsed;
+        const {header} = parsed;
         let decoded = null;
         try {
-            parsed = parseFrame(message);
-            decoded = await decode(parsed);
+            decoded = await this.#picture(parsed);
         } catch (error) {
-            this.#fail(error);
+            if (generation === this.#generation) {
+                this.#fail(error);
+            }
         }
         const decodeMs = performance.now() - start;
         const known = generation === this.#generation;
         // Before it is shown, so that the next one sets out meanwhile. Also what could not be decoded is
         // acknowledged: the stream must go on.
-        if (parsed && known) {
-            this.sink.acknowledge(parsed.header.frame, decodeMs);
+        if (known) {
+            this.sink.acknowledge(header.frame, decodeMs, this.#wantsKey);
+            this.#wantsKey = false;
         }
-        if (parsed && decoded && known) {
-            this.#show({header: parsed.header, ...decoded, decodeMs});
+        if (decoded && known) {
+            this.#show({header, ...decoded, decodeMs});
         }
         decoded?.image.close();
+    }
+
+    /**
+     * @param {ReturnType<typeof parseFrame>} frame
+     * @returns {Promise<{image: ImageBitmap, depths: Depths | null} | null>}  null: it waits for a key frame
+     */
+    async #picture({header, image: bytes, depths: depthBytes}) {
+        const coming = depthBytes.length > 0 ? decodeDepths(header, depthBytes).catch(() => null) : null;
+        let image;
+        if (header.codec !== VIDEO) {
+            this.#video.end();
+            image = createImageBitmap(new Blob([bytes], {type: MIME_TYPES[header.codec]}));
+        } else if (header.key || this.#video.whole) {
+            image = this.#decodeVideo(bytes, header.key === true);
+        } else {
+            return null;
+        }
+        // Without its depths the picture is as good as ever.
+        const [picture, depths] = await Promise.all([image, coming]);
+        return {image: picture, depths};
+    }
+
+    /**
+     * @param {Uint8Array<ArrayBuffer>} bytes
+     * @param {boolean} key
+     */
+    async #decodeVideo(bytes, key) {
+        const generation = this.#generation;
+        try {
+            return await this.#video.decode(bytes, key);
+        } catch (error) {
+            if (generation === this.#generation) {
+                this.#loseVideo();
+                if (this.#video.failed) {
+                    this.sink.videoFailed?.();
+                }
+            }
+            throw error;
+        }
     }
 
     /** @param {Frame} frame */
@@ -150,16 +220,4 @@ export class FrameReceiver {
     #fail(error) {
         this.sink.fail(error instanceof Error ? error : new Error(String(error)));
     }
-}
-
-/**
- * @param {ReturnType<typeof parseFrame>} frame
- * @returns {Promise<{image: ImageBitmap, depths: Depths | null}>}
- */
-async function decode({header, image: bytes, depths: depthBytes}) {
-    const blob = new Blob([bytes], {type: MIME_TYPES[header.codec]});
-    const coming = depthBytes.length > 0 ? decodeDepths(header, depthBytes) : null;
-    // Without its depths the picture is as good as ever.
-    const [image, depths] = await Promise.all([createImageBitmap(blob), coming?.catch(() => null) ?? null]);
-    return {image, depths};
 }

@@ -80,7 +80,8 @@ export const SUBPROTOCOL = 'raybundle.v1';
  * @property {number} frame  counts up; numbers of dropped frames are skipped
  * @property {number} epoch
  * @property {number} cameraId  id of the last setCamera that the picture answers; 0: none
- * @property {'JPEG' | 'PNG'} codec
+ * @property {'JPEG' | 'PNG' | 'VP9'} codec
+ * @property {boolean} [key]  of VP9: it is decoded without the frames before it
  * @property {number} width  pixels of the encoded image
  * @property {number} height
  * @property {number} quality

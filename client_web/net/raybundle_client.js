@@ -4,6 +4,7 @@
 
 import {FrameReceiver, splitMessage} from './frame_receiver.js';
 import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protocol.js';
+import {decodesVideo, isOnThisMachine} from './video_stream.js';
 
 /**
  * @typedef {import('./protocol.js').ServerMessage} ServerMessage
@@ -16,6 +17,8 @@ import {PROTOCOL_VERSION, SUBPROTOCOL, ServerError, majorVersion} from './protoc
  * @property {string} [name]  shown to other viewers
  * @property {string} [token]
  * @property {() => boolean} [light]  whether the page draws by itself, too, asked at each connection
+ * @property {boolean} [video]  whether moving pictures come as video where the browser decodes it; absent: unless the
+ *     server is on this machine
  * @property {() => Viewport} viewport  size of the pictures wanted, asked at each connection
  */
 
@@ -76,9 +79,13 @@ export class RaybundleClient extends EventTarget {
     #pingTimer;
     #frames = new FrameReceiver({
         show: (frame) => this.#emit('frame', frame),
-        acknowledge: (frame, decodeMs) => this.send({ack: {frame, decodeMs}}),
+        acknowledge: (frame, decodeMs, wantsKey) => this.send({ack: {frame, decodeMs, ...(wantsKey && {wantsKey})}}),
+        videoFailed: () => this.#giveUpVideo(),
         fail: (error) => this.#emit('problem', new ServerError('INTERNAL', error.message)),
     });
+
+    /** Whether video has failed in this page: moving pictures are JPEG from then on. */
+    #withoutVideo = false;
 
     /** @param {ClientSettings} settings */
     constructor(settings) {
@@ -187,13 +194,29 @@ export class RaybundleClient extends EventTarget {
         }
     }
 
+    /** Comes back without video: which codecs a client decodes it says in its greeting. */
+    #giveUpVideo() {
+        this.#withoutVideo = true;
+        queueMicrotask(() => this.#socket && this.connect());
+    }
+
+    get #wantsVideo() {
+        return !this.#withoutVideo && (this.settings.video ?? !isOnThisMachine(this.address));
+    }
+
     async #greet() {
+        const socket = this.#socket;
+        const video = this.#wantsVideo && (await decodesVideo());
+        if (socket !== this.#socket) {
+            return; // another connection has been begun meanwhile
+        }
         const hello = {
             protocol: PROTOCOL_VERSION,
             name: this.settings.name ?? '',
             token: this.settings.token ?? '',
-            codecs: ['JPEG', 'PNG'],
+            codecs: video ? ['VP9', 'JPEG', 'PNG'] : ['JPEG', 'PNG'],
             viewport: this.settings.viewport(),
+            ...(video && {lenient: true}), // a server that does not know VP9 takes JPEG
             ...(this.settings.light?.() && {light: true}),
         };
         try {

@@ -70,6 +70,10 @@ std::string LoopMetrics::text() const {
     out.counter("raybundle_frames_total", "Frames encoded", static_cast<double>(frames_));
     out.counter("raybundle_frame_bytes_total", "Bytes of encoded frames",
                 static_cast<double>(frame_bytes_));
+    out.gauge("raybundle_video_encoders", "Viewers whose moving picture is sent as video",
+              static_cast<double>(video_encoders_));
+    out.gauge("raybundle_video_memory_bytes", "Memory of the encoders of video, estimated",
+              static_cast<double>(video_bytes_));
     out.gauge("raybundle_light_viewers", "Viewers that get light to draw by themselves",
               static_cast<double>(light_viewers_));
     out.counter("raybundle_light_messages_total", "Messages of light",

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scheduling/clock.h"
+#include "stream/video_encoders.h"
 #include "transport/iteration_schedule.h"
 
 namespace raybundle {
@@ -37,6 +38,10 @@ class LoopMetrics {
         light_bytes_ += bytes;
     }
     void set_light_viewers(std::size_t viewers) { light_viewers_ = viewers; }
+    void set_video_load(const VideoEncoders::Load& load) {
+        video_encoders_ = load.encoders;
+        video_bytes_ = load.bytes;
+    }
     void count_turn() { ++turns_; }
     void count_refused_viewer() { ++refused_; }
     void count_phase() { ++phases_; }  ///< special iteration phases begun
@@ -57,6 +62,7 @@ class LoopMetrics {
 
     std::atomic<std::uint64_t> frames_{0}, frame_bytes_{0}, refused_{0}, phases_{0}, turns_{0};
     std::atomic<std::uint64_t> light_messages_{0}, light_bytes_{0}, light_viewers_{0};
+    std::atomic<std::uint64_t> video_encoders_{0}, video_bytes_{0};
     mutable std::mutex mutex_;
     Steps perspective_, layered_, special_;
     LoopFigures figures_;

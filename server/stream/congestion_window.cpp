@@ -27,6 +27,8 @@ constexpr std::array<Step, 12> kLadder{{{FrameAdvice::kLossless, 1.0},
                                         {60, 0.5},
                                         {50, 0.5},
                                         {40, 0.5}}};
+constexpr std::array<double, 3> kVideoScales{1.0, 0.75, 0.5};
+constexpr double kVideoMemory = 0.25;  ///< weight of the newest frame in the mean quality
 constexpr std::size_t kBestJpeg = 1;
 constexpr std::size_t kBestMoving = 2;
 constexpr std::size_t kUnknownLink = 4;
@@ -102,6 +104,27 @@ void CongestionWindow::on_sent(std::uint32_t frame, std::size_t bytes, int quali
     flights_.push_back({frame, size, now_ms});
     const double sample = size / cost(quality, pixels);
     bytes_per_cost_ = bytes_per_cost_ > 0.0 ? std::midpoint(bytes_per_cost_, sample) : sample;
+}
+
+/// A key frame is as coarse as it has to be; the frames after it show what the line carries.
+void CongestionWindow::on_video_sent(std::uint32_t frame, std::size_t bytes, int quality, bool key,
+                                     double now_ms) {
+    flights_.push_back({frame, static_cast<double>(bytes), now_ms});
+    if (!key) {
+        video_quality_ += kVideoMemory * (quality - video_quality_);
+    }
+}
+
+/// Down where the quantizer stays coarse; up only where a video begins, since each change of size
+/// costs a key frame.
+void CongestionWindow::choose_video_step() {
+    if (!video_before_ && video_quality_ > kFineVideo && video_step_ > 0) {
+        --video_step_;
+        video_quality_ = kFineVideo;
+    } else if (video_quality_ < kCoarseVideo && video_step_ + 1 < kVideoScales.size()) {
+        ++video_step_;
+        video_quality_ = kFineVideo;
+    }
 }
 
 void CongestionWindow::on_ack(std::uint32_t frame, double decode_ms, double now_ms) {
@@ -195,7 +218,14 @@ FrameAdvice CongestionWindow::advise(const FrameDemand& demand, double now_ms) {
         // Up by single steps, so that one lucky measurement does not make the picture flicker.
         step_ = std::max({fitting, best, step_ > 0 ? step_ - 1 : 0});
     }
-    return {true, kLadder[step_].quality, kLadder[step_].scale};
+    FrameAdvice advice{true, kLadder[step_].quality, kLadder[step_].scale};
+    if (demand.video && known) {
+        choose_video_step();
+        advice.scale = kVideoScales[video_step_];
+        advice.video_bytes = static_cast<std::size_t>(std::max(video_bytes(), 1.0));
+    }
+    video_before_ = advice.video_bytes > 0;
+    return advice;
 }
 
 }  // namespace raybundle

@@ -7,23 +7,10 @@
 #include <exception>
 #include <utility>
 
-#include "stream/image_encoder.h"
-
 namespace raybundle {
 namespace {
 
 constexpr std::uint32_t kFullChromaQuality = 90;
-
-std::vector<std::uint8_t> encode(JpegEncoder& jpeg, const EncodeJob& job) {
-    const PixelView pixels{job.pixels, static_cast<int>(job.header.width()),
-                           static_cast<int>(job.header.height()), job.bottom_up};
-    if (job.header.codec() == v1::PNG) {
-        return encode_png(pixels);
-    }
-    const auto chroma =
-        job.header.quality() >= kFullChromaQuality ? ChromaSampling::full : ChromaSampling::halved;
-    return jpeg.encode(pixels, static_cast<int>(job.header.quality()), chroma);
-}
 
 /// Puts the depths behind the image, and their figures into the header.
 void append_depths(const DepthMap& depths, v1::FrameHeader& header,
@@ -59,6 +46,10 @@ void FrameEncoder::submit(EncodeJob job) {
     {
         const std::lock_guard lock(mutex_);
         const ViewerId viewer = job.viewer;
+        const auto before = waiting_.find(viewer);
+        if (before != waiting_.end() && before->second.header.key() && job.header.has_key()) {
+            job.header.set_key(true);  // somebody waits for it
+        }
         if (waiting_.insert_or_assign(viewer, std::move(job)).second) {
             order_.push_back(viewer);
         }
@@ -72,6 +63,7 @@ bool FrameEncoder::busy(ViewerId viewer) const {
 }
 
 void FrameEncoder::forget(ViewerId viewer) {
+    videos_.end(viewer);
     const std::lock_guard lock(mutex_);
     if (waiting_.erase(viewer) != 0) {
         order_.remove(viewer);
@@ -95,6 +87,28 @@ bool FrameEncoder::take(std::unique_lock<std::mutex>& lock, EncodeJob& job) {
     order_.erase(next);
     running_.insert(job.viewer);
     return true;
+}
+
+std::vector<std::uint8_t> FrameEncoder::encode(JpegEncoder& jpeg, EncodeJob& job) {
+    v1::FrameHeader& header = job.header;
+    const PixelView pixels{job.pixels, static_cast<int>(header.width()),
+                           static_cast<int>(header.height()), job.bottom_up};
+    if (header.codec() == v1::VP9) {
+        if (auto frame = videos_.encode(job.viewer, pixels, {job.video_bytes, header.key()})) {
+            header.set_key(frame->key);
+            header.set_quality(static_cast<std::uint32_t>(frame->quality));
+            return std::move(frame->bytes);
+        }
+        header.set_codec(v1::JPEG);
+    }
+    header.clear_key();
+    videos_.end(job.viewer);
+    if (header.codec() == v1::PNG) {
+        return encode_png(pixels);
+    }
+    const auto chroma =
+        header.quality() >= kFullChromaQuality ? ChromaSampling::full : ChromaSampling::halved;
+    return jpeg.encode(pixels, static_cast<int>(header.quality()), chroma);
 }
 
 void FrameEncoder::work() {

@@ -18,16 +18,6 @@ std::size_t stride_of(const PixelView& pixels) {
     return static_cast<std::size_t>(pixels.width) * kBytesPerPixel;
 }
 
-void check_size(const PixelView& pixels) {
-    const bool positive = pixels.width > 0 && pixels.height > 0;
-    if (!positive ||
-        pixels.rgbx.size() < stride_of(pixels) * static_cast<std::size_t>(pixels.height)) {
-        throw std::runtime_error("picture of " + std::to_string(pixels.width) + "x" +
-                                 std::to_string(pixels.height) + " pixels has only " +
-                                 std::to_string(pixels.rgbx.size()) + " bytes");
-    }
-}
-
 /// Rows from the top, three bytes a pixel: libpng's simplified interface cannot skip the fourth.
 std::vector<std::uint8_t> pack_rgb(const PixelView& pixels) {
     std::vector<std::uint8_t> rgb;
@@ -46,6 +36,16 @@ std::vector<std::uint8_t> pack_rgb(const PixelView& pixels) {
 }
 
 }  // namespace
+
+void check_size(const PixelView& pixels) {
+    const bool positive = pixels.width > 0 && pixels.height > 0;
+    if (!positive ||
+        pixels.rgbx.size() < stride_of(pixels) * static_cast<std::size_t>(pixels.height)) {
+        throw std::runtime_error("picture of " + std::to_string(pixels.width) + "x" +
+                                 std::to_string(pixels.height) + " pixels has only " +
+                                 std::to_string(pixels.rgbx.size()) + " bytes");
+    }
+}
 
 JpegEncoder::JpegEncoder() : compressor_(tjInitCompress()) {
     if (compressor_ == nullptr) {

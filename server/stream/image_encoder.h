@@ -15,6 +15,9 @@ struct PixelView {
     bool bottom_up = true;  ///< first row is the lowest, as OpenGL reads it
 };
 
+/// Throws std::runtime_error where there are too few bytes for the size, or it is not positive.
+void check_size(const PixelView& pixels);
+
 enum class ChromaSampling { full, halved };  ///< 4:4:4, 4:2:0
 
 /// JPEG by libjpeg-turbo. Keeps its compressor, so use one per thread.

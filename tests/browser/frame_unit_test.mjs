@@ -113,6 +113,85 @@ describe('the receiver of frames', () => {
         assert.deepEqual(log, ['fail', 'ack 5']);
     });
 
+    describe('of a video', () => {
+        const vp9 = (number, key) => message({frame: number, codec: 'VP9', key, cameraId: 0});
+        /** What the decoder does with each chunk: a picture comes out, or it fails. */
+        let works;
+
+        beforeEach(() => {
+            works = true;
+            globalThis.EncodedVideoChunk = class {
+                constructor(chunk) {
+                    Object.assign(this, chunk);
+                }
+            };
+            globalThis.VideoDecoder = class {
+                state = 'configured';
+                fresh = true;
+                constructor(callbacks) {
+                    this.callbacks = callbacks;
+                }
+                configure() {}
+                close() {
+                    this.state = 'closed';
+                }
+                decode(chunk) {
+                    assert.ok(!this.fresh || chunk.type === 'key', 'a decoder begins with a key frame');
+                    this.fresh = false;
+                    log.push(chunk.type);
+                    queueMicrotask(() =>
+                        works ? this.callbacks.output({close: () => {}}) : this.callbacks.error(new Error('broken')),
+                    );
+                }
+            };
+            globalThis.createImageBitmap = async () => ({close: () => {}});
+            receiver.sink.acknowledge = (number, ms, wantsKey) => log.push(`ack ${number}${wantsKey ? ' key' : ''}`);
+            receiver.sink.videoFailed = () => log.push('no video');
+        });
+
+        it('decodes all from the last key frame on, in order', async () => {
+            receiver.paused = true;
+            [vp9(1, true), vp9(2, false), vp9(3, true), vp9(4, false), vp9(5, false)].forEach((m) => receiver.push(m));
+            receiver.paused = false;
+            await settle();
+            await settle();
+            const shown = ['key', 'ack 3', 'show 3', 'delta', 'ack 4', 'show 4', 'delta', 'ack 5', 'show 5'];
+            assert.deepEqual(log, shown);
+            log = [];
+            receiver.push(frame(6));
+            receiver.push(vp9(7, true));
+            await settle();
+            assert.deepEqual(log, ['ack 6', 'show 6', 'key', 'ack 7', 'show 7']);
+        });
+
+        it('asks for a key frame once where one cannot be decoded, and gives up where that fails, too', async () => {
+            receiver.push(vp9(1, true));
+            await settle();
+            works = false;
+            log = [];
+            receiver.push(vp9(2, false));
+            await settle();
+            receiver.push(vp9(3, false));
+            await settle();
+            assert.deepEqual(log, ['delta', 'fail', 'ack 2 key', 'ack 3']);
+            log = [];
+            receiver.push(vp9(4, true));
+            await settle();
+            assert.deepEqual(log, ['key', 'no video', 'fail', 'ack 4 key']);
+        });
+
+        it('keeps no more of them than the server has on their way', async () => {
+            receiver.paused = true;
+            for (let number = 1; number <= 40; ++number) {
+                receiver.push(vp9(number, number === 1));
+            }
+            receiver.paused = false;
+            await settle();
+            assert.equal(log.filter((entry) => entry.startsWith('ack')).length, 40 - 2 * 16);
+            assert.ok(log[0].endsWith('key') && !log.some((entry) => entry.startsWith('show')), `${log}`);
+        });
+    });
+
     it('neither decodes nor acknowledges while paused', async () => {
         receiver.paused = true;
         receiver.push(frame(1));

@@ -29,6 +29,44 @@ const refuseOnce = (code, message, closeCode) => {
     };
 };
 
+/** Two frames of the server's encoder, 161x121: left (200, 60, 30) and right (40, 180, 90); then left (200, 60, 40). */
+const VIDEO = [
+    'gkmDQkAKAAeEBjgkHBhAAAGQSDEP3/e0e8YUpndfBhXPDKG305hsHXtAAGs8D7g9UxORgadqbVVeZxrcd5tvqmzk6iz5yWcqIZF65+dp3Pe6S/z+38F5ln8ugkg8d+99QDUMQpisIT9tS4wonSs208j7RbTrzKPrLEn/6QR7T1Do+tyqxIpbwTUQoqHtY2tjU+AA',
+    'hgBAkpgwUSNAcBgGAwGqwGAwUyK7AAAAAANwAAADleVhGOVbJE3s6ZfIxxE9dZk3tcBfIxxaRjiICT6JvZx5WRjiINf/kj/4r/+K//iv/4r+sHzd+K//iv6wfN34r/+K/rB83fivlCZTCq4furkUrYU/IqvgAA==',
+];
+
+describe('video', () => {
+    it('is decoded by the browser, in the right colours, and goes on with a key frame after a fault', async () => {
+        const {page} = await openPage((request, send) => send(request.hello ? {welcome: WELCOME} : {ok: {}}));
+        const seen = await page.evaluate(async (frames) => {
+            const {VideoStream, decodesVideo} = await import(String(new URL('net/video_stream.js', location.href)));
+            if (!(await decodesVideo())) {
+                return null;
+            }
+            const stream = new VideoStream();
+            const bytes = frames.map((text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)));
+            const show = async (/** @type {number} */ frame) => {
+                const image = await stream.decode(bytes[frame], frame === 0);
+                const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+                context.drawImage(image, 0, 0);
+                const at = (/** @type {number} */ x) => [...context.getImageData(x, 60, 1, 1).data].slice(0, 3);
+                return [image.width, image.height, ...at(20), ...at(140)];
+            };
+            const pictures = [await show(0), await show(1)];
+            const refused = await stream.decode(new Uint8Array([1, 2, 3]), false).then(() => false, () => true);
+            const broken = refused && !stream.whole && !stream.failed;
+            return {pictures, broken, again: await show(0)};
+        }, VIDEO);
+        assert.ok(seen, 'Chromium decodes VP9');
+        const near = (/** @type {number[]} */ picture, /** @type {number[]} */ expected) =>
+            picture.forEach((value, i) => assert.ok(Math.abs(value - expected[i]) <= (i < 2 ? 0 : 5), `${picture}`));
+        near(seen.pictures[0], [161, 121, 200, 60, 30, 40, 180, 90]);
+        near(seen.pictures[1], [161, 121, 200, 60, 40, 40, 180, 90]);
+        near(seen.again, [161, 121, 200, 60, 30, 40, 180, 90]);
+        assert.ok(seen.broken);
+    });
+});
+
 describe('the state of the light', () => {
     it('is green when the number is good, and no sooner', async () => {
         const {page} = await openPage((request, send) => send(request.hello ? {welcome: WELCOME} : {ok: {}}));

@@ -9,6 +9,7 @@
 
 #include "daemon.h"
 #include "json_viewer.h"
+#include "stream/video_encoder.h"
 
 namespace raybundle {
 namespace {
@@ -147,6 +148,54 @@ TEST_F(ViewersTest, EveryMovingViewerGetsFramesOfItsOwnCamera) {
                 viewer->next_frame([&](const Json& f) { return f["cameraId"] == turn; }).empty());
         }
     }
+}
+
+/// As the protocol's page has it: hello.codecs, and the frame header's codec and key.
+TEST_F(ViewersTest, WhoOffersVp9FirstGetsVideoWhileItMovesAndAPictureAtRest) {
+    if (!VideoEncoder::available()) {
+        GTEST_SKIP() << "built without libvpx";
+    }
+    JsonViewer viewer(daemon_->port());
+    const Json welcome =
+        viewer.request({{"hello",
+                         {{"protocol", "1.0"},
+                          {"lenient", true},
+                          {"codecs", {"AV1", "VP9", "JPEG"}},  // of which it knows the second
+                          {"viewport", {{"width", 160}, {"height", 121}}}}}});
+    ASSERT_TRUE(welcome.contains("welcome")) << welcome.dump();
+    int turn = 0;
+    const auto next_video = [&] {
+        for (int i = 0; i < 100; ++i) {
+            ++turn;
+            viewer.send({{"id", turn},
+                         {"setCamera",
+                          {{"eye", {{"x", 2.7 + 0.001 * turn}, {"y", 2.7}, {"z", -7.5}}},
+                           {"target", {{"x", 2.7}, {"y", 2.7}, {"z", 2.7}}}}}});
+            Json header = viewer.next_frame([&](const Json& f) { return f["cameraId"] == turn; });
+            if (header.value("codec", "") == "VP9") {
+                return header;
+            }
+        }
+        return Json::object();
+    };
+    const Json first = next_video();
+    ASSERT_EQ(first.value("codec", ""), "VP9") << first.dump();
+    EXPECT_TRUE(first.at("key"));
+    EXPECT_TRUE(first.contains("relativeError") || first.contains("darkerThan"));
+    Json last = first;
+    bool other = false;
+    for (int i = 0; i < 5 && !other; ++i) {
+        last = next_video();
+        other = !last.value("key", true);
+    }
+    EXPECT_TRUE(other) << "each frame is a key frame";
+    viewer.send({{"ack", {{"frame", last.at("frame")}, {"wantsKey", true}}}});
+    viewer.request({{"ping", Json::object()}});  // it has been read
+    EXPECT_TRUE(next_video().at("key"));
+    const Json rest = viewer.next_frame([](const Json& f) { return f["codec"] != "VP9"; });
+    EXPECT_EQ(rest.value("codec", ""), "JPEG");
+    EXPECT_FALSE(rest.contains("key"));
+    EXPECT_TRUE(reaches(daemon_->port(), "raybundle_video_encoders", 0.0));
 }
 
 /// Pictures in motion may be smaller where there is no time for more; probes mean the full ones.

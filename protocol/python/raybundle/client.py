@@ -347,7 +347,8 @@ async def connect(addresses: Addresses, *, name: str = "python", token: str = ""
     """Opens a session, once the server's scene is ready.
 
     addresses: "HOST:PORT", the address of the page or of the socket; or several of them, of servers of one project.
-    viewport: pixels. codecs: without PNG, pictures at rest are JPEG, too. timeout: seconds.
+    viewport: pixels. codecs: without PNG, pictures at rest are JPEG, too; not VP9, which
+    nothing here decodes. timeout: seconds.
     Raises RequestRefused (wrong token, server full), OSError, asyncio.TimeoutError.
     """
     hello = messages.Hello(protocol=PROTOCOL, name=name, token=token, codecs=[messages.Codec.Value(c) for c in codecs],

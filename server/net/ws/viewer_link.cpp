@@ -52,12 +52,18 @@ void ViewerLink::enqueue(std::string_view json) {
 bool ViewerLink::send_frame(const v1::FrameHeader& header, const std::vector<std::uint8_t>& image) {
     Frame frame{header.frame(), static_cast<int>(header.quality()),
                 static_cast<double>(header.width()) * header.height(),
-                frame_message(header, image, Outgoing::kHeadroom)};
+                frame_message(header, image, Outgoing::kHeadroom),
+                header.has_key() ? std::optional(header.key()) : std::nullopt};
     const std::lock_guard lock(mutex_);
     if (close_) {
         return false;
     }
     const bool replaced = frame_.has_value();
+    if (replaced && frame.key == false) {
+        wants_key_ = true;
+        return true;
+    }
+    wants_key_ = wants_key_ && frame.key != true;
     frame_ = std::move(frame);
     return replaced;
 }
@@ -90,12 +96,14 @@ FrameAdvice ViewerLink::advise(const FrameDemand& demand, double now_ms) {
     const std::lock_guard lock(mutex_);
     FrameAdvice advice = congestion_.advise(demand, now_ms);
     advice.send = advice.send && !frame_ && !close_;
+    advice.key = advice.video_bytes > 0 && wants_key_;
     return advice;
 }
 
 void ViewerLink::on_ack(const v1::Ack& ack, double now_ms) {
     const std::lock_guard lock(mutex_);
     answers_ = true;
+    wants_key_ = wants_key_ || ack.wants_key();
     congestion_.on_ack(ack.frame(), ack.decode_ms(), now_ms);
 }
 
@@ -164,8 +172,13 @@ std::optional<Outgoing> ViewerLink::take(double now_ms) {
         return Outgoing{Outgoing::Kind::ping, with_headroom(std::to_string(++pings_))};
     }
     if (frame_) {
-        congestion_.on_sent(frame_->number, frame_->bytes.size(), frame_->quality, frame_->pixels,
-                            now_ms);
+        if (frame_->key) {
+            congestion_.on_video_sent(frame_->number, frame_->bytes.size(), frame_->quality,
+                                      *frame_->key, now_ms);
+        } else {
+            congestion_.on_sent(frame_->number, frame_->bytes.size(), frame_->quality,
+                                frame_->pixels, now_ms);
+        }
         Outgoing message{Outgoing::Kind::frame, std::move(frame_->bytes)};
         frame_.reset();
         return message;

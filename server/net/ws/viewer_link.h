@@ -58,7 +58,8 @@ class ViewerLink {
     /// As send() for many viewers, which has made the JSON once; skipped before the welcome.
     void send_if_welcomed(std::string_view json);
 
-    /// Makes this the frame that waits. True where it has replaced one.
+    /// Makes this the frame that waits. True where it has replaced one. A frame of video that needs
+    /// the one before it takes no place: it is dropped, and a key frame asked for.
     bool send_frame(const v1::FrameHeader& header, const std::vector<std::uint8_t>& image);
 
     /// Messages of light that may wait: more than any window lets through where they are read.
@@ -112,6 +113,7 @@ class ViewerLink {
         int quality = 0;
         double pixels = 0.0;
         std::vector<std::uint8_t> bytes;
+        std::optional<bool> key;  ///< of video
     };
 
     void enqueue(std::string_view json);
@@ -131,6 +133,7 @@ class ViewerLink {
     bool welcomed_ = false;
     bool greeted_ = false;  ///< the ping after the welcome is sent
     bool answers_ = false;
+    bool wants_key_ = false;  ///< it cannot decode the next frame of video without
 };
 
 }  // namespace raybundle

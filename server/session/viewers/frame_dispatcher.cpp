@@ -39,7 +39,12 @@ bool FrameDispatcher::collect() {
         if (session->frame_finished()) {
             DepthMap depths = session->take_depths();
             auto [header, pixels] = session->take_frame();
-            encoder_.submit({id, header, {pixels.begin(), pixels.end()}, false, std::move(depths)});
+            encoder_.submit({id,
+                             header,
+                             {pixels.begin(), pixels.end()},
+                             false,
+                             std::move(depths),
+                             session->video_bytes()});
             any = true;
         }
     }
@@ -51,6 +56,7 @@ bool FrameDispatcher::draw() {
     const Clock& clock = parts_.policy.clock();
     const TimePoint begun = clock.now();
     DueFrames due = due_frames();
+    parts_.metrics.set_video_load(encoder_.video_load());
     const std::vector<ViewerLoad> loads = parts_.viewers.loads();
     parts_.policy.begin_frames(loads, due.moving);
     const bool anybody_moves = parts_.policy.moving_frames_ms(loads) > 0.0;
@@ -70,6 +76,9 @@ FrameDispatcher::DueFrames FrameDispatcher::due_frames() {
     DueFrames due;
     for (const auto& [id, session] : parts_.viewers) {
         note_silence(*session);
+        if (session->end_video(now)) {
+            encoder_.end_video(id);
+        }
         // While a change is being worked in, the picture is between two states.
         if (parts_.scene.solver().correcting()) {
             continue;
@@ -160,7 +169,12 @@ void FrameDispatcher::draw_first_frames(std::span<const Wanted> newcomers, doubl
             ViewerImage& picture = parts_.pictures.first_look(session);
             auto [header, pixels] =
                 session.render_first(picture, wanted.advice, figures(), clock.now());
-            encoder_.submit({wanted.viewer, header, {pixels.begin(), pixels.end()}, false, {}});
+            encoder_.submit({wanted.viewer,
+                             header,
+                             {pixels.begin(), pixels.end()},
+                             false,
+                             {},
+                             session.video_bytes()});
         } catch (const GpuError& error) {
             parts_.pictures.refuse(session, error);
         }

@@ -39,6 +39,7 @@ ViewerSession::ViewerSession(ViewerId viewer, const v1::Hello& hello, const Came
     identity_.name = hello.name();
     identity_.lossless =
         std::find(hello.codecs().begin(), hello.codecs().end(), v1::PNG) != hello.codecs().end();
+    identity_.video = VideoFrames::wanted_by(hello);
 }
 
 double ViewerSession::since_change_s(TimePoint now) const {
@@ -218,7 +219,12 @@ bool ViewerSession::due(TimePoint now) const {
 }
 
 FrameDemand ViewerSession::demand(TimePoint now) const {
-    return {moving(now), identity_.lossless && !moving(now), pixels()};
+    return {moving(now), identity_.lossless && !moving(now), pixels(),
+            identity_.video && moving(now)};
+}
+
+bool ViewerSession::end_video(TimePoint now) {
+    return !frame_.rendering && (paused_ || !moving(now)) && video_.end();
 }
 
 void ViewerSession::render(const FrameAdvice& advice, const v1::FrameHeader& figures,
@@ -262,7 +268,8 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
         return std::max(1U, static_cast<unsigned>(std::lround(pixels * advice.scale)));
     };
     const glm::uvec2 frame_size =
-        glm::min(glm::uvec2(scaled(size_.x), scaled(size_.y)), image.size());
+        video_.next(advice, glm::min(glm::uvec2(scaled(size_.x), scaled(size_.y)), image.size()),
+                    size_, camera_, now);
     // What was measured is of the own picture; a shared one has just begun.
     const ImageStatistics statistics =
         &image == image_.get() ? measured_statistics() : image.statistics();
@@ -272,6 +279,7 @@ void ViewerSession::compose(ViewerImage& image, const FrameAdvice& advice,
     frame_.header.set_codec(
         advice.quality == FrameAdvice::kLossless && identity_.lossless ? v1::PNG : v1::JPEG);
     frame_.header.set_quality(static_cast<unsigned>(advice.quality));
+    video_.fill(frame_.header);
     frame_.header.set_width(frame_size.x);
     frame_.header.set_height(frame_size.y);
     state_error(statistics, &image == image_.get() && errors_.measured.known(), frame_.header);

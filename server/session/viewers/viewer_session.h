@@ -12,6 +12,7 @@
 #include "raybundle.pb.h"
 #include "scheduling/clock.h"
 #include "scheduling/scheduling_settings.h"
+#include "session/viewers/video_frames.h"
 #include "session/viewers/viewer_display.h"
 #include "stream/congestion_window.h"
 #include "stream/depth_code.h"
@@ -94,6 +95,11 @@ class ViewerSession {
     /// Renders the next frame into its readback. epoch and the other figures go into its header.
     /// Requires has_image().
     void render(const FrameAdvice& advice, const v1::FrameHeader& figures, TimePoint now);
+    /// What a frame of video may take; 0: the frame that was rendered last is none.
+    [[nodiscard]] std::size_t video_bytes() const { return video_.bytes(); }
+    /// Ends the video where the picture rests or nobody looks. True where there was one.
+    bool end_video(TimePoint now);
+
     /// Renders the first frame into a picture that others use, too, from the solution alone. Waits
     /// for it.
     std::pair<v1::FrameHeader, std::span<const std::uint8_t>> render_first(
@@ -166,6 +172,7 @@ class ViewerSession {
         v1::Role role = v1::EDITOR;
         ViewerId following = 0;
         bool lossless = false;  ///< the client decodes PNG
+        bool video = false;     ///< the client wants VP9 rather than JPEG, and there is an encoder
         bool caller = false;
     };
     struct Motion {
@@ -208,6 +215,7 @@ class ViewerSession {
     Target target_;
     Errors errors_;
     Frame frame_;
+    VideoFrames video_;
     bool drawing_ = false;
     bool outdated_ = false;
     bool paused_ = false;
