@@ -15,6 +15,7 @@ larger = {
     *("GpuScene", "ManyLamps", "ZoneBalance", "ViewPrograms", "Caustics", "Solver", "ExchangeRays", "ChangeStore"),
     *("FirstShot", "ScatteredLight", "RadianceStore", "SpecularRays", "SpecialPhase", "AirScene", "PatchMesh"),
     *("RedisLog", "NetworkState", "NetworkThread", "LightService", "ViewerSession", "SnapshotQueue"),
+    *("CongestionWindow", "ViewerLink"),  # 16 since they also tell what a frame of video may take
     # Tables of values that one text describes: the file's material, scene and lights, settings, metrics, services.
     *("Material", "Scene", "PunctualLight", "ServerSettings", "Options", "SolverSettings", "LoopMetrics"),
     "SessionServices",
