@@ -23,8 +23,8 @@ void for_each_pixel(const glm::uvec2& size, const Visit& visit) {
 }
 
 glm::dvec3 radiance(const RayScene& scene, const AlbedoTables& tables,
-                    const VertexIrradiance& irradiance, const std::optional<SurfacePoint>& hit,
-                    const glm::dvec3& direction) {
+                    const InterpolatedIrradiance& irradiance,
+                    const std::optional<SurfacePoint>& hit, const glm::dvec3& direction) {
     if (!hit) {
         return background_towards(scene.scene(), direction);
     }
@@ -39,7 +39,8 @@ glm::dvec3 radiance(const RayScene& scene, const AlbedoTables& tables,
 
 }  // namespace
 
-VertexIrradiance::VertexIrradiance(const RayScene& scene, std::span<const glm::dvec3> patches)
+InterpolatedIrradiance::InterpolatedIrradiance(const RayScene& scene,
+                                               std::span<const glm::dvec3> patches)
     : scene_(scene), vertices_(2 * scene.mesh().positions.size(), glm::dvec3(0.0)) {
     const PatchMesh& mesh = scene.mesh();
     std::vector<double> areas(vertices_.size(), 0.0);
@@ -57,7 +58,7 @@ VertexIrradiance::VertexIrradiance(const RayScene& scene, std::span<const glm::d
     }
 }
 
-glm::dvec3 VertexIrradiance::at(const SurfacePoint& point) const {
+glm::dvec3 InterpolatedIrradiance::at(const SurfacePoint& point) const {
     const glm::uvec3& t = scene_.mesh().triangles[point.triangle];
     const std::size_t side = point.patch < scene_.mesh().triangle_count() ? 0 : 1;
     const glm::dvec2& b = point.barycentric;
@@ -72,7 +73,8 @@ glm::dvec3 main_part(const AlbedoTables& tables, std::uint32_t material,
 }
 
 std::vector<glm::dvec3> picture_of(const RayScene& scene, const AlbedoTables& tables,
-                                   const CameraRays& camera, const VertexIrradiance& irradiance) {
+                                   const CameraRays& camera,
+                                   const InterpolatedIrradiance& irradiance) {
     std::vector<glm::dvec3> picture(std::size_t{camera.size().x} * camera.size().y);
     for_each_pixel(camera.size(), [&](std::size_t pixel, const glm::dvec2& corner) {
         glm::dvec3 sum(0.0);

@@ -14,10 +14,10 @@ namespace raybundle {
 
 /// Irradiance of the patches interpolated over the vertices of each smoothing group (Gouraud): a
 /// vertex has the area-weighted mean of its patches, as in the viewers' pictures of the solution.
-class VertexIrradiance {
+class InterpolatedIrradiance {
   public:
     /// patches: irradiance of each, lx.
-    VertexIrradiance(const RayScene& scene, std::span<const glm::dvec3> patches);
+    InterpolatedIrradiance(const RayScene& scene, std::span<const glm::dvec3> patches);
 
     /// At a point that does not absorb, lx.
     [[nodiscard]] glm::dvec3 at(const SurfacePoint& point) const;
@@ -40,7 +40,8 @@ glm::dvec3 main_part(const AlbedoTables& tables, std::uint32_t material,
 /// Picture of a solution's emission and main part, cd/m², row 0 at the top: the mean over each
 /// pixel's area, by 4 x 4 rays.
 std::vector<glm::dvec3> picture_of(const RayScene& scene, const AlbedoTables& tables,
-                                   const CameraRays& camera, const VertexIrradiance& irradiance);
+                                   const CameraRays& camera,
+                                   const InterpolatedIrradiance& irradiance);
 
 /// What the centres of a picture's pixels show, row by row; nothing: the sky.
 std::vector<std::optional<SurfacePoint>> pixel_centres(const RayScene& scene,

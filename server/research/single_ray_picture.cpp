@@ -20,8 +20,9 @@ std::vector<glm::dvec3> patch_irradiance(const RayScene& scene, const SingleRay&
     return result;
 }
 
-std::vector<VertexIrradiance> batch_irradiance(const RayScene& scene, const SingleRay& solution) {
-    std::vector<VertexIrradiance> result;
+std::vector<InterpolatedIrradiance> batch_irradiance(const RayScene& scene,
+                                                     const SingleRay& solution) {
+    std::vector<InterpolatedIrradiance> result;
     std::vector<glm::dvec3> patches(scene.mesh().side_count());
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
@@ -96,7 +97,7 @@ std::vector<glm::vec3> SingleRayPicture::looks_so_far(const SingleRay& solution)
 std::vector<glm::dvec3> SingleRayPicture::picture(const SingleRay& solution) const {
     std::vector<glm::dvec3> result =
         picture_of(scene_, solution.tables(), camera_,
-                   VertexIrradiance(scene_, patch_irradiance(scene_, solution)));
+                   InterpolatedIrradiance(scene_, patch_irradiance(scene_, solution)));
     const std::vector<glm::vec3> looks = looks_so_far(solution);
     for (std::size_t i = 0; i < looks.size(); ++i) {
         result[i / batches] += glm::dvec3(looks[i]) / (batches * particles_per_batch(solution));
@@ -105,7 +106,7 @@ std::vector<glm::dvec3> SingleRayPicture::picture(const SingleRay& solution) con
 }
 
 glm::dvec3 SingleRayPicture::centre_main_part(const SingleRay& solution, std::size_t pixel,
-                                              const VertexIrradiance& irradiance) const {
+                                              const InterpolatedIrradiance& irradiance) const {
     const SurfacePoint& point = *centres_[pixel];
     const Scattering scattering(scene_, point, NormalKind::shading,
                                 glm::normalize(camera_.origin() - point.position));
@@ -115,7 +116,7 @@ glm::dvec3 SingleRayPicture::centre_main_part(const SingleRay& solution, std::si
 
 ImageError SingleRayPicture::error(const SingleRay& solution,
                                    const std::vector<bool>& measured) const {
-    const std::vector<VertexIrradiance> irradiance = batch_irradiance(scene_, solution);
+    const std::vector<InterpolatedIrradiance> irradiance = batch_irradiance(scene_, solution);
     const std::vector<glm::vec3> looks = looks_so_far(solution);
     BatchScatter scatter(batches);
     for (std::size_t pixel = 0; pixel < centres_.size(); ++pixel) {

@@ -43,7 +43,7 @@ class SingleRayPicture {
                                               const glm::dvec3& direction) const;
     [[nodiscard]] std::vector<glm::vec3> looks_so_far(const SingleRay& solution) const;
     [[nodiscard]] glm::dvec3 centre_main_part(const SingleRay& solution, std::size_t pixel,
-                                              const VertexIrradiance& irradiance) const;
+                                              const InterpolatedIrradiance& irradiance) const;
 
     const RayScene& scene_;
     CameraRays camera_;

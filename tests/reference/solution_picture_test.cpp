@@ -19,11 +19,11 @@ SceneBuilder square(bool welded) {
     return b;
 }
 
-TEST(VertexIrradiance, IsTheMeanOverThePatchesOfAVertex) {
+TEST(InterpolatedIrradiance, IsTheMeanOverThePatchesOfAVertex) {
     const std::vector<glm::dvec3> patches = {glm::dvec3(1.0), glm::dvec3(3.0)};
     const SceneBuilder welded = square(true);
     const RayScene scene(welded.scene, welded.mesh);
-    const VertexIrradiance smooth(scene, patches);
+    const InterpolatedIrradiance smooth(scene, patches);
     EXPECT_NEAR(smooth.at(scene.point_on_patch(0, {1.0, 0.0})).g, 1.0, 1e-12);
     EXPECT_NEAR(smooth.at(scene.point_on_patch(0, {0.0, 1.0})).g, 2.0, 1e-12);
     EXPECT_NEAR(smooth.at(scene.point_on_patch(0, {0.25, 0.5})).g, 1.75, 1e-12);
@@ -31,12 +31,12 @@ TEST(VertexIrradiance, IsTheMeanOverThePatchesOfAVertex) {
 
     const SceneBuilder apart = square(false);
     const RayScene other(apart.scene, apart.mesh);
-    const VertexIrradiance flat(other, patches);
+    const InterpolatedIrradiance flat(other, patches);
     EXPECT_NEAR(flat.at(other.point_on_patch(0, {0.0, 1.0})).g, 1.0, 1e-12);
     EXPECT_NEAR(flat.at(other.point_on_patch(1, {0.3, 0.3})).g, 3.0, 1e-12);
 }
 
-TEST(VertexIrradiance, KeepsTheSidesOfADoubleSidedTriangleApart) {
+TEST(InterpolatedIrradiance, KeepsTheSidesOfADoubleSidedTriangleApart) {
     SceneBuilder b = square(true);
     for (std::uint32_t t = 0; t < 2; ++t) {
         b.mesh.back_side[t] = 2 + t;
@@ -45,7 +45,7 @@ TEST(VertexIrradiance, KeepsTheSidesOfADoubleSidedTriangleApart) {
         b.mesh.emission.emplace_back(0.0F);
     }
     const RayScene scene(b.scene, b.mesh);
-    const VertexIrradiance irradiance(
+    const InterpolatedIrradiance irradiance(
         scene, std::vector<glm::dvec3>{glm::dvec3(1.0), glm::dvec3(1.0), glm::dvec3(8.0),
                                        glm::dvec3(8.0)});
     EXPECT_NEAR(irradiance.at(scene.point_on_patch(1, {0.2, 0.2})).g, 1.0, 1e-12);
