@@ -15,8 +15,8 @@
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "session/changes/change_records.h"
-#include "session/changes/made_requests.h"
 #include "session/changes/scene_history.h"
+#include "session/messages/made_requests.h"
 
 namespace raybundle {
 

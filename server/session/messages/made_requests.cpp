@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/changes/made_requests.h"
+#include "session/messages/made_requests.h"
 
 #include <utility>
 
