@@ -197,7 +197,7 @@ TEST(HeavyLightChange, OneOfTwoLampsIsCorrected) {
 /// numerics.md, "Bright light on and off 1000 times" (a tenth of that but under the label heavy):
 /// what the dim lamp lights is 1e-3 of what the bright one does. Statistical: 0.05 of the mean is
 /// more than 5 standard errors of either solve.
-TEST(LightChange, ABrightLightOnAndOffManyTimesLeavesNoGhost) {
+TEST(HeavyLightChange, ABrightLightOnAndOffManyTimesLeavesNoGhost) {
     SceneBuilder b = two_lamps(1e-3F);
     SolverSettings settings = quick(3, {48, 64});
     settings.special = {.bundles = 3, .most_bundles = 3, .bounces = 1};

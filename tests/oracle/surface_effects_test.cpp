@@ -117,7 +117,7 @@ TEST(SurfaceEffects, NormalMapIsAsByPathTracing) {
     EXPECT_GT(without, 2.0 * with_map);
 }
 
-TEST(SurfaceEffects, RoughnessTextureIsAsByPathTracing) {
+TEST(HeavySurfaceEffects, RoughnessTextureIsAsByPathTracing) {
     LoadedScene loaded = load_effect("roughness_texture");
     const auto picture = solved(loaded, 640);
     EXPECT_LT(block_difference(picture, path_traced(loaded), size, block), 0.03);
@@ -156,7 +156,7 @@ TEST(SurfaceEffects, PolishedSurfacesAreAsByPathTracing) {
     EXPECT_GT(block_difference(picture, path_traced(loaded, 128), size, block), 0.05);
 }
 
-TEST(SurfaceEffects, VertexColoursAreAsByPathTracing) {
+TEST(HeavySurfaceEffects, VertexColoursAreAsByPathTracing) {
     LoadedScene loaded = load_effect("vertex_colours");
     const auto picture = solved(loaded, 320);
     EXPECT_LT(block_difference(picture, path_traced(loaded), size, block), 0.03);
