@@ -76,7 +76,7 @@ void write_statistics(const Options& options, const EglContext& context, const S
         {"constantRadiance", solver.scene().constant_radiance()},
         {"perspectiveBundles", solver.shots().all},
         {"fromEmitters", solver.shots().from_emitters},
-        {"probabilities", {p.layered, p.plane, p.perspective}},
+        {"probabilities", {p.layered, p.plane, p.perspective, p.opening}},
         {"nonFinite", solver.non_finite()},
         {"effects", nlohmann::ordered_json(plan["effects"])},
         {"notices", loaded.scene.notices}};

@@ -16,6 +16,7 @@ void LoopMetrics::note_step(std::optional<Strategy> strategy, double millisecond
     const std::lock_guard lock(mutex_);
     Steps& steps = !strategy                            ? special_
                    : *strategy == Strategy::perspective ? perspective_
+                   : *strategy == Strategy::opening     ? opening_
                                                         : layered_;
     ++steps.count;
     steps.seconds += milliseconds / 1000.0;
@@ -45,7 +46,7 @@ std::string LoopMetrics::text() const {
                "Time of the GL thread in one step of the solver");
     for (const auto& [name, steps] :
          {std::pair("perspective", perspective_), std::pair("layered", layered_),
-          std::pair("special", special_)}) {
+          std::pair("opening", opening_), std::pair("special", special_)}) {
         const std::string label = "strategy=\"" + std::string(name) + "\"";
         out.sample("raybundle_iteration_seconds_sum", label, steps.seconds);
         out.sample("raybundle_iteration_seconds_count", label, static_cast<double>(steps.count));

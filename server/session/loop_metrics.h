@@ -64,7 +64,7 @@ class LoopMetrics {
     std::atomic<std::uint64_t> light_messages_{0}, light_bytes_{0}, light_viewers_{0};
     std::atomic<std::uint64_t> video_encoders_{0}, video_bytes_{0};
     mutable std::mutex mutex_;
-    Steps perspective_, layered_, special_;
+    Steps perspective_, layered_, opening_, special_;
     LoopFigures figures_;
     double frames_per_second_ = 0.0;
     std::uint64_t frames_before_ = 0;

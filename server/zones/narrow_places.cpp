@@ -4,47 +4,23 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "scene/triangle_corners.h"
 #include "zones/exchange_rays.h"
 
 namespace raybundle {
 
 namespace {
 
-/// Distance from a point to a triangle (Ericson 2004, "Real-Time Collision Detection", 5.1.5).
-float distance_to(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const glm::vec3 ab = b - a;
-    const glm::vec3 ac = c - a;
-    const glm::vec3 normal = glm::cross(ab, ac);
-    const float square = glm::dot(normal, normal);
-    const glm::vec3 ap = p - a;
-    if (square > 0.0F) {
-        const float v = glm::dot(glm::cross(ap, ac), normal) / square;
-        const float w = glm::dot(glm::cross(ab, ap), normal) / square;
-        if (v >= 0.0F && w >= 0.0F && v + w <= 1.0F) {
-            return std::abs(glm::dot(ap, normal)) / std::sqrt(square);
-        }
-    }
-    float least = 1e30F;
-    for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) {
-        const glm::vec3 edge = to - from;
-        const float along = glm::clamp(
-            glm::dot(p - from, edge) / std::max(glm::dot(edge, edge), 1e-30F), 0.0F, 1.0F);
-        least = std::min(least, glm::distance(p, from + along * edge));
-    }
-    return least;
-}
-
 bool look_at_triangle(RTCPointQueryFunctionArguments* arguments) {
     const auto* corners =
         static_cast<const glm::vec3*>(arguments->userPtr) + 3 * std::size_t{arguments->primID};
     RTCPointQuery& query = *arguments->query;
+    const glm::vec3 point(query.x, query.y, query.z);
     const float distance =
-        distance_to({query.x, query.y, query.z}, corners[0], corners[1], corners[2]);
+        glm::distance(point, nearest_point({corners[0], corners[1], corners[2]}, point));
     if (distance >= query.radius) {
         return false;
     }

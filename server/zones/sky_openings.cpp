@@ -14,25 +14,23 @@ namespace raybundle {
 
 namespace {
 
-// Where less of what is around is sky, parallel bundles of random directions
-// see it so rarely that the squared deviation of one is above three times that
-// of the mean.
+// Where less of what is around is sky, parallel bundles of random directions see it so rarely that
+// the squared deviation of one is above three times that of the mean.
 constexpr double little_sky = 0.25;
-// Rays from sheltered surfaces: a window of a thousandth of the surfaces that
-// see it has some 30.
+// Rays from sheltered surfaces: a window of a thousandth of the surfaces that see it has some 30.
 constexpr std::size_t sheltered_rays = 32768;
 // Of those that meet the sky so many are looked at, at most.
 constexpr std::size_t max_followed = 1024;
 // A box that fewer rays have passed tells little of an opening's extent.
 constexpr std::size_t min_places = 8;
-// Chance that evenly spread rays leave a gap as wide as one that is taken for a
-// wall: between two openings, or beside one.
+// Chance that evenly spread rays leave a gap as wide as one that is taken for a wall: between two
+// openings, or beside one.
 constexpr double by_chance = 0.01;
 // Of an opening's extent: thickness of one that rays pass in a plane.
 constexpr float least_thickness = 0.05F;
 
-/// Rows: two horizontal directions at right angles, to which most walls are
-/// parallel, and the vertical.
+/// Rows: two horizontal directions at right angles, to which most walls are parallel, and the
+/// vertical.
 glm::mat3 wall_axes(const ExchangeRays& rays) {
     double cosines = 0.0;
     double sines = 0.0;
@@ -50,8 +48,7 @@ glm::mat3 wall_axes(const ExchangeRays& rays) {
     return glm::transpose(glm::mat3(glm::vec3(c, 0, s), glm::vec3(0, 1, 0), glm::vec3(-s, 0, c)));
 }
 
-/// Luminance of the sky that a ray meets, times the area that the ray stands
-/// for.
+/// Luminance of the sky that a ray meets, times the area that the ray stands for.
 double flux_of(const ExchangeRay& ray) {
     return ray.towards != glm::vec3(0.0F) ? static_cast<double>(ray.area * luminance(ray.sky))
                                           : 0.0;
@@ -64,8 +61,7 @@ struct Place {
     glm::vec3 at{0.0F};   ///< along the wall axes
 };
 
-/// Places near each other, and the box that holds them. Few places are strays,
-/// which need none.
+/// Places near each other, and the box that holds them. Few places are strays, which need none.
 struct Box {
     std::vector<Place> places;
     glm::vec3 min{1e30F};
@@ -82,10 +78,9 @@ struct Box {
     }
 };
 
-/// Of n evenly spread numbers none is within the share g of an end by the
-/// chance (1 - g)^n. Where an opening reaches beyond the box all the same, its
-/// light is found by random directions alone, which leaves marks; a box that is
-/// too large costs bundles that start in a wall.
+/// Of n evenly spread numbers none is within the share g of an end by the chance (1 - g)^n. Where
+/// an opening reaches beyond the box all the same, its light is found by random directions alone,
+/// which leaves marks; a box that is too large costs bundles that start in a wall.
 Box make_box(std::vector<Place> places) {
     Box box;
     for (const Place& place : places) {
@@ -104,8 +99,8 @@ Box make_box(std::vector<Place> places) {
     return box;
 }
 
-/// Two parts of a box between which no ray has passed, where that is no chance;
-/// those whose boxes are smallest.
+/// Two parts of a box between which no ray has passed, where that is no chance; those whose boxes
+/// are smallest.
 std::optional<std::array<Box, 2>> split(const Box& whole) {
     const auto n = static_cast<double>(whole.places.size());
     std::optional<std::array<Box, 2>> best;
@@ -195,16 +190,14 @@ std::vector<ExchangeRay> bright_rays(const ExchangeRays& rays, const std::vector
     return bright;
 }
 
-/// bright: rays from sheltered surfaces that meet the sky. Where they pass
-/// between others on their way. Those of a zone stand for all of its sheltered
-/// surfaces.
+/// bright: rays from sheltered surfaces that meet the sky. Where they pass between others on their
+/// way. Those of a zone stand for all of its sheltered surfaces.
 std::vector<Place> find_places(const ExchangeRays& rays, const ZonePartition& partition,
                                std::span<const ExchangeRay> bright,
-                               const std::vector<bool>& sheltered) {
+                               const std::vector<bool>& sheltered, const glm::mat3& axes) {
     std::vector<std::optional<glm::vec3>> found(bright.size());
     tbb::parallel_for(std::size_t{0}, bright.size(),
                       [&](std::size_t i) { found[i] = rays.last_narrow_place(bright[i]); });
-    const glm::mat3 axes = wall_axes(rays);
     std::vector<Place> places;
     std::vector<double> flux(partition.count, 0.0);
     std::vector<double> area(partition.count, 0.0);
@@ -224,9 +217,8 @@ std::vector<Place> find_places(const ExchangeRays& rays, const ZonePartition& pa
     return places;
 }
 
-/// Leaves out places far from others. Of evenly spread ones next to none is
-/// four times as far from its fourth neighbour as they usually are: it would
-/// have sixteen times as many within that.
+/// Leaves out places far from others. Of evenly spread ones next to none is four times as far from
+/// its fourth neighbour as they usually are: it would have sixteen times as many within that.
 void drop_lonely(std::vector<Place>& places) {
     constexpr std::size_t neighbours = 4;
     constexpr float usual_distances = 4.0F;
@@ -281,12 +273,12 @@ SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& par
     const Shelter shelter = find_shelter(rays, partition, lost, sent);
     const std::vector<bool>& sheltered = shelter.sheltered;
     const std::vector<ExchangeRay> bright = bright_rays(rays, sheltered);
-    std::vector<Place> places = find_places(rays, partition, bright, sheltered);
+    const glm::mat3 axes = wall_axes(rays);
+    std::vector<Place> places = find_places(rays, partition, bright, sheltered, axes);
     drop_lonely(places);
     if (places.size() < min_places) {
         return {};
     }
-    const glm::mat3 axes = wall_axes(rays);
     SkyOpenings result;
     result.sheltered.assign((rays.areas().size() + 31) / 32, 0);
     for (std::size_t i = 0; i < rays.areas().size(); ++i) {
@@ -298,9 +290,8 @@ SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& par
     double served = 0.0;
     for (const Box& box : split_all(make_box(std::move(places)), most)) {
         SkyOpening opening = opening_of(box, axes);
-        // Errors are relative, and count alike on each square metre. What n bundles
-        // leave to surfaces of the areas a, the sum of a/n, is least for n like the
-        // root of a.
+        // Errors are relative, and count alike on each square metre. What n bundles leave to
+        // surfaces of the areas a, the sum of a/n, is least for n like the root of a.
         opening.share = static_cast<float>(std::sqrt(box.served()));
         if (opening.volume() > 0.0F && opening.share > 0.0F) {
             roots += static_cast<double>(opening.share);

@@ -36,11 +36,11 @@ struct SkyOpenings {
     float probability = 0.0F;
 };
 
-/// Finds where the light of the sky comes in: where rays from surfaces of which few meet the sky
-/// pass other surfaces most closely (ExchangeRays::narrowest()). Nothing depends on an opening
-/// being right but how well light is found through it. lost: all rays that meet no surface; those
-/// that meet a sky without light do not count. sent: of each cluster, what ExchangeRay::area of all
-/// its rays adds up to. Deterministic.
+/// Finds where the light of the sky comes in: where rays from surfaces that see little of it pass
+/// between others for the last time (ExchangeRays::last_narrow_place()). Nothing depends on an
+/// opening being right but how well light is found through it. lost: all rays that meet no surface;
+/// those that meet a sky without light do not count. sent: of each cluster, what ExchangeRay::area
+/// of all its rays adds up to. Deterministic.
 SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& partition,
                               std::span<const ExchangeRay> lost, std::span<const double> sent,
                               std::size_t most);

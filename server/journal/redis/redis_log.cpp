@@ -309,6 +309,30 @@ Appended RedisLog::add(const StreamEntry& entry, bool again) {
     }
 }
 
+/// Adds an entry, a second time where the connection has broken meanwhile, and has the replicas
+/// take it.
+Appended RedisLog::write(std::uint64_t request, const std::function<Appended(bool again)>& add) {
+    for (const bool again : {false, true}) {
+        try {
+            await_replicas();  // if they are away, nothing is written
+            const Appended result = add(again);
+            if (result == Appended::yes) {
+                await_replicas();
+                done_.insert(request);
+            }
+            return result;
+        } catch (const RedisAway& away) {
+            writer_.reset();
+            if (again) {
+                throw JournalError(away.what());
+            }
+        } catch (const RedisRefusal& refusal) {
+            throw JournalError(refusal.what());
+        }
+    }
+    throw JournalError("not reached");
+}
+
 Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged& before,
                           const std::vector<RequestKey>& keys, const std::string& traceparent) {
     if (const auto reason = outage()) {
@@ -323,26 +347,11 @@ Appended RedisLog::append(const v1::SceneChanged& change, const v1::SceneChanged
     entry.entry.keys = keys;
     entry.entry.traceparent = traceparent;
     entry.before = before;
-    for (const bool again : {false, true}) {
-        try {
-            await_replicas();  // if they are away, nothing is written
-            const Appended result = add(entry, again);
-            if (result == Appended::yes) {
-                await_replicas();
-                done_.insert(entry.request);
-                epoch_ = change.epoch();
-            }
-            return result;
-        } catch (const RedisAway& away) {
-            writer_.reset();
-            if (again) {
-                throw JournalError(away.what());
-            }
-        } catch (const RedisRefusal& refusal) {
-            throw JournalError(refusal.what());
-        }
+    const Appended result = write(entry.request, [&](bool again) { return add(entry, again); });
+    if (result == Appended::yes) {
+        epoch_ = change.epoch();
     }
-    throw JournalError("not reached");
+    return result;
 }
 
 }  // namespace raybundle

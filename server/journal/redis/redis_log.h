@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -91,6 +92,8 @@ class RedisLog final : public ProjectLog {
     void read_now();
     [[nodiscard]] Appended add(const StreamEntry& entry, bool again);
     [[nodiscard]] Appended append_note(const StreamEntry& entry);
+    [[nodiscard]] Appended write(std::uint64_t request,
+                                 const std::function<Appended(bool again)>& add);
     void note_write();
     void await_replicas();
     [[nodiscard]] bool overtaken(const StreamEntry& note) const;

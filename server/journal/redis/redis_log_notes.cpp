@@ -106,25 +106,7 @@ Appended RedisLog::keep_note(NoteKind kind, std::uint32_t number, const std::str
     if (!key.empty()) {
         entry.entry.keys.push_back({key});
     }
-    for (const bool again : {false, true}) {
-        try {
-            await_replicas();
-            const Appended result = append_note(entry);
-            if (result == Appended::yes) {
-                await_replicas();
-                done_.insert(entry.request);
-            }
-            return result;
-        } catch (const RedisAway& away) {
-            writer_.reset();
-            if (again) {
-                throw JournalError(away.what());
-            }
-        } catch (const RedisRefusal& refusal) {
-            throw JournalError(refusal.what());
-        }
-    }
-    throw JournalError("not reached");
+    return write(entry.request, [&](bool /*again*/) { return append_note(entry); });
 }
 
 void RedisLog::drop_note(NoteKind kind, std::uint32_t number) {
