@@ -305,7 +305,7 @@ TEST(RedisReplicas, AChangeIsAcknowledgedOnceSoManyHaveIt) {
     settings.address = master.address();
     settings.project = "office";
     settings.scene_digest = "abc";
-    settings.timeout_ms = 500;
+    settings.timeout_ms = 4000;  // on a slow machine a replica's disk takes a second
     settings.replicas = 1;
     RedisLog log(settings);
     EXPECT_THROW(static_cast<void>(log.append(light_of(1, 5.0F), {}, {})), JournalError);
