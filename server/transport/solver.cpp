@@ -129,7 +129,7 @@ StrategyProbabilities Solver::planned_probabilities() const {
                    glm::mix(first.plane, planned.plane, share),
                    glm::mix(first.perspective, planned.perspective, share)};
     }
-    planned.opening = openings_.probability;
+    planned.opening = openings_.probability(zones_.sky_share(openings_.sheltered_areas));
     planned.layered *= 1.0F - planned.opening;
     planned.perspective *= 1.0F - planned.opening;
     return planned;

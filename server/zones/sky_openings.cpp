@@ -267,6 +267,13 @@ SkyOpening opening_of(const Box& box, const glm::mat3& axes) {
 
 }  // namespace
 
+float SkyOpenings::probability(float sky_share) const {
+    // What comes by other ways, as the light of a patch of sun, is left to the other bundles: with
+    // a quarter less of them its error grows by 1/sqrt(3/4) at most, 15 %.
+    constexpr float most = 0.25F;
+    return std::min(odds * sky_share / (1.0F + odds * sky_share), most);
+}
+
 SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& partition,
                               std::span<const ExchangeRay> lost, std::span<const double> sent,
                               std::size_t most) {
@@ -281,9 +288,11 @@ SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& par
     }
     SkyOpenings result;
     result.sheltered.assign((rays.areas().size() + 31) / 32, 0);
+    result.sheltered_areas.assign(partition.count, 0.0);
     for (std::size_t i = 0; i < rays.areas().size(); ++i) {
         if (sheltered[i]) {
             result.sheltered[i / 32] |= 1U << (i % 32);
+            result.sheltered_areas[partition.zone[i]] += static_cast<double>(rays.areas()[i]);
         }
     }
     double roots = 0.0;
@@ -304,8 +313,8 @@ SkyOpenings find_sky_openings(const ExchangeRays& rays, const ZonePartition& par
     }
     // The same rule between these bundles and all others, which serve the whole scene: what sees
     // the sky needs few.
-    const double odds = std::sqrt(std::min(served / std::max(shelter.hidden, 1e-30), 1.0));
-    result.probability = static_cast<float>(odds / (1.0 + odds));
+    result.odds =
+        static_cast<float>(std::sqrt(std::min(served / std::max(shelter.hidden, 1e-30), 1.0)));
     return result;
 }
 

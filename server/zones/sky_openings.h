@@ -31,9 +31,14 @@ struct SkyOpenings {
     std::vector<SkyOpening> openings;
     /// A bit for each patch, 32 a number: it sees little of the sky.
     std::vector<std::uint32_t> sheltered;
-    /// Of bundles that start in them, among all: their odds are the root of the share that they
-    /// serve of the scene's surfaces, by area, less what sees the sky anyway.
-    float probability = 0.0F;
+    /// m² of the surfaces in each zone that see little of the sky.
+    std::vector<double> sheltered_areas;
+    /// Of bundles that start in them, if all that such surfaces get came from the sky: the root of
+    /// the share that they serve of the scene's surfaces, by area, less what sees the sky anyway.
+    float odds = 0.0F;
+
+    /// Of bundles that start in them, among all. sky_share: of the light of sheltered surfaces.
+    [[nodiscard]] float probability(float sky_share) const;
 };
 
 /// Finds where the light of the sky comes in: where rays from surfaces that see little of it pass

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 
 #include "bare_rooms.h"
 
@@ -82,8 +83,14 @@ TEST(SkyOpenings, AreTheWindowsOfARoom) {
     const SkyOpenings one = openings_of(room_with_windows({2.0F}));
     expect_windows(one, {2.0F});
     // All of the room's surfaces need them, but for the few per cent that see the sky.
-    EXPECT_GT(one.probability, 0.48F);
-    EXPECT_LE(one.probability, 0.5F);
+    EXPECT_GT(one.odds, 0.92F);
+    EXPECT_LE(one.odds, 1.0F);
+    EXPECT_NEAR(one.probability(0.1F), 0.1F * one.odds / (1.0F + 0.1F * one.odds), 1e-6F);
+    EXPECT_EQ(one.probability(1.0F), 0.25F) << "the rest is for what comes by other ways";
+    ASSERT_FALSE(one.sheltered_areas.empty());
+    const double sheltered =
+        std::accumulate(one.sheltered_areas.begin(), one.sheltered_areas.end(), 0.0);
+    EXPECT_NEAR(sheltered, 92.8, 4.0) << "the walls of 4 x 3 x 5 m, less the window";
     expect_windows(openings_of(room_with_windows({0.7F, 3.2F})), {0.7F, 3.2F});
 }
 
@@ -101,7 +108,7 @@ TEST(SkyOpenings, AreNoneWhereNoLightComesIn) {
     closed.scene.sky_radiance = glm::vec3(100.0F);
     closed.room({0, 0, 0}, {4, 3, 5});
     EXPECT_TRUE(openings_of(closed).openings.empty());
-    EXPECT_EQ(openings_of(closed).probability, 0.0F);
+    EXPECT_EQ(openings_of(closed).probability(1.0F), 0.0F);
     Rooms night = room_with_windows({2.0F});
     night.scene.sky_radiance = glm::vec3(0.0F);
     EXPECT_TRUE(openings_of(night).openings.empty());

@@ -81,6 +81,24 @@ SkyOpenings ZoneBalance::find_openings() {
     return find_sky_openings(rays_, partition_, lost_, sent_, MOST_OPENINGS);
 }
 
+float ZoneBalance::sky_share(std::span<const double> areas) const {
+    const auto unit = static_cast<double>(gpu_scene_.radiance_unit());
+    const auto luminance_of = [](const glm::dvec3& flux) {
+        return static_cast<double>(luminance(glm::vec3(flux)));
+    };
+    double squares = 0.0;
+    double area = 0.0;
+    for (std::size_t zone = 0; zone < std::min<std::size_t>(areas.size(), sky_.size()); ++zone) {
+        const double all = luminance_of(levels_.incident()[zone]);
+        if (all > 0.0) {
+            const double share = std::min(luminance_of(sky_[zone].flux / unit) / all, 1.0);
+            squares += areas[zone] * share * share;
+            area += areas[zone];
+        }
+    }
+    return area > 0.0 ? static_cast<float>(std::sqrt(squares / area)) : 1.0F;
+}
+
 void ZoneBalance::find_rays() {
     std::vector<ExchangeRay> traced = rays_.trace();
     partition_ = find_zones(rays_, traced);

@@ -60,6 +60,9 @@ class ZoneBalance {
     void balance(const Means& means);
     /// Where the scene is open to the sky as it is.
     [[nodiscard]] SkyOpenings find_openings();
+    /// Of the light that bundles bring to surfaces of these areas in the zones, m²: the share that
+    /// comes from the sky at once, root mean square; 1 before anything is known of it.
+    [[nodiscard]] float sky_share(std::span<const double> areas) const;
     /// After the first group of iterations, whose bundles carried nothing but emission: irradiance
     /// of each patch that will be reflected light, radiance units.
     [[nodiscard]] std::vector<glm::vec4> complete_start();
