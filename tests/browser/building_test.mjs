@@ -198,6 +198,25 @@ describe('parts of a building', () => {
         assert.deepEqual(messages(sent, 'setHidden').at(-1), {objects: []});
     });
 
+    it('that are fixed are folded again once the words that they were found by are gone', async () => {
+        const {page} = await opened(house());
+        const open = (/** @type {boolean} */ wanted) =>
+            page.waitForFunction((want) => document.getElementById('fixed-details').open === want, wanted);
+        await page.fill('#object-search', 'roof');
+        await open(true);
+        await page.fill('#object-search', 'sofa');
+        await open(false);
+        await page.fill('#object-search', 'wall');
+        await open(true);
+        await page.fill('#object-search', '');
+        await open(false);
+        await page.click('#fixed-details summary');
+        await page.fill('#object-search', 'wall');
+        await page.fill('#object-search', '');
+        await page.waitForSelector('#objects li[data-object="12"]');
+        assert.ok(await page.locator('#fixed-details').evaluate((details) => details.open), 'as the user has left it');
+    });
+
     it('that hold it up stay where they are until they are unlocked', async () => {
         const {page, sent} = await opened(house({object: 1, material: 1}));
         await page.mouse.click(500, 300);
