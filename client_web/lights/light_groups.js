@@ -114,12 +114,14 @@ export class LightGroups {
 
     #show() {
         const groups = groupsOf(this.app.scene?.lights ?? []);
-        const names = JSON.stringify(groups.map(({name, lights}) => [name, lights.map(({id}) => id)]));
+        const names = JSON.stringify([this.app.scene?.lights.length, groups.map(({name, lights}) => [name, lights.map(({id}) => id)])]);
         if (names !== this.#names) {
             this.#names = names;
             this.#refresh = [];
             byId('light-groups', HTMLElement).replaceChildren(...groups.map((group) => this.#card(group)));
             byId('light-groups-none', HTMLElement).hidden = groups.length > 0;
+            // The sky and its suns have none.
+            byId('light-groups-part', HTMLElement).hidden = !(this.app.scene?.lights ?? []).some(({group}) => group !== undefined);
             const options = groups.map(({name}) => {
                 const option = document.createElement('option');
                 option.value = name;

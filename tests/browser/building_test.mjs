@@ -288,7 +288,7 @@ describe('materials and daylight', () => {
         assert.equal(await page.textContent('#picked-material'), 'plaster');
     });
 
-    it('the sky is switched and dimmed like any light', async () => {
+    it('the sky is switched and dimmed like any light, and belongs to no group', async () => {
         const {page, sent} = await opened(house());
         await page.click('#tab-light');
         const card = page.locator('#lights li:has-text("sky")');
@@ -296,5 +296,6 @@ describe('materials and daylight', () => {
         await card.locator('[role="switch"]').click();
         await page.waitForFunction(() => !window.raybundle.scene.lights[1].on);
         assert.deepEqual(messages(sent, 'setLight').at(-1), {light: 2, on: false});
+        assert.ok(await page.isHidden('#light-groups-part'), 'no light of this house can be in one');
     });
 });
