@@ -132,6 +132,32 @@ describe('plans and sections', () => {
         assert.ok(await page.isHidden('#leave-plan'));
     });
 
+    it('are whole in a picture of another shape, unless they have been shifted or enlarged', async () => {
+        const {page} = await opened(house());
+        const width = () => page.evaluate(() => {
+            const {view, picture} = window.raybundle;
+            return 2 * view.near * Math.tan(view.verticalFov / 2) * picture.aspect;
+        });
+        await page.click('#plans-details summary');
+        await page.click('#plans button:has-text("Plan of EG")');
+        await page.waitForFunction(() => window.raybundle.view.near > 100);
+        assert.ok(await width() >= 8, 'the house is 8 m wide');
+        await page.setViewportSize({width: 1000, height: 1400});
+        await page.waitForFunction(() => window.raybundle.picture.aspect < 1);
+        await page.waitForFunction(() => {
+            const {view, picture} = window.raybundle;
+            return 2 * view.near * Math.tan(view.verticalFov / 2) * picture.aspect >= 8;
+        });
+        await page.mouse.move(400, 250);
+        const {verticalFov} = await page.evaluate(() => window.raybundle.view);
+        await page.mouse.wheel(0, -300);
+        await page.waitForFunction((fov) => window.raybundle.view.verticalFov < fov, verticalFov);
+        const enlarged = await page.evaluate(() => window.raybundle.view);
+        await page.setViewportSize({width: 1280, height: 800});
+        await page.waitForFunction(() => window.raybundle.picture.aspect > 1);
+        assert.deepEqual(await page.evaluate(() => window.raybundle.view), enlarged);
+    });
+
     it('leave what lies over the picture where it was, until their own picture is there', async () => {
         const {page} = await opened(house());
         await page.click('#objects button:has-text("Sofa")');
