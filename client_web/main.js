@@ -23,6 +23,7 @@ import {IsolineNumbers} from './measure/isolines.js';
 import {addKeys} from './app/keys.js';
 import {AnimationPanel} from './scene/animation_panel.js';
 import {DaylightPanel} from './scene/daylight_panel.js';
+import {Fade} from './lights/fade.js';
 import {LightGroups} from './lights/light_groups.js';
 import {LightPanel} from './lights/light_panel.js';
 import {Luminaires} from './scene/luminaires.js';
@@ -111,11 +112,12 @@ new SceneFiles(app, () => ({changes: changes.entries.length || (app.scene?.epoch
 new SnapshotPanel(app);
 const things = new Things(app, history);
 const luminaires = new Luminaires(app, things);
-const lightPanel = new LightPanel(app, history, {things, luminaires}, () => {
+const fade = new Fade();
+const lightPanel = new LightPanel(app, history, {things, luminaires, fade}, () => {
     setPanel(true);
     showTab('tab-light');
 });
-new LightGroups(app, history);
+new LightGroups(app, history, fade);
 new DaylightPanel(app, history);
 new AnimationPanel(app, history);
 new TargetPanel(app);

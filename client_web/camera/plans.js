@@ -2,6 +2,7 @@
 // Plans and sections: the scene seen from so far away that parallels stay parallel, cut open by a near plane. Light is
 // that of the whole scene.
 
+import {sameView} from './camera.js';
 import {byId, listRow} from '../ui/elements.js';
 import {UP, add, centre, scale, sub, vec3} from '../ui/vector.js';
 
@@ -75,6 +76,8 @@ export function sectionOf(bounds, through, axis, aspect) {
 export class Plans {
     /** The view before the first plan. @type {View | null} */
     #before = null;
+    /** The plan as it was opened, and for a picture of another shape. @type {{view: View, fit: (aspect: number) => View & {near: number}} | null} */
+    #opened = null;
     #list = byId('plans', HTMLUListElement);
 
     /**
@@ -91,6 +94,7 @@ export class Plans {
                 this.#before = null;
             }
         });
+        app.picture.addEventListener('resize', () => this.#fitAgain());
         byId('leave-plan', HTMLButtonElement).addEventListener('click', () => this.leave());
     }
 
@@ -113,8 +117,21 @@ export class Plans {
         return inside ? Math.max(this.collisions.floorUnder(eye), min.y) : min.y;
     }
 
-    /** @param {View & {near: number}} view */
-    #open(view) {
+    /** Shows the whole of a plan in a picture of another shape, as when the panel closes; not of one that was shifted or enlarged. */
+    #fitAgain() {
+        const {app} = this;
+        if (this.#opened && !app.link.led && sameView(app.view, this.#opened.view)) {
+            const {fit} = this.#opened;
+            const view = fit(app.picture.aspect);
+            this.#opened = {view, fit};
+            app.camera.set(view);
+        }
+    }
+
+    /** @param {(aspect: number) => View & {near: number}} fit */
+    #open(fit) {
+        const view = fit(this.app.picture.aspect);
+        this.#opened = {view, fit};
         this.#before = this.app.view.near ? this.#before : this.app.view;
         const before = this.#before;
         this.app.camera.flyTo(view);
@@ -129,12 +146,20 @@ export class Plans {
         }
         const through = () => centre((app.selected ?? scene).bounds);
         const rows = [...scene.storeys.entries()].map(([name, bounds]) =>
-            listRow(`Plan of ${name}`, () => this.#open(planOf(bounds, app.picture.aspect))),
+            listRow(`Plan of ${name}`, () => this.#open((aspect) => planOf(bounds, aspect))),
         );
+        const plan = () => {
+            const floor = this.#floor();
+            this.#open((aspect) => planOf(scene.bounds, aspect, floor));
+        };
+        const section = (/** @type {'x' | 'z'} */ axis) => {
+            const point = through();
+            this.#open((aspect) => sectionOf(scene.bounds, point, axis, aspect));
+        };
         this.#list.replaceChildren(
-            ...(rows.length > 0 ? rows : [listRow('Plan', () => this.#open(planOf(scene.bounds, app.picture.aspect, this.#floor())))]),
-            listRow('Section, looking north (−z)', () => this.#open(sectionOf(scene.bounds, through(), 'z', app.picture.aspect))),
-            listRow('Section, looking east (+x)', () => this.#open(sectionOf(scene.bounds, through(), 'x', app.picture.aspect))),
+            ...(rows.length > 0 ? rows : [listRow('Plan', plan)]),
+            listRow('Section, looking north (−z)', () => section('z')),
+            listRow('Section, looking east (+x)', () => section('x')),
         );
     }
 }

@@ -5,7 +5,7 @@ import {blackBody, temperatureOf} from '../measure/colour.js';
 import {LiveField, field, fieldNote, input} from '../ui/elements.js';
 import {threeDigits} from '../ui/units.js';
 import {LightDetails, hasDetails} from './light_details.js';
-import {dimmerPosition, dimmerShare, intensityProblem, lightFigures, sameLight} from './light_values.js';
+import {dimmerPosition, dimmerShare, intensityProblem, isLamp, lightFigures, sameLight} from './light_values.js';
 
 /**
  * @typedef {import('../net/scene_types.js').Light} Light
@@ -55,12 +55,14 @@ export class LightCard {
      * @param {SurfaceChange} change
      * @param {() => boolean} mayEdit
      * @param {import('./light_details.js').Deeds} deeds
+     * @param {import('./fade.js').Fade} fade
      */
-    constructor(light, loaded, change, mayEdit, deeds) {
+    constructor(light, loaded, change, mayEdit, deeds, fade) {
         this.light = light;
         this.loaded = loaded;
         this.change = change;
         this.mayEdit = mayEdit;
+        this.fade = fade;
         this.unit = UNITS[/** @type {keyof typeof UNITS} */ (light.unit)] ?? light.unit;
         const name = lightName(light);
         this.on = input('checkbox', {role: 'switch', 'aria-label': `${name} on`});
@@ -117,17 +119,37 @@ export class LightCard {
         return this.loaded.intensity || 1;
     }
 
+    /** Of daylight a server changes nothing slowly. @returns {{fadeSeconds?: number}} */
+    get #slowly() {
+        return isLamp(this.light) ? this.fade.slowly : {};
+    }
+
+    /** @param {object} values  while a slider moves; a fade would begin anew at every step */
+    #going(values) {
+        if (!this.#slowly.fadeSeconds) {
+            this.change.going(values);
+        }
+    }
+
+    /**
+     * @param {object} values
+     * @param {import('../scene/surface_change.js').Refused} [refused]
+     */
+    #done(values, refused) {
+        this.change.done(values, refused, this.#slowly);
+    }
+
     #listen() {
-        const {change, on, dimmer, kelvin} = this;
-        on.addEventListener('change', () => change.done({on: on.checked}));
+        const {on, dimmer, kelvin} = this;
+        on.addEventListener('change', () => this.#done({on: on.checked}));
         const dimmed = () => ({intensity: this.#full * dimmerShare(Number(dimmer.value))});
-        dimmer.addEventListener('input', () => change.going(dimmed()));
-        dimmer.addEventListener('change', () => change.done(dimmed()));
+        dimmer.addEventListener('input', () => this.#going(dimmed()));
+        dimmer.addEventListener('change', () => this.#done(dimmed()));
         this.value.addEventListener('change', () => this.#typed());
         const tinted = () => ({colour: blackBody(Number(kelvin.value))});
-        kelvin.addEventListener('input', () => change.going(tinted()));
-        kelvin.addEventListener('change', () => change.done(tinted()));
-        this.reset.addEventListener('click', () => change.done(this.#original));
+        kelvin.addEventListener('input', () => this.#going(tinted()));
+        kelvin.addEventListener('change', () => this.#done(tinted()));
+        this.reset.addEventListener('click', () => this.#done(this.#original));
     }
 
     /** Somebody has typed an intensity. */
@@ -139,7 +161,7 @@ export class LightCard {
         if (wrong) {
             this.fields.value.reset();
         } else {
-            this.change.done({intensity: value.valueAsNumber}, (why) => fieldNote(note, `${why} ${stays()}`, value));
+            this.#done({intensity: value.valueAsNumber}, (why) => fieldNote(note, `${why} ${stays()}`, value));
         }
     }
 

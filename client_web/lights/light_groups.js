@@ -4,7 +4,6 @@
 import {LiveField, byId, field, input, listRow, replaceRows, smallButton} from '../ui/elements.js';
 import {ServerError} from '../net/protocol.js';
 import {sentence} from '../ui/status.js';
-import {remember, remembered} from '../camera/walking.js';
 import {LampsChange} from './lamps_change.js';
 
 /**
@@ -13,19 +12,6 @@ import {LampsChange} from './lamps_change.js';
  * @typedef {import('../scene/history.js').History} History
  * @typedef {{name: string, lights: Light[]}} Group
  */
-
-const MAX_FADE_S = 60;
-
-/**
- * What a field of seconds says.
- *
- * @param {string | null} text
- * @returns {number} s, 0 to 60, to a tenth; what is no number is 0
- */
-export function fadeSeconds(text) {
-    const seconds = Math.round(10 * Number(text)) / 10;
-    return seconds > 0 ? Math.min(seconds, MAX_FADE_S) : 0;
-}
 
 /**
  * Lights by their groups, in the order of names.
@@ -60,20 +46,16 @@ export class LightGroups {
     /** @type {(() => void)[]} */
     #refresh = [];
     #names = '';
-    #fade = byId('fade-seconds', HTMLInputElement);
 
     /**
      * @param {RaybundleApp} app
      * @param {History} history
+     * @param {import('./fade.js').Fade} fade
      */
-    constructor(app, history) {
+    constructor(app, history, fade) {
         this.app = app;
         this.history = history;
-        this.#fade.value = String(fadeSeconds(remembered('fade')));
-        this.#fade.addEventListener('change', () => {
-            this.#fade.value = String(fadeSeconds(this.#fade.value));
-            remember('fade', this.#fade.value);
-        });
+        this.fade = fade;
         app.on('welcome', () => this.#showAll());
         app.on('sceneChanged', () => this.#show());
         app.on('message', ({lightingSceneChanged}) => lightingSceneChanged && this.#sceneSaved(lightingSceneChanged));
@@ -82,12 +64,6 @@ export class LightGroups {
             event.preventDefault();
             this.#save(byId('lighting-name', HTMLInputElement));
         });
-    }
-
-    /** What a request says of the time that it takes. @returns {{fadeSeconds?: number}} */
-    get #slowly() {
-        const seconds = fadeSeconds(this.#fade.value);
-        return seconds > 0 ? {fadeSeconds: seconds} : {};
     }
 
     /** @param {string} label  for people */
@@ -138,12 +114,14 @@ export class LightGroups {
 
     #show() {
         const groups = groupsOf(this.app.scene?.lights ?? []);
-        const names = JSON.stringify(groups.map(({name, lights}) => [name, lights.map(({id}) => id)]));
+        const names = JSON.stringify([this.app.scene?.lights.length, groups.map(({name, lights}) => [name, lights.map(({id}) => id)])]);
         if (names !== this.#names) {
             this.#names = names;
             this.#refresh = [];
             byId('light-groups', HTMLElement).replaceChildren(...groups.map((group) => this.#card(group)));
             byId('light-groups-none', HTMLElement).hidden = groups.length > 0;
+            // The sky and its suns have none.
+            byId('light-groups-part', HTMLElement).hidden = !(this.app.scene?.lights ?? []).some(({group}) => group !== undefined);
             const options = groups.map(({name}) => {
                 const option = document.createElement('option');
                 option.value = name;
@@ -163,10 +141,10 @@ export class LightGroups {
         const text = document.createElement('output');
         const live = new LiveField(dim);
         const set = (/** @type {{on?: boolean, dim?: number}} */ values) =>
-            change.done({setGroup: {group: name, ...values, ...this.#slowly}});
+            change.done({setGroup: {group: name, ...values, ...this.fade.slowly}});
         on.addEventListener('change', () => set({on: on.checked}));
         dim.addEventListener('input', () => {
-            if (!this.#slowly.fadeSeconds) {  // else it would begin anew at every step
+            if (!this.fade.slowly.fadeSeconds) {  // else it would begin anew at every step
                 change.going({setGroup: {group: name, dim: Number(dim.value)}});
             }
         });
@@ -196,7 +174,7 @@ export class LightGroups {
 
     /** @param {string} name  of a lighting scene */
     #apply(name) {
-        return this.#change(`set lighting scene ${name}`).done({applyLightingScene: {name, ...this.#slowly}});
+        return this.#change(`set lighting scene ${name}`).done({applyLightingScene: {name, ...this.fade.slowly}});
     }
 
     #showScenes() {
@@ -204,7 +182,6 @@ export class LightGroups {
         const scenes = [...(this.app.scene?.lightingScenes ?? [])].sort((a, b) => a.name.localeCompare(b.name));
         byId('save-lighting', HTMLFormElement).hidden = !may;
         byId('lighting-part', HTMLElement).hidden = !may && scenes.length === 0;
-        byId('fade-field', HTMLElement).hidden = !may;
         const rows = scenes.map(({name, byName}) => {
             const row = listRow(name, () => may && this.#apply(name), byName);
             if (may) {

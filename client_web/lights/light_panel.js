@@ -6,7 +6,7 @@ import {byId} from '../ui/elements.js';
 import {sentence} from '../ui/status.js';
 import {LightAiming} from './light_aiming.js';
 import {LightCard, lightName} from './light_card.js';
-import {lampless, loadedLight} from './light_values.js';
+import {isLamp, lampless, loadedLight} from './light_values.js';
 import {byName, materialCard} from '../scene/material_card.js';
 import {SurfaceChange} from '../scene/surface_change.js';
 
@@ -28,7 +28,8 @@ export class LightPanel {
     /**
      * @param {RaybundleApp} app
      * @param {History} history
-     * @param {{things: import('../scene/things.js').Things, luminaires: import('../scene/luminaires.js').Luminaires}} presence
+     * @param {{things: import('../scene/things.js').Things, luminaires: import('../scene/luminaires.js').Luminaires,
+     *     fade: import('./fade.js').Fade}} presence
      * @param {() => void} open  shows this panel
      */
     constructor(app, history, presence, open) {
@@ -76,6 +77,7 @@ export class LightPanel {
         const none = byId('lights-none', HTMLElement);
         none.textContent = lampless(scene.lights);
         none.hidden = none.textContent === '';
+        this.presence.fade.show(this.app.mayEdit && scene.lights.some(isLamp));
         byId('lights-note', HTMLElement).hidden = true;
         byId('materials-note', HTMLElement).hidden = true;
         const lights = scene.lights.map((light) => this.#lightCard(light));
@@ -102,13 +104,13 @@ export class LightPanel {
             return {...light, sameType: true};
         });
         const loaded = this.#loaded.get(light.id) ?? loadedLight(light);
-        const {things, luminaires} = this.presence;
+        const {things, luminaires, fade} = this.presence;
         const details = {
             aim: () => this.aiming.begin(light, change),
             remove: () => things.removeLight(light),
             files: luminaires.files.filter(({flux}) => flux).map(({name}) => name),
         };
-        const card = new LightCard(light, loaded, change, () => this.app.mayEdit, details);
+        const card = new LightCard(light, loaded, change, () => this.app.mayEdit, details, fade);
         this.#refresh.push(() => card.show());
         return card.element;
     }

@@ -13,6 +13,13 @@ const BRIGHTEST = 4;
 const OUTSIDE = ['SKY', 'ENVIRONMENT', 'DIRECTIONAL'];
 
 /**
+ * Whether a light is a lamp, which the sky and its suns are not.
+ *
+ * @param {{kind: string}} light
+ */
+export const isLamp = ({kind}) => !OUTSIDE.includes(kind);
+
+/**
  * Position of a logarithmic dimmer.
  *
  * @param {number} share  of the light as loaded
@@ -102,7 +109,7 @@ export function sameLight(light, loaded) {
  * @returns {string} empty: it has some
  */
 export function lampless(lights) {
-    if (lights.some(({kind}) => !OUTSIDE.includes(kind))) {
+    if (lights.some(isLamp)) {
         return '';
     }
     return lights.length === 0

@@ -26,9 +26,9 @@ const FIRST_SECOND = 0.1;
 /** Room at the bottom of the plot for what is to come. */
 const LOWEST_DECADE = 0.01;
 
-/** @type {(seconds: number) => string} */
+/** Of a decade: 100 s are no whole minutes. @type {(seconds: number) => string} */
 const timeLabel = (seconds) =>
-    seconds < 60 ? `${seconds} s` : seconds < 3600 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
+    seconds < 1000 ? `${seconds} s` : seconds < 3600 ? `${Math.round(seconds / 60)} min` : `${Number((seconds / 3600).toPrecision(2))} h`;
 
 /** @type {(share: number) => string} */
 const shareLabel = (share) => `${Number((100 * share).toPrecision(1))} %`;

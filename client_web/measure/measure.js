@@ -183,7 +183,11 @@ export class Measuring extends EventTarget {
         point.text = measured(illuminance, this.unit, relativeError);
         const text = mark.lastElementChild;
         if (text) {
-            text.textContent = point.text;
+            const [value, ...doubt] = point.text.split(',');
+            const why = document.createElement('span');
+            why.className = 'doubt';
+            why.textContent = doubt.map((part) => `,${part}`).join('');
+            text.replaceChildren(value, why);
         }
         const cells = [
             estimated(inUnit(illuminance, this.unit), this.unit, relativeError),

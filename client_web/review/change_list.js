@@ -60,7 +60,8 @@ export class ChangeList extends EventTarget {
     /** Changes that are done, oldest first. @returns {LogEntry[]} */
     get entries() {
         const own = this.app.client.welcome?.viewer;
-        const loaded = this.#loadedTransforms();
+        const known = this.app.scene?.objects ?? [];
+        const loaded = this.#loadedTransforms(known.flatMap(({id, loaded: then}) => (then ? [[id, completeTransform(then)]] : [])));
         return this.#changes
             .filter(({moveObject}) => moveObject?.final !== false)
             // Of what an animation has moved one row is enough.
@@ -76,12 +77,14 @@ export class ChangeList extends EventTarget {
     }
 
     /**
-     * Where objects stood before all changes that are known: what `welcome` brings may be a restarted scene.
+     * Where objects stood before all changes that are known: what `welcome` brings may be a restarted scene, and the first
+     * changes may not be listed any more.
      *
+     * @param {Iterable<[number, Required<Transform>]>} known
      * @returns {Map<number, Required<Transform>>}
      */
-    #loadedTransforms() {
-        const loaded = new Map();
+    #loadedTransforms(known = []) {
+        const loaded = new Map(known);
         for (const {moveObject, objectBefore} of this.#changes) {
             if (moveObject && objectBefore && !loaded.has(moveObject.object)) {
                 loaded.set(moveObject.object, completeTransform(objectBefore.transform));
@@ -133,6 +136,11 @@ export class ChangeList extends EventTarget {
 
     /** @param {SceneChanged} change */
     #add(change) {
+        const {moveObject, objectBefore: then} = change;
+        const moved = this.app.scene?.object(moveObject?.object);
+        if (moved && then) {
+            moved.loaded ??= completeTransform(then.transform);
+        }
         const subject = subjectOf(change);
         const last = this.#changes.findLast((other) => subjectOf(other) === subject);
         const inHand = !change.moveObject && last === this.#changes.at(-1) && sinceOf(last, change) < IN_HAND_MS;
@@ -246,13 +254,14 @@ function describeMove(object, to, from, loaded) {
         return `moved ${object?.name ?? 'an object'}`;
     }
     const [before, after] = [completeTransform(from.transform), completeTransform(to.transform)];
-    const deed = deedOf(before, after, loaded ?? object.original);
+    const original = loaded ?? object.original;
+    const deed = deedOf(before, after, original);
     if (deed === 'put back') {
         return `put back ${object.name}`;
     }
     if (deed === 'resize') {
         const share = (/** @type {Required<import('../net/scene_types.js').Transform>} */ {scale}) =>
-            Math.round((100 * length(scale)) / (length(object.original.scale) || 1));
+            Math.round((100 * length(scale)) / (length(original.scale) || 1));
         return `resized ${object.name}: ${share(before)} → ${share(after)} %`;
     }
     if (deed === 'turn') {

@@ -22,16 +22,23 @@ const MAX_TEXT = 500;
 const LOOK_FROM = 2.5;
 
 /**
+ * How much the light at a pin has changed.
+ *
+ * @param {{change?: number}} pin
+ * @returns {string} e.g. "−24 %"; empty: about as it was, or not known
+ */
+const percentOf = ({change}) =>
+    change === undefined || Math.abs(change) <= CHANGED ? '' : `${change > 0 ? '+' : '−'}${Math.abs(100 * change).toFixed(0)} %`;
+
+/**
  * What has become of the light at a pin.
  *
- * @param {Pin} pin
- * @returns {string} e.g. "−24 % since"; empty: about the same, or not known
+ * @param {{change?: number}} pin
+ * @returns {string} e.g. "−24 % since then"; empty: about the same, or not known
  */
-export function changeOf({change}) {
-    if (change === undefined || Math.abs(change) <= CHANGED) {
-        return '';
-    }
-    return `${change > 0 ? '+' : '−'}${Math.abs(100 * change).toFixed(0)} % since`;
+export function changeOf(pin) {
+    const percent = percentOf(pin);
+    return percent && `${percent} since then`;
 }
 
 export class Pins {
@@ -220,9 +227,9 @@ export class Pins {
         } else {
             this.pins.set(pin.pin, pin);
         }
-        const fresh = changeOf(pin);
-        if (before && fresh && !changeOf(before)) {
-            this.app.status.notify(`The light at pin ${pin.pin} has changed: ${fresh}.`);
+        const fresh = percentOf(pin);
+        if (before && fresh && !percentOf(before)) {
+            this.app.status.notify(`The light at pin ${pin.pin} has changed by ${fresh} since it was set.`);
         } else if (!before && !pin.removed && pin.by !== this.people.own) {
             this.app.status.notify(`${pin.byName || this.people.name(pin.by)} added a pin.`);
         }

@@ -47,11 +47,17 @@ export class ObjectList {
     #search = byId('object-search', HTMLInputElement);
     #all = byId('show-all', HTMLButtonElement);
     #hide = byId('hide', HTMLButtonElement);
+    #fixedParts = byId('fixed-details', HTMLDetailsElement);
+    /** Unfolded for what has been searched for, not by the user. */
+    #openForSearch = false;
 
     /** @param {RaybundleApp} app */
     constructor(app) {
         this.app = app;
         this.#search.addEventListener('input', () => this.#show());
+        this.#fixedParts.querySelector('summary')?.addEventListener('click', () => {
+            this.#openForSearch = false;
+        });
         this.#all.addEventListener('click', () => this.#setHidden([]));
         this.#hide.addEventListener('click', () => {
             if (app.selected) {
@@ -164,13 +170,23 @@ export class ObjectList {
         this.#fill(this.#objects, found.filter(({loose}) => loose), none);
         const fixed = found.filter(({loose}) => !loose);
         this.#fill(this.#fixed, fixed, '');
-        const details = byId('fixed-details', HTMLDetailsElement);
-        details.hidden = fixed.length === 0;
-        details.open ||= words !== '' && fixed.length > 0;
+        this.#fixedParts.hidden = fixed.length === 0;
+        this.#unfoldFixed(words !== '' && fixed.length > 0);
         const count = this.hidden.size;
         this.#all.hidden = count === 0;
         this.#all.textContent = count === 1 ? 'Show the hidden one' : `Show all ${count} hidden ones`;
         this.#markSelected();
+    }
+
+    /** @param {boolean} wanted  something that is searched for is among the fixed parts */
+    #unfoldFixed(wanted) {
+        if (wanted && !this.#fixedParts.open) {
+            this.#fixedParts.open = true;
+            this.#openForSearch = true;
+        } else if (!wanted && this.#openForSearch) {
+            this.#fixedParts.open = false;
+            this.#openForSearch = false;
+        }
     }
 
     #markSelected() {

@@ -15,9 +15,9 @@ const FIRST_PICTURE = 'Drawing the first picture';
 const STEPS = {
     READING: '1 of 3: reading',
     PREPARING: '2 of 3: preparing surfaces',
-    COMPILING: '3 of 3: preparing light. The picture pauses',
+    COMPILING: '3 of 3: preparing light',
     // Connections are closed and come back; its light is still being prepared.
-    READY: '3 of 3: preparing light. The picture pauses',
+    READY: '3 of 3: preparing light',
 };
 
 /**
@@ -29,7 +29,9 @@ const STEPS = {
  */
 export function progressText({name, byName, stage}, mine) {
     const who = mine ? 'Opening' : byName ? `${byName} opens` : 'The server is preparing';
-    return STEPS[stage] ? `${who} ${name} (${STEPS[stage]}).` : '';
+    // A server that has just started has shown no picture yet.
+    const pauses = STEPS[stage] === STEPS.COMPILING && (mine || byName !== '');
+    return STEPS[stage] ? `${who} ${name} (${STEPS[stage]}).${pauses ? ' The picture pauses.' : ''}` : '';
 }
 
 /**

@@ -71,11 +71,12 @@ export class SurfaceChange {
      *
      * @param {object} values
      * @param {Refused} [refused]  says so, instead of a notice
+     * @param {object} [how]  fields of the request that are no state, such as how long it takes
      */
-    async done(values, refused) {
+    async done(values, refused, how = {}) {
         const from = this.#before ?? this.state();
         this.#before = null;
-        const {result: sent, changes} = await withOwnChanges(this.page.client, () => this.#send(values, refused));
+        const {result: sent, changes} = await withOwnChanges(this.page.client, () => this.#send({...values, ...how}, refused));
         if (sent && 'photometry' in values) {
             this.#addExchange(values, changes);
         } else if (sent) {
@@ -85,7 +86,7 @@ export class SurfaceChange {
                 label: `set ${this.name}`,
                 subject: this.subjects.map((one) => subjectOf({[this.kind]: one})),
                 undo: () => this.#send(Object.fromEntries(touched)),
-                redo: () => this.#send(values),
+                redo: () => this.#send({...values, ...how}),
             });
         }
     }

@@ -91,6 +91,15 @@ void SessionJournal::open(const JournalSettings& settings) {
         " kind INTEGER NOT NULL, number INTEGER NOT NULL, body BLOB NOT NULL,"
         " PRIMARY KEY(session, kind, number)) WITHOUT ROWID");
     database_->execute(
+        // last: the highest number that a note has had, which may be gone
+        "CREATE TABLE IF NOT EXISTS note_number(session INTEGER NOT NULL REFERENCES session(id),"
+        " kind INTEGER NOT NULL, last INTEGER NOT NULL,"
+        " PRIMARY KEY(session, kind)) WITHOUT ROWID");
+    database_->execute(  // of a server that does not keep numbers yet
+        "INSERT INTO note_number SELECT session, kind, max(number) FROM note WHERE true"
+        " GROUP BY session, kind"
+        " ON CONFLICT(session, kind) DO UPDATE SET last=max(last, excluded.last)");
+    database_->execute(
         "CREATE TABLE IF NOT EXISTS past(session INTEGER NOT NULL REFERENCES session(id),"
         " epoch INTEGER NOT NULL, body BLOB NOT NULL, PRIMARY KEY(session, epoch)) WITHOUT ROWID");
     create_key_tables(*database_);
@@ -290,6 +299,32 @@ std::vector<KeyedNote> SessionJournal::keyed_notes() {
     }
 }
 
+std::uint32_t SessionJournal::new_number(NoteKind kind, std::uint32_t free) {
+    try {
+        // Keys know of notes, too, that went before numbers were kept.
+        auto select = database_->prepare(
+            "SELECT max(last) FROM (SELECT last FROM note_number WHERE session=?1 AND kind=?2"
+            " UNION ALL SELECT max(number) FROM note_key WHERE session=?1 AND kind=?2)");
+        select.bind(1, session_);
+        select.bind(2, static_cast<std::int64_t>(kind));
+        const std::int64_t last = select.step() ? select.integer(0) : 0;
+        return std::max(free, static_cast<std::uint32_t>(last) + 1);
+    } catch (const SqliteError& error) {
+        throw JournalError(file_ + ": " + error.what());
+    }
+}
+
+/// So that no later note gets the number, also where this one is removed.
+void SessionJournal::keep_number(NoteKind kind, std::uint32_t number) {
+    auto insert = database_->prepare(
+        "INSERT INTO note_number VALUES(?, ?, ?)"
+        " ON CONFLICT(session, kind) DO UPDATE SET last=max(last, excluded.last)");
+    insert.bind(1, session_);
+    insert.bind(2, static_cast<std::int64_t>(kind));
+    insert.bind(3, std::int64_t{number});
+    insert.run();
+}
+
 Appended SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
                                    const std::string& key) {
     try {
@@ -300,6 +335,7 @@ Appended SessionJournal::keep_note(NoteKind kind, std::uint32_t number, const st
         insert.bind(3, std::int64_t{number});
         insert.bind_blob(4, body);
         insert.run();
+        keep_number(kind, number);
         if (!key.empty()) {
             keep_note_key(*database_, session_, {key, kind, number});
         }

@@ -49,9 +49,7 @@ class SessionJournal final : public ProjectLog {
     /// The last most_request_keys of the last most_past changes.
     [[nodiscard]] std::vector<KeyedChange> keyed() override;
 
-    [[nodiscard]] std::uint32_t new_number(NoteKind /*kind*/, std::uint32_t free) override {
-        return free;
-    }
+    [[nodiscard]] std::uint32_t new_number(NoteKind kind, std::uint32_t free) override;
     [[nodiscard]] Appended keep_note(NoteKind kind, std::uint32_t number, const std::string& body,
                                      const std::string& key = {}) override;
     /// The last most_request_keys.
@@ -73,6 +71,7 @@ class SessionJournal final : public ProjectLog {
     void open(const JournalSettings& settings);
     void create_tables();
     void find_session(const JournalSettings& settings);
+    void keep_number(NoteKind kind, std::uint32_t number);
     void keep_past(std::uint32_t epoch, const v1::SceneChanged& before);
     v1::SceneChanged take_earlier(const v1::SceneChanged& change, std::int64_t subject);
 

@@ -37,6 +37,12 @@ constexpr std::array<std::string_view, 41> thing_words = {
     "unit",    "switch",  "socket",    "chair",   "stuhl",    "table",     "tisch",
     "plant",   "pflanze", "plant pot", "fan",     "radiator", "furniture"};
 
+/// What comes behind one of these says where something is, not what: "wall left of the door".
+constexpr std::array<std::string_view, 22> place_words = {
+    "of",    "at",    "by",   "near", "beside", "behind", "above", "over",
+    "under", "below", "next", "with", "neben",  "hinter", "vor",   "über",
+    "unter", "bei",   "mit",  "am",   "an",     "zu"};
+
 /// Letters of UTF-8 are all bytes above 127, whatever they are.
 bool is_letter(char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -102,6 +108,14 @@ bool is_door(const std::string& word) {
            (!among(word, no_doors) &&
             std::any_of(door_endings.begin(), door_endings.end(),
                         [&](std::string_view ending) { return word.ends_with(ending); }));
+}
+
+/// Whether a name is that of a door, not of what stands beside one.
+bool names_door(const std::vector<std::string>& words) {
+    const auto place =
+        std::find_if(words.begin() + (words.empty() ? 0 : 1), words.end(),
+                     [](const std::string& word) { return among(word, place_words); });
+    return std::any_of(words.begin(), place, is_door);
 }
 
 bool is_global_id(std::string_view text) {
@@ -187,7 +201,7 @@ ObjectKind kind_of_names(std::span<const std::string> names) {
         if (any([](const std::string& word) { return among(word, thing_words); })) {
             continue;
         }
-        if (any(is_door)) {
+        if (names_door(words)) {
             return ObjectKind::door;
         }
         if (any([](const std::string& word) { return among(word, structure_words); })) {

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace raybundle {
 
 namespace {
 
 constexpr float distance_share = 1e-3F;  // of the scene's diameter: ten times the near plane's
+
+constexpr float near_share = 1e-4F;  // of it: the near plane
 
 /// Unit normal of a patch on its own side, world.
 glm::vec3 normal_of(const Scene& scene, const PatchMesh& mesh, std::uint32_t patch) {
@@ -28,6 +31,14 @@ glm::vec3 up_for(const glm::vec3& direction) {
 }
 
 }  // namespace
+
+float probe_rounding(const GpuScene& gpu_scene, const glm::vec3& point) {
+    const glm::vec3 size = glm::abs(point);
+    // Derived: each of pose, projection and message rounds a coordinate once.
+    const float digits =
+        4.0F * std::numeric_limits<float>::epsilon() * std::max({size.x, size.y, size.z});
+    return near_share * gpu_scene.diameter() + digits;
+}
 
 std::optional<PixelProbe> probe_ray(const GpuScene& gpu_scene, const RadianceStore& store,
                                     const ViewPrograms& programs, const glm::vec3& origin,

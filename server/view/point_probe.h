@@ -11,6 +11,11 @@
 
 namespace raybundle {
 
+/// How far a point that a probe has found may be from its surface, m: as near as rays tell surfaces
+/// apart, a ten-thousandth of the scene's diameter, and what single precision leaves of coordinates
+/// far out.
+float probe_rounding(const GpuScene& gpu_scene, const glm::vec3& point);
+
 /// What a probe says of a point of a patch that no picture shows: the same as a picture of one
 /// pixel that looks at the point from right in front of it. point: world, m. Nothing where another
 /// surface is there, or the point is not on the patch. Small, synchronous. Throws GpuError.

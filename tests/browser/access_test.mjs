@@ -270,6 +270,14 @@ describe('on a phone', () => {
         const rows = await page.$$eval('#measured-list li', (all) => all.map(({textContent}) => textContent));
         assert.deepEqual(rows, [3, 4, 5].map((number) => `${number}200 lx ± 3.9 %`));
         await keepScreenshot(page, 'phone_measured');
+        const rough = await page.evaluate(() => {
+            window.raybundleParts.measuring.points[0].probe.relativeError = undefined;
+            document.getElementById('unit').dispatchEvent(new Event('change'));
+            const {innerText, textContent} = document.querySelector('.probe');
+            return [innerText, textContent];
+        });
+        assert.match(rough[0], /≈ 200 lx$/, 'short, where there is little room');
+        assert.match(rough[1], /≈ 200 lx, error not yet known$/);
         // Wherever a point is, its value is whole.
         await page.evaluate(() => {
             const app = window.raybundle;

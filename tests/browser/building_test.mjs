@@ -132,6 +132,32 @@ describe('plans and sections', () => {
         assert.ok(await page.isHidden('#leave-plan'));
     });
 
+    it('are whole in a picture of another shape, unless they have been shifted or enlarged', async () => {
+        const {page} = await opened(house());
+        const width = () => page.evaluate(() => {
+            const {view, picture} = window.raybundle;
+            return 2 * view.near * Math.tan(view.verticalFov / 2) * picture.aspect;
+        });
+        await page.click('#plans-details summary');
+        await page.click('#plans button:has-text("Plan of EG")');
+        await page.waitForFunction(() => window.raybundle.view.near > 100);
+        assert.ok(await width() >= 8, 'the house is 8 m wide');
+        await page.setViewportSize({width: 1000, height: 1400});
+        await page.waitForFunction(() => window.raybundle.picture.aspect < 1);
+        await page.waitForFunction(() => {
+            const {view, picture} = window.raybundle;
+            return 2 * view.near * Math.tan(view.verticalFov / 2) * picture.aspect >= 8;
+        });
+        await page.mouse.move(400, 250);
+        const {verticalFov} = await page.evaluate(() => window.raybundle.view);
+        await page.mouse.wheel(0, -300);
+        await page.waitForFunction((fov) => window.raybundle.view.verticalFov < fov, verticalFov);
+        const enlarged = await page.evaluate(() => window.raybundle.view);
+        await page.setViewportSize({width: 1280, height: 800});
+        await page.waitForFunction(() => window.raybundle.picture.aspect > 1);
+        assert.deepEqual(await page.evaluate(() => window.raybundle.view), enlarged);
+    });
+
     it('leave what lies over the picture where it was, until their own picture is there', async () => {
         const {page} = await opened(house());
         await page.click('#objects button:has-text("Sofa")');
@@ -196,6 +222,25 @@ describe('parts of a building', () => {
         await page.click('#show-all');
         await page.waitForSelector('#show-all', {state: 'hidden'});
         assert.deepEqual(messages(sent, 'setHidden').at(-1), {objects: []});
+    });
+
+    it('that are fixed are folded again once the words that they were found by are gone', async () => {
+        const {page} = await opened(house());
+        const open = (/** @type {boolean} */ wanted) =>
+            page.waitForFunction((want) => document.getElementById('fixed-details').open === want, wanted);
+        await page.fill('#object-search', 'roof');
+        await open(true);
+        await page.fill('#object-search', 'sofa');
+        await open(false);
+        await page.fill('#object-search', 'wall');
+        await open(true);
+        await page.fill('#object-search', '');
+        await open(false);
+        await page.click('#fixed-details summary');
+        await page.fill('#object-search', 'wall');
+        await page.fill('#object-search', '');
+        await page.waitForSelector('#objects li[data-object="12"]');
+        assert.ok(await page.locator('#fixed-details').evaluate((details) => details.open), 'as the user has left it');
     });
 
     it('that hold it up stay where they are until they are unlocked', async () => {
@@ -269,7 +314,7 @@ describe('materials and daylight', () => {
         assert.equal(await page.textContent('#picked-material'), 'plaster');
     });
 
-    it('the sky is switched and dimmed like any light', async () => {
+    it('the sky is switched and dimmed like any light, and belongs to no group', async () => {
         const {page, sent} = await opened(house());
         await page.click('#tab-light');
         const card = page.locator('#lights li:has-text("sky")');
@@ -277,5 +322,6 @@ describe('materials and daylight', () => {
         await card.locator('[role="switch"]').click();
         await page.waitForFunction(() => !window.raybundle.scene.lights[1].on);
         assert.deepEqual(messages(sent, 'setLight').at(-1), {light: 2, on: false});
+        assert.ok(await page.isHidden('#light-groups-part'), 'no light of this house can be in one');
     });
 });

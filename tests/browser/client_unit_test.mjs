@@ -469,6 +469,8 @@ describe('figures', () => {
         assert.ok(y[1] > y[0] && x[1] > x[0]);
         assert.notEqual(plot.target, '');
         assert.ok(plot.labels.some(({text}) => text === '10 %'));
+        const times = layOut([{seconds: 9000, error: 0.1, low: 0.1, high: 0.1}], null, 276, 150).labels.map(({text}) => text);
+        assert.deepEqual(times.slice(-4), ['10 s', '100 s', '17 min', '2.8 h'], 'as the decades are');
         assert.equal(layOut([], null, 276, 150).line, '');
     });
 

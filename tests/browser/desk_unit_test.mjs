@@ -51,6 +51,9 @@ describe('a change in the history', () => {
         const elsewhere = {translation: {x: -4, y: 0, z: 0}, rotation: {x: 0, y: 0, z: 0, w: 1}, scale: {x: 1, y: 1, z: 1}};
         const opened = describeChange(SCENE, {epoch: 1, by: 1, ...back}, elsewhere);
         assert.match(opened, /^moved table/, 'where a page finds an object is not where the file has it');
+        const size = (/** @type {number} */ scale) => ({object: 1, transform: {...elsewhere, scale: vec3(scale, scale, scale)}});
+        const larger = {epoch: 1, by: 1, objectBefore: size(2), moveObject: size(3)};
+        assert.equal(describeChange(SCENE, larger, size(2).transform), 'resized table: 100 → 150 %', 'of the size in the file');
         const rough = {materialBefore: {material: 1, roughness: 1}, setMaterial: {material: 1, roughness: 0.25}};
         assert.equal(says(rough), 'set the roughness of paint: 1.00 → 0.25');
     });

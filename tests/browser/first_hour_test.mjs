@@ -209,4 +209,25 @@ describe('what the page shows', () => {
         await page.waitForFunction(() => window.raybundle.selected.transform.translation.x === -0.25);
         assert.equal(sent.findLast(({moveObject}) => moveObject)?.moveObject.transform.translation.x, -0.25);
     });
+
+    it('is told in shares of its size in the file, also where its first change is no longer listed', async () => {
+        const sized = (/** @type {number} */ share) =>
+            ({object: 1, transform: {translation: {x: 0, y: 0, z: 0}, rotation: {x: 0, y: 0, z: 0, w: 1}, scale: {x: share, y: share, z: share}}});
+        const first = {epoch: 1, by: 4, byName: 'Ben', atMs: 1, moveObject: sized(2), objectBefore: sized(1)};
+        const later = Array.from({length: 1000}, (_, i) => ({
+            epoch: 2 + i, by: 4, byName: 'Ben', atMs: 2 + i, setLight: {light: 1, intensity: 10 + i}, lightBefore: {light: 1, intensity: 9 + i},
+        }));
+        const changes = [first, ...later];
+        const object = {...WELCOME.scene.objects[0], transform: sized(2).transform};
+        const {page} = await openPage(server(
+            {
+                listChanges: {changeHistory: {changes}},
+                moveObject: ({moveObject}) => ({sceneChanged: {epoch: 1002, by: 1, moveObject, objectBefore: sized(2)}}),
+            },
+            {...WELCOME, epoch: 1001, scene: {...WELCOME.scene, objects: [object]}},
+        ));
+        await page.waitForFunction(() => window.raybundle.scene?.object(1)?.loaded);
+        await page.evaluate((moveObject) => window.raybundle.client.request({moveObject}).answer, sized(3));
+        await page.waitForFunction(() => document.querySelector('#changes li').textContent.endsWith('resized table: 200 → 300 %'));
+    });
 });

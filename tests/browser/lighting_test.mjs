@@ -49,7 +49,7 @@ describe('lamps', () => {
         assert.equal(await page.textContent('#light-groups output'), '40 %');
         const dimmed = (/** @type {number} */ to) =>
             page.waitForFunction((dim) => window.raybundle.scene.lights.every((light) => light.dim === dim), to);
-        await page.getByLabel('Fade of groups and lighting scenes, seconds').fill('2.5');
+        await page.getByLabel('Fade of lamps, groups and lighting scenes, seconds').fill('2.5');
         await page.keyboard.press('Tab');
         await page.getByLabel('Group stage, dimmer').fill('0.7');
         await dimmed(0.7);
@@ -58,6 +58,12 @@ describe('lamps', () => {
         assert.equal(await page.evaluate(() => localStorage.getItem('raybundle.fade')), '2.5');
         await page.click('#undo');
         await dimmed(0.4);
+        await page.locator('#lights > li', {hasText: 'spot 1'}).getByLabel('spot 1 on').click();
+        await page.waitForFunction(() => !window.raybundle.scene.lights[0].on);
+        assert.deepEqual(sent.flatMap(({setLight}) => setLight ?? []).at(-1), {light: 1, on: false, fadeSeconds: 2.5});
+        await page.click('#undo');
+        await page.waitForFunction(() => window.raybundle.scene.lights[0].on);
+        assert.deepEqual(sent.flatMap(({setLight}) => setLight ?? []).at(-1), {light: 1, on: true});
         await page.getByLabel('spot 1, Height y').fill('2.6');
         await page.keyboard.press('Enter');
         await page.waitForFunction(() => window.raybundle.scene.lights[0].position.y === 2.6);

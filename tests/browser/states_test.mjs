@@ -167,7 +167,7 @@ describe('the page without its server', () => {
             }
         });
         await page.waitForFunction(() =>
-            document.getElementById('preparing-text').textContent === 'The server is preparing a.glb (3 of 3: preparing light. The picture pauses).',
+            document.getElementById('preparing-text').textContent === 'The server is preparing a.glb (3 of 3: preparing light).',
         );
         await page.waitForSelector('#banner', {state: 'hidden'});
     });

@@ -75,6 +75,9 @@ describe('a scene that somebody opens', () => {
         assert.equal(progressText(opening, false), 'Ann opens a.glb (2 of 3: preparing surfaces).');
         assert.match(progressText({...opening, stage: 'READING'}, true), /^Opening a.glb \(1 of 3/);
         assert.match(progressText({...opening, byName: ''}, false), /^The server is preparing a.glb/);
+        const last = {...opening, stage: 'COMPILING'};
+        assert.match(progressText(last, false), /preparing light\)\. The picture pauses\.$/);
+        assert.match(progressText({...last, byName: ''}, false), /preparing light\)\.$/, 'a server that starts has shown none');
         assert.equal(progressText({...opening, stage: 'REJECTED'}, false), '');
     });
 
@@ -506,7 +509,7 @@ describe('changes', () => {
     it('of the light at a pin are told above ten per cent', () => {
         assert.equal(changeOf({change: 0.09}), '');
         assert.equal(changeOf({}), '');
-        assert.equal(changeOf({change: -0.24}), '−24 % since');
+        assert.equal(changeOf({change: -0.24}), '−24 % since then');
     });
 });
 
@@ -676,7 +679,7 @@ describe('the report', () => {
         });
         assert.ok(!html.includes('<script'));
         assert.ok(html.includes('&lt;script&gt;'));
-        assert.ok(html.includes('+50 % since') && html.includes('moved chair'));
+        assert.ok(html.includes('+50 % since then') && html.includes('moved chair'));
         assert.ok(html.includes('left:50.00%;top:25.00%'));
         assert.ok(html.includes('100 lx, error not yet known') && html.includes('>still uncertain</td></tr>'));
         assert.ok(!/(src|href)="https?:(?!\/\/a\/)/.test(html), 'needs nothing else');

@@ -102,6 +102,7 @@ TEST_F(RedisLogTest, ALaterOneHasTheSumTheStatesBeforeTheNotesAndTheKeys) {
     EXPECT_EQ(past[0].set_light().intensity(), 9.0F);
     EXPECT_EQ(past[2].epoch(), 3U);
     EXPECT_EQ(log.notes(NoteKind::pin), std::vector<std::string>{"glare"});
+    EXPECT_EQ(log.new_number(NoteKind::pin, 2), 3U) << "the one that is gone has had 2";
     ASSERT_EQ(log.keyed().size(), 1U);
     EXPECT_EQ(log.keyed()[0].change.epoch(), 2U);
     EXPECT_EQ(log.keyed()[0].before.set_light().intensity(), 5.0F);

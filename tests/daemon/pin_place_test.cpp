@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "session/messages/scene_messages.h"
 #include "test_folder.h"
@@ -87,6 +88,54 @@ TEST(PinPlace, MovesWithItsObject) {
     EXPECT_EQ(side_of(plates.scene, plates.mesh, pin), plates.mesh.back_side[kPinTriangle]);
 }
 
+TEST(PinPlace, IsTheNamedSideWhereThePointLiesOnIt) {
+    const Plates plates(2);
+    const std::uint32_t back = plates.mesh.back_side[kPinTriangle];
+    const glm::vec3 eye = kPinSpot + glm::vec3(0, 3, 0);
+    const glm::vec3 rounded = kPinSpot + glm::vec3(0, 5e-4F, 0);
+    for (const std::uint32_t side : {kPinTriangle, back}) {
+        const auto found = side_near(plates.scene, plates.mesh, side, rounded, eye, 1e-3F);
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->side, side) << "also where the eye sees the other one";
+    }
+}
+
+TEST(PinPlace, IsWhatIsThereWhereTheNamedSideIsElsewhere) {
+    Plates plates(2);
+    const std::uint32_t back = plates.mesh.back_side[kPinTriangle];
+    const glm::vec3 up(0, 3, 0);
+    const auto found = [&](const glm::vec3& point, const std::optional<glm::vec3>& eye) {
+        return side_near(plates.scene, plates.mesh, 0, point, eye, 1e-3F);
+    };
+    EXPECT_EQ(found(kPinSpot, kPinSpot + up)->side, kPinTriangle);
+    EXPECT_EQ(found(kPinSpot, kPinSpot - up)->side, back);
+    EXPECT_EQ(found(kPinSpot, std::nullopt)->side, kPinTriangle);
+    // What was there has gone since: the plate below is the nearest, and far.
+    plates.scene.objects[1].transform.translation = {0.0F, 7.0F, 0.0F};
+    EXPECT_NEAR(found(kPinSpot, kPinSpot + up)->distance, 1.0F, 1e-6F);
+    EXPECT_EQ(found(kPinSpot + glm::vec3(0, 7, 0), std::nullopt)->side, kPinTriangle);
+    plates.scene.objects[0].removed = true;
+    EXPECT_NEAR(found(kPinSpot, std::nullopt)->distance, 7.0F, 1e-6F);
+    plates.scene.objects[1].removed = true;
+    EXPECT_FALSE(found(kPinSpot, std::nullopt));
+}
+
+TEST(PinPlace, IsTheWallThatIsSeenBestInACorner) {
+    // The plate above stands on the edge x = 0 of the one below.
+    Plates plates(2);
+    plates.scene.objects[1].transform.translation = {1.0F, 0.0F, 0.0F};
+    plates.scene.objects[1].transform.rotation =
+        glm::angleAxis(glm::radians(90.0F), glm::vec3(0, 0, 1));
+    const glm::vec3 corner(0.0F, 0.0F, 0.5F);
+    const auto object = [&](const glm::vec3& eye) {
+        const auto found = side_near(plates.scene, plates.mesh, 999, corner, eye, 1e-3F);
+        return plates.mesh
+            .vertex_object[plates.mesh.triangles[plates.mesh.side_triangle[found->side]].x];
+    };
+    EXPECT_EQ(object({0.1F, 2.0F, 0.5F}), 0U);
+    EXPECT_EQ(object({2.0F, 0.1F, 0.5F}), 1U);
+}
+
 TEST(PinPlace, OfAPinOnNothingIsNone) {
     const Plates plates(2);
     Pin pin;
@@ -120,6 +169,22 @@ TEST_F(JournalOfPins, KeepsTheirSidesAlsoWhereTheSceneHasGrownMeanwhile) {
     EXPECT_EQ(side_of(after.scene, after.mesh, pin), after.mesh.back_side[kPinTriangle]);
     pin = restarted();
     EXPECT_EQ(side_of(before.scene, before.mesh, pin), before.mesh.back_side[kPinTriangle]);
+}
+
+TEST_F(JournalOfPins, NumbersThemOnWhereTheLastOneWasRemoved) {
+    const Plates plates(2);
+    for (const std::uint32_t number : {1U, 2U, 3U}) {
+        ChangeLog log(settings());
+        ReviewBoard board(log);
+        const Pin* const added = board.add_pin(pin_on(plates, kPinTriangle));
+        ASSERT_NE(added, nullptr);
+        EXPECT_EQ(added->message.pin(), number);
+        EXPECT_TRUE(board.remove_pin(number));
+        const v1::ViewpointChanged* const viewpoint = board.add_viewpoint({});
+        ASSERT_NE(viewpoint, nullptr);
+        EXPECT_EQ(viewpoint->viewpoint(), number);
+        EXPECT_TRUE(board.remove_viewpoint(number));
+    }
 }
 
 TEST_F(JournalOfPins, OfEarlierVersionsHasNumbersOfSidesOnly) {

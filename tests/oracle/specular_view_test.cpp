@@ -132,6 +132,31 @@ TEST(SpecularView, MirrorsShowMirrors) {
     }
 }
 
+/// What a viewer has hidden is in no mirror either; a mirror that is hidden reflects nothing.
+TEST(SpecularView, MirrorsDoNotShowWhatIsHidden) {
+    SceneBuilder b;
+    b.add_quad({0, 0, 0}, {0, 3, 0}, {0, 0, 4}, 1, 1, b.add_material(mirror_material()));
+    const auto glow = b.add_material(glm::vec3(0.0F), glm::vec3(1.0F));
+    const std::uint32_t board = b.add_object("board");
+    b.add_quad({1, 0, 0}, {0, 0, 4}, {0, 3, 0}, 1, 1, glow);
+    b.add_object("wall");
+    b.add_quad({2, 0, 0}, {0, 0, 4}, {0, 3, 0}, 1, 1, glow);
+    const std::vector<glm::mat4> places(3, glm::mat4(1.0F));
+    const SpecularRays rays(b.scene, b.mesh, places);
+    std::array<ContinuedRay, SpecularRays::most_ends> ends;
+    const auto ends_without = [&](const std::vector<std::uint32_t>& hidden) {
+        return rays.follow({0.5F, 1.5F, 2.0F}, {-1, 0, 0}, 1, ends, SpecularRays::Coats::followed,
+                           hidden);
+    };
+    ASSERT_EQ(ends_without({}), 1U);
+    EXPECT_NEAR(ends[0].position.x, 1.0F, 1e-4F);
+    ASSERT_EQ(ends_without({board}), 1U);
+    EXPECT_NEAR(ends[0].position.x, 2.0F, 1e-4F);
+    ASSERT_EQ(ends_without({1, 2}), 1U);
+    EXPECT_EQ(ends[0].surface, ContinuedRay::sky);
+    EXPECT_EQ(ends_without({0}), 0U) << "the mirror itself";
+}
+
 /// A slab of absorbing glass, 1 m thick: Snell shifts the ray, Fresnel takes a share at both faces,
 /// Beer and Lambert inside.
 TEST(SpecularView, ASlabOfGlassShiftsAndAbsorbs) {

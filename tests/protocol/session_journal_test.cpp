@@ -377,6 +377,40 @@ TEST_F(SessionJournalTest, KnowsWhichRequestsHaveLeftNotes) {
     EXPECT_EQ(keyed[1].number, 1U) << "also of one that is gone";
 }
 
+TEST_F(SessionJournalTest, NeverGivesTheNumberOfANoteAgain) {
+    {
+        SessionJournal journal(settings_);
+        EXPECT_EQ(journal.new_number(NoteKind::pin, 1), 1U);
+        EXPECT_EQ(journal.new_number(NoteKind::pin, 7), 7U) << "as who asks knows none below";
+        for (const std::uint32_t number : {1U, 2U, 3U}) {
+            EXPECT_EQ(journal.keep_note(NoteKind::pin, number, "glare"), Appended::yes);
+        }
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 2, "glare here"), Appended::yes);
+        journal.drop_note(NoteKind::pin, 3);
+        journal.drop_note(NoteKind::pin, 99);  // which no note has had
+    }
+    SessionJournal journal(settings_);
+    EXPECT_EQ(journal.new_number(NoteKind::pin, 3), 4U);
+    EXPECT_EQ(journal.new_number(NoteKind::viewpoint, 1), 1U);
+}
+
+TEST_F(SessionJournalTest, OfAServerThatKeptNoNumbersGoesOnBehindItsNotes) {
+    {
+        SessionJournal journal(settings_);
+        EXPECT_EQ(journal.keep_note(NoteKind::pin, 5, "glare"), Appended::yes);
+        EXPECT_EQ(journal.keep_note(NoteKind::viewpoint, 4, "door", "key"), Appended::yes);
+        journal.drop_note(NoteKind::viewpoint, 4);
+    }
+    SqliteDatabase(settings_.file).execute("DROP TABLE note_number");
+    {
+        SessionJournal journal(settings_);
+        journal.drop_note(NoteKind::pin, 5);
+        EXPECT_EQ(journal.new_number(NoteKind::viewpoint, 1), 5U) << "the key knows of it";
+    }
+    SessionJournal journal(settings_);
+    EXPECT_EQ(journal.new_number(NoteKind::pin, 1), 6U);
+}
+
 TEST_F(SessionJournalTest, NotesOfAnotherSceneAreNotThisOnes) {
     {
         SessionJournal journal(settings_);

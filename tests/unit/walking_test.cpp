@@ -165,16 +165,19 @@ ObjectKind kind(const std::string& name) {
 }
 
 TEST(ObjectKinds, AreToldByNames) {
-    for (const char* door : {"Door_01", "IfcDoor/Single 90", "Haustür", "TÜR 3", "frontDoor",
-                             "Porte d'entrée", "puerta", "Single-Flush:0915 x 2134mm Door"}) {
+    for (const char* door :
+         {"Door_01", "IfcDoor/Single 90", "Haustür", "TÜR 3", "frontDoor", "Porte d'entrée",
+          "puerta", "door of the hall", "Single-Flush:0915 x 2134mm Door"}) {
         EXPECT_EQ(kind(door), ObjectKind::door) << door;
     }
     for (const char* part : {"Basic Wall:Interior - 138mm:309", "IfcWallStandardCase", "Slab.002",
-                             "Geschossdecke Decke", "roof", "Wand", "IfcStairFlight"}) {
+                             "wall left of the door", "Wand neben der Tür", "Geschossdecke Decke",
+                             "roof", "Wand", "IfcStairFlight"}) {
         EXPECT_EQ(kind(part), ObjectKind::structure) << part;
     }
-    for (const char* thing : {"floor lamp", "Wall clock", "ceiling light 2", "indoor plant",
-                              "outdoor chair", "Doris", "sofa", "Walter", "portable"}) {
+    for (const char* thing :
+         {"floor lamp", "Wall clock", "ceiling light 2", "indoor plant", "outdoor chair", "Doris",
+          "sofa", "lintel above door", "Walter", "portable"}) {
         EXPECT_EQ(kind(thing), ObjectKind::thing) << thing;
     }
 }

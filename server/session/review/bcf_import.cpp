@@ -61,14 +61,8 @@ Pin ReviewService::placed(const v1::PinChanged& topic) {
         const auto hit =
             probe_ray(live.solver().scene(), live.solver().store(), live.programs(), eye, ahead);
         if (hit) {
-            const Object& object = live.scene().objects[hit->object];
             put_on(live.scene(), live.mesh(), hit->patch, hit->position, pin);
             pin.patch_illuminance = live.patch_illuminance(hit->patch);
-            to_message(hit->position, message.mutable_position());
-            message.set_object(object.id);
-            to_message(glm::vec3(glm::inverse(object.world_from_object()) *
-                                 glm::vec4(hit->position, 1.0F)),
-                       message.mutable_local_position());
             message.set_illuminance(luminance(hit->irradiance));
         }
     } catch (const GpuError& error) {

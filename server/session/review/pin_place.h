@@ -11,7 +11,20 @@
 
 namespace raybundle {
 
-/// Puts a pin on a side of the mesh, where that is nearest to `position` (world, m).
+/// A side of the mesh and how far a point is from it, m.
+struct NearSide {
+    std::uint32_t side = 0;
+    float distance = 0.0F;
+};
+
+/// Which side a point lies on that somebody has seen: `named` where it does so within `rounding`
+/// (m), else the nearest side of what is there; of a surface with two sides the one that `eye`
+/// sees, the front without an eye. point, eye: world, m. Nothing where no object is there.
+std::optional<NearSide> side_near(const Scene& scene, const PatchMesh& mesh, std::uint32_t named,
+                                  const glm::vec3& point, const std::optional<glm::vec3>& eye,
+                                  float rounding);
+
+/// Puts a pin on a side of the mesh at `position` (world, m), and says so in its message.
 void put_on(const Scene& scene, const PatchMesh& mesh, std::uint32_t side,
             const glm::vec3& position, Pin& pin);
 

@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -55,29 +56,52 @@ bool ReviewService::answer_kept(const ClientEvent& event) {
     return true;
 }
 
+/// The side that a new pin lies on: numbers of sides change, and so does what is at a place, while
+/// somebody writes. Nothing: no surface is there, which has been answered.
+std::optional<std::uint32_t> ReviewService::named_side(const ViewerSession& session,
+                                                       const ClientEvent& event) {
+    const v1::AddPin& wanted = event.message.add_pin();
+    const LiveScene& live = parts_.scene;
+    if (wanted.patch() >= live.mesh().side_count()) {
+        parts_.server.reply_error(event, v1::Error::NOT_FOUND,
+                                  "addPin.patch: no patch " + std::to_string(wanted.patch()));
+        return std::nullopt;
+    }
+    const glm::vec3 point = from_message(wanted.position());
+    const auto eye = session.is_caller() ? std::nullopt : std::optional(session.camera().eye);
+    const float rounding = probe_rounding(live.solver().scene(), point);
+    const auto found = side_near(live.scene(), live.mesh(), wanted.patch(), point, eye, rounding);
+    if (found && found->distance <= rounding) {
+        return found->side;
+    }
+    std::string text = "addPin.position: no surface is there";
+    if (found) {
+        text += ", the nearest is " + std::to_string(std::lround(1000.0F * found->distance)) +
+                " mm away";
+    }
+    parts_.server.reply_error(event, v1::Error::NOT_FOUND, text);
+    return std::nullopt;
+}
+
 HandlerResult ReviewService::add_pin(ViewerSession& session, const ClientEvent& event) {
     if (answer_kept(event)) {
         return HandlerResult::answered;
     }
     const v1::AddPin& wanted = event.message.add_pin();
-    if (wanted.patch() >= parts_.scene.mesh().side_count()) {
-        parts_.server.reply_error(event, v1::Error::NOT_FOUND,
-                                  "addPin.patch: no patch " + std::to_string(wanted.patch()));
+    const std::optional<std::uint32_t> side = named_side(session, event);
+    if (!side) {
         return HandlerResult::answered;
     }
     Pin pin;
-    put_on(parts_.scene.scene(), parts_.scene.mesh(), wanted.patch(),
-           from_message(wanted.position()), pin);
+    put_on(parts_.scene.scene(), parts_.scene.mesh(), *side, from_message(wanted.position()), pin);
     pin.patch_illuminance = parts_.scene.patch_illuminance(pin.patch);
     v1::PinChanged& message = pin.message;
     message.set_by(event.viewer);
     message.set_by_name(session.name());
     message.set_text(wanted.text());
-    *message.mutable_position() = wanted.position();
     message.set_illuminance(pin.patch_illuminance);
     message.set_epoch(parts_.scene.epoch());
     message.set_set_at_ms(unix_ms());
-    *message.mutable_local_position() = wanted.position();
     if (!session.is_caller()) {  // who asks over HTTP looks from nowhere
         const Camera& camera = session.camera();
         to_message(camera.eye, message.mutable_camera()->mutable_eye());
@@ -109,11 +133,6 @@ void ReviewService::measure(ViewerSession& session, Pin& pin) {
     if (!hit) {
         return;
     }
-    const Object& object = live.scene().objects[hit->object];
-    const glm::mat4 object_from_world = glm::inverse(object.world_from_object());
-    message.set_object(object.id);
-    to_message(glm::vec3(object_from_world * glm::vec4(position, 1.0F)),
-               message.mutable_local_position());
     message.set_illuminance(luminance(hit->irradiance));
     if (hit->relative_error) {
         message.set_relative_error(static_cast<float>(*hit->relative_error));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,6 +58,8 @@ class ReviewService {
     bool answer_kept(const ClientEvent& event);
     void refuse(const ClientEvent& event);
     [[nodiscard]] Pin placed(const v1::PinChanged& topic);
+    [[nodiscard]] std::optional<std::uint32_t> named_side(const ViewerSession& session,
+                                                          const ClientEvent& event);
     void announce_pin(const ClientEvent& event, const Pin* pin);
     void measure(ViewerSession& session, Pin& pin);
     [[nodiscard]] bool worth_refining(const Pin& pin) const;

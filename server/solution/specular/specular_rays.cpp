@@ -46,10 +46,23 @@ float diameter_of(const std::vector<glm::vec3>& positions,
 
 }  // namespace
 
-/// What the intersection filter needs to know.
-struct SpecularRays::FrontQuery {
+/// What the intersection filter needs to know. The context comes first, since Embree hands on its
+/// address.
+struct SpecularRays::RayQuery {
     RTCIntersectContext context{};
-    const SpecularRays* rays = nullptr;
+    const SpecularRays* rays;
+    std::span<const std::uint32_t> hidden;
+    bool sends = false;  ///< only sides that send light are met
+
+    RayQuery(const SpecularRays& of, std::span<const std::uint32_t> without)
+        : rays(&of), hidden(without) {
+        rtcInitIntersectContext(&context);
+        context.filter = hidden.empty() ? nullptr : filter;
+    }
+    void meet_what_sends() {
+        sends = true;
+        context.filter = filter;
+    }
 };
 
 SpecularRays::SpecularRays(const Scene& scene, const PatchMesh& mesh,
@@ -153,15 +166,23 @@ void SpecularRays::place(std::uint32_t object, const glm::mat4& world_from_objec
     rtcCommitScene(scene_.get());
 }
 
-/// Lets pass only hits on sides that send light.
-void SpecularRays::reject_absorbing(const RTCFilterFunctionNArguments* arguments) {
-    const auto* query = reinterpret_cast<const FrontQuery*>(arguments->context);
-    const Object& object = query->rays->objects_[RTCHitN_instID(arguments->hit, 1, 0, 0)];
+/// Takes out what is hidden and, where the query wants, sides that send no light.
+void SpecularRays::filter(const RTCFilterFunctionNArguments* arguments) {
+    const auto& query = *reinterpret_cast<const RayQuery*>(arguments->context);
+    const unsigned number = RTCHitN_instID(arguments->hit, 1, 0, 0);
+    if (std::find(query.hidden.begin(), query.hidden.end(), number) != query.hidden.end()) {
+        arguments->valid[0] = 0;
+        return;
+    }
+    if (!query.sends) {
+        return;
+    }
+    const Object& object = query.rays->objects_[number];
     const float along = RTCHitN_Ng_x(arguments->hit, 1, 0) * RTCRayN_dir_x(arguments->ray, 1, 0) +
                         RTCHitN_Ng_y(arguments->hit, 1, 0) * RTCRayN_dir_y(arguments->ray, 1, 0) +
                         RTCHitN_Ng_z(arguments->hit, 1, 0) * RTCRayN_dir_z(arguments->ray, 1, 0);
     const bool front = (along < 0.0F) != object.mirrored;
-    if (query->rays->absorbs(object.facets[RTCHitN_primID(arguments->hit, 1, 0)], front)) {
+    if (query.rays->absorbs(object.facets[RTCHitN_primID(arguments->hit, 1, 0)], front)) {
         arguments->valid[0] = 0;
     }
 }
@@ -200,11 +221,12 @@ SpecularRays::Hit SpecularRays::hit_of(std::uint32_t object, std::uint32_t primi
 }
 
 std::optional<SpecularRays::Hit> SpecularRays::meet(const glm::vec3& origin,
-                                                    const glm::vec3& direction) const {
+                                                    const glm::vec3& direction,
+                                                    std::span<const std::uint32_t> hidden) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    const RTCRayHit found = intersect(scene_.get(), context, origin, direction, 0.0F, infinity);
+    RayQuery query(*this, hidden);
+    const RTCRayHit found =
+        intersect(scene_.get(), query.context, origin, direction, 0.0F, infinity);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
     }
@@ -214,10 +236,7 @@ std::optional<SpecularRays::Hit> SpecularRays::meet(const glm::vec3& origin,
         return hit;
     }
     // Where a front and an absorbing back coincide the front is seen, as in rasterised pictures.
-    FrontQuery query;
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = reject_absorbing;
-    query.rays = this;
+    query.meet_what_sends();
     const float reach =
         4.0F * offset_ / std::max(std::abs(glm::dot(hit.geometric, direction)), 1e-3F);
     const RTCRayHit covering =

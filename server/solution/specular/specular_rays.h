@@ -60,10 +60,10 @@ class SpecularRays {
     /// expected value is right. `seed` decides that; equal seeds, equal ends. A coat splits
     /// it, too: what lies below is an end where the ray meets it, unless it is the first surface,
     /// which is seen without this. Rays stop after most_surfaces, or when they carry less than
-    /// least_throughput. Usable by any number of threads.
+    /// least_throughput. hidden: objects that no ray meets. Usable by any number of threads.
     std::size_t follow(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t seed,
-                       std::span<ContinuedRay, most_ends> ends,
-                       Coats coats = Coats::followed) const;
+                       std::span<ContinuedRay, most_ends> ends, Coats coats = Coats::followed,
+                       std::span<const std::uint32_t> hidden = {}) const;
     static constexpr int most_surfaces = 12;
     static constexpr float least_throughput = 1.0F / 512.0F;
 
@@ -81,9 +81,9 @@ class SpecularRays {
         bool front = true;
         float distance = 0.0F;  ///< m
     };
-    /// The nearest facet on the way of a ray.
-    [[nodiscard]] std::optional<Hit> meet(const glm::vec3& origin,
-                                          const glm::vec3& direction) const;
+    /// The nearest facet on the way of a ray. hidden: objects that it does not meet.
+    [[nodiscard]] std::optional<Hit> meet(const glm::vec3& origin, const glm::vec3& direction,
+                                          std::span<const std::uint32_t> hidden = {}) const;
     [[nodiscard]] const SpecularSurface& surface(const Hit& hit) const {
         return surfaces_[materials_[hit.facet]];
     }
@@ -119,13 +119,13 @@ class SpecularRays {
         std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> hierarchy{nullptr, nullptr};
     };
     class Walk;
-    struct FrontQuery;
+    struct RayQuery;
 
     void build(Object& object);
     void classify(const Scene& scene, std::size_t material);
     [[nodiscard]] Hit hit_of(std::uint32_t object, std::uint32_t primitive, float u, float v,
                              float distance, const glm::vec3& direction) const;
-    static void reject_absorbing(const RTCFilterFunctionNArguments* arguments);
+    static void filter(const RTCFilterFunctionNArguments* arguments);
 
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, object space
     std::vector<std::uint32_t> vertex_object_;

@@ -12,11 +12,11 @@ namespace raybundle {
 class SpecularRays::Walk {
   public:
     Walk(const SpecularRays& rays, std::uint32_t seed, std::span<ContinuedRay, most_ends> ends,
-         Coats coats)
-        : rays_(rays), state_(seed), ends_(ends), coats_(coats) {}
+         Coats coats, std::span<const std::uint32_t> hidden)
+        : rays_(rays), state_(seed), ends_(ends), coats_(coats), hidden_(hidden) {}
 
     std::size_t run(const glm::vec3& origin, const glm::vec3& direction) {
-        const std::optional<Hit> first = rays_.meet(origin, direction);
+        const std::optional<Hit> first = rays_.meet(origin, direction, hidden_);
         if (!first || !is_specular(*first) || rays_.absorbs(first->facet, first->front)) {
             return 0;
         }
@@ -24,7 +24,7 @@ class SpecularRays::Walk {
         deflect(dimmed({origin, direction, glm::vec3(1.0F), 0}, first), *first);
         while (open_count_ > 0) {
             const Branch open = open_[--open_count_];
-            const std::optional<Hit> hit = rays_.meet(open.origin, open.direction);
+            const std::optional<Hit> hit = rays_.meet(open.origin, open.direction, hidden_);
             const Branch branch = dimmed(open, hit);
             if (!hit || !is_specular(*hit)) {
                 end(branch, hit);
@@ -172,6 +172,7 @@ class SpecularRays::Walk {
     std::uint64_t state_;
     std::span<ContinuedRay, most_ends> ends_;
     Coats coats_;
+    std::span<const std::uint32_t> hidden_;
     bool added_ = false;  // the first surface is a coat
     std::size_t count_ = 0;
     std::array<Branch, most_ends> open_{};
@@ -180,8 +181,8 @@ class SpecularRays::Walk {
 
 std::size_t SpecularRays::follow(const glm::vec3& origin, const glm::vec3& direction,
                                  std::uint32_t seed, std::span<ContinuedRay, most_ends> ends,
-                                 Coats coats) const {
-    return Walk(*this, seed, ends, coats).run(origin, direction);
+                                 Coats coats, std::span<const std::uint32_t> hidden) const {
+    return Walk(*this, seed, ends, coats, hidden).run(origin, direction);
 }
 
 }  // namespace raybundle

@@ -87,6 +87,7 @@ std::vector<std::uint32_t> candidate_tiles(const SpecularRays& rays,
 /// Ends of the pixels of one tile, strongest first: tile_pixels for each rank that some pixel has.
 std::vector<layout::ContinuedPixel> ends_of_tile(const SpecularRays& rays,
                                                  const layout::ViewParameters& view,
+                                                 std::span<const std::uint32_t> hidden,
                                                  glm::uvec2 tile) {
     std::vector<layout::ContinuedPixel> found;
     for (std::size_t k = 0; k < tile_pixels; ++k) {
@@ -100,7 +101,8 @@ std::vector<layout::ContinuedPixel> ends_of_tile(const SpecularRays& rays,
             glm::vec3(view.forward) + ndc.x * glm::vec3(view.right) + ndc.y * glm::vec3(view.up));
         std::array<ContinuedRay, SpecularRays::most_ends> ends;
         const std::size_t count =
-            rays.follow(glm::vec3(view.eye), direction, at.y * view.size.x + at.x, ends);
+            rays.follow(glm::vec3(view.eye), direction, at.y * view.size.x + at.x, ends,
+                        SpecularRays::Coats::followed, hidden);
         if (found.size() < count * tile_pixels) {
             found.resize(count * tile_pixels, unused());
         }
@@ -117,14 +119,15 @@ bool same_end(const layout::ContinuedPixel& a, const layout::ContinuedPixel& b) 
 
 }  // namespace
 
-ContinuedEnds find_continued_ends(const SpecularRays& rays, const layout::ViewParameters& view) {
+ContinuedEnds find_continued_ends(const SpecularRays& rays, const layout::ViewParameters& view,
+                                  std::span<const std::uint32_t> hidden) {
     const glm::uvec2 tiles =
         (glm::uvec2(view.size) + unsigned{VIEW_TILE} - 1U) / unsigned{VIEW_TILE};
     const std::vector<std::uint32_t> candidates = candidate_tiles(rays, view, tiles);
     std::vector<std::vector<layout::ContinuedPixel>> of_tile(candidates.size());
     tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
         const glm::uvec2 tile(candidates[i] % tiles.x, candidates[i] / tiles.x);
-        of_tile[i] = ends_of_tile(rays, view, tile);
+        of_tile[i] = ends_of_tile(rays, view, hidden, tile);
     });
     ContinuedEnds result;
     result.tiles.assign(std::size_t{tiles.x} * tiles.y, 0);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "gpu/layouts.h"
@@ -19,8 +20,9 @@ struct ContinuedEnds {
 };
 
 /// Follows the rays through the pixels of the tiles that may show a specular surface. view: of the
-/// picture. Deterministic: seeds are the pixels' numbers.
-ContinuedEnds find_continued_ends(const SpecularRays& rays, const layout::ViewParameters& view);
+/// picture; hidden: objects that it does not show. Deterministic: seeds are the pixels' numbers.
+ContinuedEnds find_continued_ends(const SpecularRays& rays, const layout::ViewParameters& view,
+                                  std::span<const std::uint32_t> hidden = {});
 
 /// Puts the ends into rows of `columns` tiles, so that they are pixels of a picture of their own
 /// with `rows` rows of tiles; what is left over is not used.

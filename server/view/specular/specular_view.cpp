@@ -32,7 +32,7 @@ void SpecularView::choose_size(unsigned columns, unsigned rows) {
 void SpecularView::refresh(const layout::ViewParameters& view, const Camera& camera, float near,
                            float kept_weight) {
     const GlScope scope("view rays behind mirrors");
-    ContinuedEnds found = find_continued_ends(*scene_.specular_rays(), view);
+    ContinuedEnds found = find_continued_ends(*scene_.specular_rays(), view, camera.hidden);
     const unsigned columns = (view.size.x + VIEW_TILE - 1) / VIEW_TILE;
     const auto rows = static_cast<unsigned>((found.tile_count() + columns - 1) / columns);
     const unsigned old_columns = columns_;
