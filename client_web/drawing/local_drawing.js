@@ -7,6 +7,7 @@ import {Samples} from '../measure/meters.js';
 import {FrameThrottle} from '../picture/frame_throttle.js';
 import {DrawnExposure} from './drawn_exposure.js';
 import {LiveLight} from './live_light.js';
+import {Openings, platesOf} from './luminaire_plates.js';
 import {placeObjects} from './object_places.js';
 
 /**
@@ -49,6 +50,7 @@ export class LocalDrawing extends EventTarget {
     #like = null;
     /** What the server has been told. */
     #told = false;
+    #openings = new Openings();
     /** Ids of objects that are not shown. @type {Iterable<number>} */
     hidden = [];
 
@@ -212,6 +214,18 @@ export class LocalDrawing extends EventTarget {
         }
     }
 
+    /** Luminaires as they are now. @param {import('../walkthrough/renderer.js').Renderer} renderer */
+    #placePlates(renderer) {
+        const {client, scene} = this.app;
+        const lights = scene?.lights ?? [];
+        renderer.plates = platesOf(lights, this.#openings.known);
+        this.#openings.lookUp(lights, () => client.httpHeaders).then((more) => {
+            if (more && this.#visible) {
+                this.#throttle.run();
+            }
+        });
+    }
+
     /** The camera or an object has just moved. */
     #moved() {
         // Until there has been a picture, nothing is known of how bright it is to be.
@@ -323,6 +337,7 @@ export class LocalDrawing extends EventTarget {
             Object.assign(canvas, {width, height});
         }
         this.#exposure.move(renderer, app.view, app.picture.aspect, this.display.autoExposure);
+        this.#placePlates(renderer);
         renderer.draw(app.view, this.#exposure.look, width, height);
         if (measured) {
             gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));

@@ -3,9 +3,11 @@
 
 import {linkProgram} from './gl_program.js';
 import {projectionOf, vectorOf} from './projection.js';
-import {IDENTITY} from '../ui/vector.js';
+import {IDENTITY, dot, sub} from '../ui/vector.js';
 import {skyTexture, uploadAlbedos, uploadChunks, uploadSky, uploadTextures} from './scene_buffers.js';
-import {ALBEDO_NODES, MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFragment} from './shaders.js';
+import {
+    ALBEDO_NODES, MODES, PLATE_VERTEX, SKY_VERTEX, SURFACE_VERTEX, plateFragment, skyFragment, surfaceFragment,
+} from './shaders.js';
 
 /**
  * @typedef {import('../net/scene_types.js').View} View
@@ -13,6 +15,7 @@ import {ALBEDO_NODES, MODES, SKY_VERTEX, SURFACE_VERTEX, skyFragment, surfaceFra
  * @typedef {import('./scene_data.js').SceneData} SceneData
  * @typedef {import('./scene_buffers.js').DrawnChunk} DrawnChunk
  * @typedef {import('./gl_program.js').GlProgram} GlProgram
+ * @typedef {import('../drawing/luminaire_plates.js').Plate} Plate
  * @typedef {ReturnType<typeof projectionOf>} Projection
  *
  * @typedef {object} Look  how radiance becomes a picture
@@ -51,6 +54,10 @@ export class Renderer {
     #places;
     /** Objects that are not drawn, by index. @type {Set<number>} */
     hidden = new Set();
+    /** Of luminaires. @type {Plate[]} */
+    plates = [];
+    /** Once there are any. @type {GlProgram | null} */
+    #plate = null;
 
     /**
      * @param {WebGL2RenderingContext} gl
@@ -59,6 +66,7 @@ export class Renderer {
     constructor(gl, scene) {
         this.gl = gl;
         this.manifest = scene.manifest;
+        this.shaders = scene.shaders;
         const {min, max} = scene.manifest.bounds;
         this.bounds = {min: vectorOf(min), max: vectorOf(max)};
         this.surface = linkProgram(gl, SURFACE_VERTEX, surfaceFragment(scene.shaders));
@@ -97,6 +105,10 @@ export class Renderer {
         [...this.textures, this.albedos.texture, this.skyTexture].forEach((texture) => gl.deleteTexture(texture));
         gl.deleteProgram(this.surface.program);
         gl.deleteProgram(this.sky.program);
+        if (this.#plate) {
+            gl.deleteProgram(this.#plate.program);
+            this.#plate = null;
+        }
     }
 
     /**
@@ -192,6 +204,7 @@ export class Renderer {
         this.#drawChunks(this.#chunks.twoSided);
         this.#drawOneSided();
         if (!probed) {
+            this.#drawPlates(projection, look);
             this.#drawSky(projection, look);
         }
         if (look.mode === 'photo' && this.#chunks.glass.length > 0) {
@@ -313,6 +326,34 @@ export class Renderer {
         gl.uniform1i(at('unlit'), Number(material.unlit));
         gl.uniform1i(at('textured'), Number(material.texture !== null));
         gl.bindTexture(gl.TEXTURE_2D, material.texture === null ? null : this.textures[material.texture]);
+    }
+
+    /**
+     * What shines of luminaires, black from behind; those in the plane of a ceiling are seen.
+     *
+     * @param {Projection} projection
+     * @param {Look} look
+     */
+    #drawPlates({clipFromWorld, eye}, look) {
+        if (this.plates.length === 0) {
+            return;
+        }
+        const {gl} = this;
+        this.#plate ??= linkProgram(gl, PLATE_VERTEX, plateFragment(this.shaders));
+        const {at} = this.#plate;
+        this.#begin(this.#plate, look);
+        gl.uniformMatrix4fv(at('clip_from_world'), false, clipFromWorld);
+        gl.enable(gl.POLYGON_OFFSET_FILL);
+        gl.polygonOffset(-1, -1);
+        for (const {middle, halfX, halfY, aim, round, radiance} of this.plates) {
+            this.#setVector(at('middle'), middle);
+            this.#setVector(at('half_x'), halfX);
+            this.#setVector(at('half_y'), halfY);
+            gl.uniform1i(at('is_round'), Number(round));
+            gl.uniform3fv(at('radiance'), dot(sub(eye, middle), aim) > 0 ? radiance : [0, 0, 0]);
+            gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+        }
+        gl.disable(gl.POLYGON_OFFSET_FILL);
     }
 
     /**

@@ -71,6 +71,17 @@ void main() {
 }
 `;
 
+export const PLATE_VERTEX = `${HEAD}
+uniform mat4 clip_from_world;
+uniform vec3 middle, half_x, half_y;
+out vec2 at;
+
+void main() {
+    at = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
+    gl_Position = clip_from_world * vec4(middle + at.x * half_x + at.y * half_y, 1.0);
+}
+`;
+
 /**
  * What becomes of radiance (cd/m²) and irradiance / pi in each mode.
  *
@@ -188,6 +199,19 @@ void main() {
         radiance += light_unit * textureLod(sky_texels, at, 0.0).rgb;
         if (dot(d, sun_direction) > sun_cosine && d.y >= 0.0) radiance += sun_radiance;
     }
+    shown = output_of(radiance, 0.0, false);
+}
+`;
+
+/** @param {{toneCurve: string, falseColour: string}} shaders */
+export const plateFragment = (shaders) => `${HEAD}
+in vec2 at;
+uniform vec3 radiance;
+uniform bool is_round;
+${output(shaders)}
+
+void main() {
+    if (is_round && dot(at, at) > 1.0) discard;
     shown = output_of(radiance, 0.0, false);
 }
 `;

@@ -37,6 +37,7 @@ OrderedJson entry_of(const SceneFolder& folder, const std::string& name) {
             {"length", longer},
             {"width", opening.round ? 0.0 : shorter},
             {"height", *std::max_element(opening.heights.begin(), opening.heights.end())}};
+        entry["opening"] = {{"x", opening.length}, {"y", opening.width}, {"round", opening.round}};
         entry["problems"] = data.notes;
     } catch (const SceneError& error) {
         entry["problems"] = {error.json_path().empty() ? error.reason()

@@ -31,6 +31,8 @@ static_assert(sizeof(MaterialData) == 80);
 static_assert(sizeof(Reflectance) == 48);
 static_assert(sizeof(MaterialDetails) == MATERIAL_DETAILS_TEXELS * sizeof(vec4));
 static_assert(sizeof(PunctualData) == 192);
+static_assert(sizeof(LuminaireData) == 112);
+static_assert(sizeof(LuminaireHead) == 32 + 32 * (MOST_LUMINAIRES / LUMINAIRES_IN_GROUP));
 static_assert(sizeof(PixelSurface) == 32 && offsetof(PixelSurface, normal) == 16);
 static_assert(sizeof(ContinuedPixel) == 48 && offsetof(ContinuedPixel, towards) == 28);
 static_assert(sizeof(PickResult) == 64);

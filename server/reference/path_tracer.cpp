@@ -48,16 +48,17 @@ glm::dvec3 PathTracer::indirect(const glm::dvec3& origin, const glm::dvec3& dire
         flight.sends = false;
         return fly(flight, sampler);
     }
-    const SpecularWalk walk = walk_specular(scene_, scene_.trace(origin, direction), direction,
-                                            Carried::radiance, sampler);
+    const SpecularWalk walk = walk_from_eye(scene_, origin, direction, sampler);
     const std::optional<PathEnd> end = end_of(walk, sampler);
     return end ? reflected(*end, sampler) : glm::dvec3(0.0);
 }
 
 Seen PathTracer::see(const glm::dvec3& origin, const glm::dvec3& direction,
                      Sampler& sampler) const {
-    const SpecularWalk walk = walk_specular(scene_, scene_.trace(origin, direction), direction,
-                                            Carried::radiance, sampler);
+    const SpecularWalk walk = walk_from_eye(scene_, origin, direction, sampler);
+    if (walk.luminaire) {
+        return {walk.weight * *walk.luminaire, {}};
+    }
     if (!walk.hit) {
         return {walk.weight * background_towards(scene_.scene(), walk.direction), {}};
     }

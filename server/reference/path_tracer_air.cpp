@@ -21,12 +21,22 @@ glm::dvec3 PathTracer::fly(Flight flight, Sampler& sampler) const {
             flight.surface ? scene_.trace_from(*flight.surface, flight.direction)
                            : scene_.trace(flight.origin, flight.direction);
         const bool inside = hit && ends_inside_glass(scene_, *hit);
-        const WayInBox way = inside ? WayInBox{} : air_->way(flight.origin, flight.direction, hit);
+        WayInBox way = inside ? WayInBox{} : air_->way(flight.origin, flight.direction, hit);
+        const auto luminaire = flight.density > 0.0
+                                   ? std::nullopt
+                                   : scene_.luminaire_before(flight.origin, flight.direction, hit);
+        if (luminaire) {
+            way.end = std::min(way.end, luminaire->distance);
+        }
         if (settings_.next_event) {
             sum +=
                 flight.throughput * air_->punctual(flight.origin, flight.direction, way, sampler);
         }
         const std::optional<double> collision = air_->collision(way, sampler.next());
+        if (luminaire && !collision) {
+            sum += flight.throughput * (flight.sends ? luminaire->luminance : glm::dvec3(0.0));
+            break;
+        }
         if (collision ? !collide(flight, *collision, sum, sampler)
                       : hit && !arrive(flight, *hit, sum, sampler)) {
             break;

@@ -108,12 +108,45 @@ RayScene::RayScene(const Scene& scene, const PatchMesh& mesh)
             textured_models_.back().emplace(material);
         }
     }
+    for (const PunctualLight& light : scene.punctual_lights) {
+        const bool carrier_removed = light.object != PunctualLight::no_object &&
+                                     scene.objects[static_cast<std::size_t>(light.object)].removed;
+        if (light.removed || carrier_removed) {
+            continue;
+        }
+        if (const auto body = body_of(place_light(scene, light))) {
+            luminaires_.push_back(*body);
+        }
+    }
     place_vertices();
     find_smooth_triangles();
     build();
 }
 
 RayScene::~RayScene() = default;
+
+std::optional<LuminaireHit> RayScene::luminaire_before(
+    const glm::dvec3& origin, const glm::dvec3& direction,
+    const std::optional<SurfacePoint>& hit) const {
+    std::optional<LuminaireHit> nearest;
+    if (luminaires_.empty()) {
+        return nearest;
+    }
+    const glm::dvec3 from = origin / scale_ + centre_;
+    const double surface = hit ? glm::distance(origin, hit->position) / scale_
+                               : std::numeric_limits<double>::infinity();
+    for (const LuminaireBody& body : luminaires_) {
+        const auto met = meet(body, from, direction);
+        if (met && met->distance < surface + body.tolerance(met->distance) &&
+            (!nearest || met->distance < nearest->distance)) {
+            nearest = met;
+        }
+    }
+    if (nearest) {
+        nearest->distance *= scale_;
+    }
+    return nearest;
+}
 
 void RayScene::build() {
     device_.reset(rtcNewDevice(nullptr));

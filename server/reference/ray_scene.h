@@ -10,6 +10,7 @@
 
 #include "scene/material/brdf.h"
 #include "scene/mesh/patch_mesh.h"
+#include "scene/photometry/luminaire_body.h"
 #include "scene/scene.h"
 
 struct RTCDeviceTy;
@@ -48,6 +49,12 @@ class RayScene {
     /// First surface from a point in space along a unit direction; nothing: the sky.
     [[nodiscard]] std::optional<SurfacePoint> trace(const glm::dvec3& origin,
                                                     const glm::dvec3& direction) const;
+    /// The first body of a luminaire on a ray, from a point in space or in front of a surface,
+    /// before what the ray has met; distance in the own space. For rays from an eye alone: to light
+    /// between surfaces there are none.
+    [[nodiscard]] std::optional<LuminaireHit> luminaire_before(
+        const glm::dvec3& origin, const glm::dvec3& direction,
+        const std::optional<SurfacePoint>& hit) const;
     /// First surface from a surface point; direction on the side of its normal.
     [[nodiscard]] std::optional<SurfacePoint> trace_from(const SurfacePoint& from,
                                                          const glm::dvec3& direction) const;
@@ -144,7 +151,8 @@ class RayScene {
     std::vector<glm::vec3> positions_, normals_;  // of the vertices, own space; normals not unit
     std::vector<bool> smooth_;                    // triangles whose vertex normals bend
     bool has_panes_ = false;
-    std::vector<ReflectanceModel> models_;  // of the materials, as the next
+    std::vector<LuminaireBody> luminaires_;  // world space
+    std::vector<ReflectanceModel> models_;   // of the materials, as the next
     std::vector<std::optional<TexturedReflectance>> textured_models_;
     std::unique_ptr<RTCDeviceTy, DeviceDeleter> device_;
     std::unique_ptr<RTCSceneTy, SceneDeleter> embree_;

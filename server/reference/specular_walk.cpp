@@ -176,11 +176,23 @@ glm::dvec3 left_of_way(const RayScene& scene, const glm::dvec3& from, const Surf
 
 namespace {
 
-/// surface_at: what a point is for these rays.
+/// A ray from an eye has come to where it is from an origin: it ends at a luminaire on that way.
+void see_luminaire(const RayScene& scene, const glm::dvec3& origin, SpecularWalk& walk) {
+    if (const auto met = scene.luminaire_before(origin, walk.direction, walk.hit)) {
+        walk.luminaire = met->luminance;
+        walk.hit.reset();
+    }
+}
+
+/// surface_at: what a point is for these rays. eye: origin of one that sees luminaires, else null.
 SpecularWalk walk(const RayScene& scene, const std::optional<SurfacePoint>& hit,
                   const glm::dvec3& direction, Carried carried, Sampler& sampler,
-                  SpecularSurface (*surface_at)(const RayScene&, const SurfacePoint&)) {
+                  SpecularSurface (*surface_at)(const RayScene&, const SurfacePoint&),
+                  const glm::dvec3* eye = nullptr) {
     SpecularWalk walk{hit, direction};
+    if (eye != nullptr) {
+        see_luminaire(scene, *eye, walk);
+    }
     for (int i = 0; walk.hit; ++i) {
         const std::optional<Deflection> ray = deflect_at(
             scene, surface_at(scene, *walk.hit), *walk.hit, walk.direction, carried, sampler);
@@ -196,6 +208,9 @@ SpecularWalk walk(const RayScene& scene, const std::optional<SurfacePoint>& hit,
         walk.direction = ray->direction;
         walk.weight *= ray->weight;
         walk.hit = scene.trace_from(ray->departure, ray->direction);
+        if (eye != nullptr) {
+            see_luminaire(scene, ray->departure.position, walk);
+        }
         if (walk.hit) {
             walk.weight *= left_of_way(scene, ray->departure.position, *walk.hit);
         }
@@ -210,10 +225,17 @@ SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoi
     return walk(scene, hit, direction, carried, sampler, specular_at);
 }
 
-SpecularWalk walk_strongest(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+SpecularWalk walk_from_eye(const RayScene& scene, const glm::dvec3& origin,
+                           const glm::dvec3& direction, Sampler& sampler) {
+    return walk(scene, scene.trace(origin, direction), direction, Carried::radiance, sampler,
+                specular_at, &origin);
+}
+
+SpecularWalk walk_strongest(const RayScene& scene, const glm::dvec3& origin,
                             const glm::dvec3& direction) {
     Stronger stronger;
-    return walk(scene, hit, direction, Carried::radiance, stronger, seen_specular_at);
+    return walk(scene, scene.trace(origin, direction), direction, Carried::radiance, stronger,
+                seen_specular_at, &origin);
 }
 
 }  // namespace raybundle

@@ -49,6 +49,9 @@ struct SpecularWalk {
     glm::dvec3 direction{0.0};        ///< unit, in which it arrives there
     glm::dvec3 weight{1.0};           ///< of what is carried this way
     bool passed = false;              ///< there was one
+    /// Luminance, cd/m², of the body of a luminaire that an eye's ray meets first; there is no hit
+    /// then.
+    std::optional<glm::dvec3> luminaire{};
 };
 
 /// Goes on from what a ray of this direction has met as long as that deflects it. At most
@@ -56,9 +59,13 @@ struct SpecularWalk {
 SpecularWalk walk_specular(const RayScene& scene, const std::optional<SurfacePoint>& hit,
                            const glm::dvec3& direction, Carried carried, Sampler& sampler);
 
+/// The same of a ray from an eye, which sees luminaires.
+SpecularWalk walk_from_eye(const RayScene& scene, const glm::dvec3& origin,
+                           const glm::dvec3& direction, Sampler& sampler);
+
 /// The same by the stronger way at each surface of glass, without chance: what a viewer takes a
 /// pixel to show. Mirrors are all those of scene/material/specular_surface.h, ideal or not.
-SpecularWalk walk_strongest(const RayScene& scene, const std::optional<SurfacePoint>& hit,
+SpecularWalk walk_strongest(const RayScene& scene, const glm::dvec3& origin,
                             const glm::dvec3& direction);
 
 }  // namespace raybundle

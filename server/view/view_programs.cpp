@@ -50,6 +50,8 @@ ViewPrograms::ReceiveHemicube make_receive_hemicube(const GpuScene& scene, Defin
 const std::string continued_macro = "CONTINUED 1";
 
 const std::string patches_macro = "PATCHES_ONLY 1";
+/// Pictures may show bodies of luminaires.
+const std::string profiles_macro = "IES 1";
 
 Defines variant_of(PixelLight light) {
     return light == PixelLight::patches ? Defines{patches_macro} : Defines{};
@@ -99,7 +101,8 @@ ViewPrograms::ViewPrograms(const GpuScene& scene, const std::vector<std::string>
       scale_delta({"view_scale.comp"}, with(scene.defines(), "INCREMENTS 1")),
       vertex_irradiance({"view_vertex_irradiance.comp"}, vertex_defines(scene, variant)),
       statistics({"view_statistics.comp"}, with_all(scene.defines(), variant)),
-      detail({"view_detail.comp"}),
+      detail({"view_detail.comp"},
+             is_among(scene.defines(), profiles_macro) ? Defines{profiles_macro} : Defines{}),
       probe({"view_probe.comp"}, with_all(scene.defines(), variant)),
       scatter_refine({"view_scatter_refine.comp"}),
       confidence({ShaderProgram({"view_confidence_look.comp"}, with_all(scene.defines(), variant)),

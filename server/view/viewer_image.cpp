@@ -28,6 +28,9 @@ ViewerImage::ViewerImage(const GpuScene& scene, const RadianceStore& store,
     if (programs.continued) {
         specular_view_.emplace(scene, store, *programs.continued);
     }
+    if (ShownLuminaires::possible(scene)) {
+        luminaires_.emplace();
+    }
     surfaces_.emplace(scene, programs, full_size_);
     edges_.emplace(full_size_);
 }
@@ -146,6 +149,17 @@ void ViewerImage::see_air() {
     }
 }
 
+/// The lights' bodies as they are now, for what is made of the pixels next.
+void ViewerImage::see_luminaires() {
+    if (luminaires_ && store_.first_shot() != nullptr) {
+        constexpr unsigned still = 4;  // 16 rays, as many as edges have sub-samples
+        constexpr unsigned moving = 2;
+        const unsigned rays = grid_ > 1 ? 1 : edges_->complete() ? still : moving;
+        luminaires_->update(scene_, *store_.first_shot(), {camera_, near_distance(), rays});
+        luminaires_->bind();
+    }
+}
+
 /// What the pixels show that is not theirs: of mirrors, glass and air.
 void ViewerImage::bind_surroundings() const {
     if (specular_view_) {
@@ -158,6 +172,7 @@ void ViewerImage::bind_surroundings() const {
 
 /// The present light of all that the pixels show; for what is made of them next.
 void ViewerImage::light_pixels() {
+    see_luminaires();
     if (specular_view_) {
         specular_view_->shade();
     }
@@ -315,6 +330,9 @@ std::vector<glm::vec4> ViewerImage::read_radiance() {
     std::vector<glm::vec4> result(pixel_count(size()));
     linear.read<glm::vec4>(result);
     check_picture();
+    for (glm::vec4& pixel : result) {
+        pixel.w = 1.0F;  // less where luminaires are seen
+    }
     return result;
 }
 
@@ -349,6 +367,7 @@ void ViewerImage::request_statistics() {
         pixels.set_display({scene_.radiance_unit(), 1.0F, 0.0F, 0.0F});
         pixels.sum_statistics(error_.error_before());
     };
+    see_luminaires();
     if (PixelAccumulator* const behind = behind_mirrors(); behind != nullptr) {
         behind->light_vertices();
         sum(*behind);
@@ -399,7 +418,7 @@ std::size_t ViewerImage::bytes() const {
     constexpr std::size_t surface_and_depth = 8;
     return surface_and_depth * pixel_count(full_size_) + pixels_.bytes() + edges_->bytes() +
            composer_.bytes() + (specular_view_ ? specular_view_->bytes() : 0) +
-           (air_ ? air_->bytes() : 0);
+           (air_ ? air_->bytes() : 0) + (luminaires_ ? luminaires_->bytes() : 0);
 }
 
 }  // namespace raybundle

@@ -16,6 +16,7 @@
 #include "view/pixels/pixel_accumulator.h"
 #include "view/pixels/pixel_probe.h"
 #include "view/pixels/visible_surfaces.h"
+#include "view/shown_luminaires.h"
 #include "view/specular/specular_view.h"
 #include "view/view_programs.h"
 
@@ -146,6 +147,7 @@ class ViewerImage : public BundleReceiver {
     void begin_change();
     void look_into_air();
     void see_air();
+    void see_luminaires();
     void bind_surroundings() const;
     void light_pixels();
     void measure_detail();
@@ -166,6 +168,7 @@ class ViewerImage : public BundleReceiver {
     PixelAccumulator pixels_;
     std::optional<SpecularView> specular_view_;  // only where the scene has mirrors or glass
     std::optional<AirView> air_;                 // only where it scatters
+    std::optional<ShownLuminaires> luminaires_;  // only where the scene may have any
     unsigned air_samples_ = 0;                   // of the running group of iterations
     std::optional<VisibleSurfaces> surfaces_;    // always
     std::optional<EdgeFilter> edges_;            // always

@@ -6,6 +6,7 @@ import {afterEach, describe, it, mock} from 'node:test';
 
 import {LiveLight} from '../../client_web/drawing/live_light.js';
 import {inverse, placeObjects, placeOf} from '../../client_web/drawing/object_places.js';
+import {platesOf} from '../../client_web/drawing/luminaire_plates.js';
 import {IDENTITY} from '../../client_web/ui/vector.js';
 import {Renderer} from '../../client_web/walkthrough/renderer.js';
 
@@ -97,6 +98,36 @@ describe('a renderer', () => {
         assert.ok(alive.size >= 8, `${alive.size} things`);
         renderer.dispose();
         assert.deepEqual([...alive], []);
+    });
+});
+
+describe('plates of luminaires', () => {
+    const openings = new Map([['panel.ldt', {x: 0.6, y: 0.3, round: false}], ['disc.ies', {x: 0.4, y: 0.4, round: true}]]);
+    const light = {photometry: 'panel.ldt', position: {x: 1, y: 2, z: 3}, aim: {x: 0, y: -2, z: 0}, rotation: 0, peak: 360,
+        loadedIntensity: 1000, intensity: 500, dim: 0.5, on: true, colour: {x: 1, y: 0.8, z: 0.6}};
+    const near = (a, b) => assert.ok(['x', 'y', 'z'].every((k) => Math.abs(a[k] - b[k]) < 1e-9), JSON.stringify([a, b]));
+
+    it('have the luminance of the file\'s largest intensity as it is dimmed', () => {
+        const [plate] = platesOf([light], openings);
+        plate.radiance.forEach((value, i) => assert.ok(Math.abs(value - 500 * [1, 0.8, 0.6][i]) < 1e-9));
+        assert.deepEqual(platesOf([{...light, on: false}], openings)[0].radiance, [0, 0, 0]);
+        const [disc] = platesOf([{...light, photometry: 'disc.ies'}], openings);
+        assert.ok(Math.abs(disc.radiance[0] - 90 / (0.04 * Math.PI)) < 1e-9);
+    });
+
+    it('lie as the server places them', () => {
+        const [down] = platesOf([light], openings);
+        near(down.halfX, {x: 0.3, y: 0, z: 0});
+        near(down.halfY, {x: 0, y: 0, z: -0.15});
+        const [turned] = platesOf([{...light, rotation: 90}], openings);
+        near(turned.halfX, {x: 0, y: 0, z: 0.3});
+        // Aimed at +x, what was +x looks up.
+        const [aside] = platesOf([{...light, aim: {x: 1, y: 0, z: 0}}], openings);
+        near(aside.halfX, {x: 0, y: 0.3, z: 0});
+    });
+
+    it('are those of known files that have a place', () => {
+        assert.deepEqual(platesOf([{...light, photometry: 'other.ies'}, {...light, position: undefined}], openings), []);
     });
 });
 

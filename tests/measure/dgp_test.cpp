@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lit_room.h"
+#include "luminous_panel.h"
 #include "measure/glare/dgp_measurement.h"
 #include "rooms.h"
 
@@ -145,6 +146,25 @@ TEST(Dgp, LightsWithoutSizeAreInTheIlluminance) {
     EXPECT_NE(rating.words.find("without size"), std::string::npos);
     EXPECT_EQ(rating.sources, 0U);
     EXPECT_NEAR(rating.ratios[0], 500.0, 1e-3);
+}
+
+/// A panel 2 m ahead: it glares by its file's luminance, and hides its part of the sky.
+TEST(Dgp, ALuminaireOfAnAreaGlaresAndHidesTheSky) {
+    SceneBuilder builder = bright_space(200.0F);
+    builder.scene.punctual_lights.push_back(panel_light({{0, 0, -2}, {0, 0, 1}, 0.0F}, 0.6, 0.6));
+    builder.scene.punctual_lights.back().intensity = glm::vec3(10.0F);
+    const double candela = 10.0 * panel_candela({0, 0, -1});
+    double hidden = 0.0;  // with the cosine at the eye
+    constexpr int n = 60;
+    for (int i = 0; i < n * n; ++i) {
+        const glm::dvec3 to(0.6 * ((i % n + 0.5) / n - 0.5), 0.6 * ((i / n + 0.5) / n - 0.5), -2.0);
+        hidden += 0.36 / (n * n) * 4.0 / std::pow(glm::dot(to, to), 2.0);
+    }
+    const double ev = 200.0 * (pi - hidden) + candela / 4.0;
+    const GlareRating rating = probability(builder);
+    EXPECT_NEAR(rating.background, ev, 0.006 * ev);
+    ASSERT_EQ(rating.shares.size(), 1U);
+    EXPECT_NEAR(rating.shares[0].luminance, candela / 0.36, 0.01 * candela / 0.36);
 }
 
 TEST(Dgp, IsNotRatedInAir) {

@@ -20,13 +20,15 @@ double luminance_of(const glm::dvec3& colour) {
 
 double background_luminance(const MeasuredScene& scene, const glm::dvec3& position,
                             const glm::dvec3& direction, Sampler& sampler) {
-    const SpecularWalk met = walk_specular(scene.rays, scene.rays.trace(position, direction),
-                                           direction, Carried::radiance, sampler);
+    const SpecularWalk met = walk_from_eye(scene.rays, position, direction, sampler);
     constexpr double straight = 1.0 - 1e-9;  // cosine: panes do not bend rays
+    const bool by_mirror = met.passed && glm::dot(met.direction, direction) < straight;
     glm::dvec3 emission(0.0);
-    if (!met.hit) {
+    if (met.luminaire) {
+        emission = by_mirror ? *met.luminaire : glm::dvec3(0.0);
+    } else if (!met.hit) {
         emission = sky_towards(scene.rays.scene(), met.direction);
-    } else if (met.passed && glm::dot(met.direction, direction) < straight) {
+    } else if (by_mirror) {
         emission = scene.rays.emission(*met.hit);
     }
     double light = luminance_of(met.weight * emission);

@@ -16,24 +16,24 @@ namespace {
 
 constexpr int rays_per_side = 8;
 
-/// What a camera's ray shows: the first surface that is neither mirror nor glass; nothing: the sky.
-std::optional<SurfacePoint> shown(const RayScene& scene, const CameraRays& camera,
-                                  const glm::dvec2& at) {
-    const glm::dvec3 direction = camera.direction(at);
-    return walk_strongest(scene, scene.trace(camera.origin(), direction), direction).hit;
+/// What a camera's ray shows: the first surface that is neither mirror nor glass, a luminaire, or
+/// the sky.
+SpecularWalk shown(const RayScene& scene, const CameraRays& camera, const glm::dvec2& at) {
+    return walk_strongest(scene, camera.origin(), camera.direction(at));
 }
 
 }  // namespace
 
 bool pixel_sees_emitter(const RayScene& scene, const CameraRays& camera, std::size_t pixel) {
     const glm::dvec2 corner = camera.corner(pixel);
-    if (has_sky(scene.scene()) && !shown(scene, camera, corner + glm::dvec2(0.5))) {
+    if (has_sky(scene.scene()) && !shown(scene, camera, corner + glm::dvec2(0.5)).hit) {
         return true;
     }
     for (int k = 0; k < rays_per_side * rays_per_side; ++k) {
         const glm::dvec2 cell(k % rays_per_side, k / rays_per_side);
-        const auto hit = shown(scene, camera, corner + (cell + 0.5) / double{rays_per_side});
-        if (hit && scene.emission(*hit) != glm::dvec3(0.0)) {
+        const SpecularWalk walk =
+            shown(scene, camera, corner + (cell + 0.5) / double{rays_per_side});
+        if (walk.luminaire || (walk.hit && scene.emission(*walk.hit) != glm::dvec3(0.0))) {
             return true;
         }
     }

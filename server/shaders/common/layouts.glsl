@@ -73,6 +73,7 @@
 #define BINDING_CONTINUED_TILES 61    // uint[]: see continued.glsl
 #define BINDING_CONTINUED_RADIANCE 62 // vec4[]: of what specular surfaces show, radiance units
 #define BINDING_CROWDED 63            // see crowded_pixels.glsl
+#define BINDING_LUMINAIRES 64         // LuminaireHead, then LuminaireData[]: see view_luminaires.glsl
 // Bound for one pass, on numbers that others are bound on for theirs.
 #define BINDING_SLOPES 42             // RadianceSlope[]
 #define BINDING_ZONES 33              // zones of patches and their levels, see zone_level.glsl
@@ -376,6 +377,31 @@ struct PunctualData {
     vec4 touched_cone;  // round all of them: axis; w: cosine of half its angle, below -1: everything
 };
 
+// The body of a luminaire that pictures show, in the shifted world, see scene/photometry/luminaire_body.h.
+struct LuminaireData {
+    vec4 position;   // w: radius of the ball round it that holds the body, m
+    vec4 axis_x;     // w: half of its size along this axis, m
+    vec4 axis_y;     // likewise
+    vec4 axis_z;     // opposite to its direction; w: how far the housing reaches along it, m
+    vec4 intensity;  // factor of the profile's, in radiance units; w: how far the luminous part reaches along axis_z, m, below 0
+    vec4 heights;    // of what shines on the sides that face +x, +y, -x and -y, m
+    uvec4 profile;   // x: IES profile; y: 1: round
+};
+#define MOST_LUMINAIRES 256
+#define LUMINAIRES_IN_GROUP 16
+
+// Luminaires that are near each other.
+struct LuminaireGroup {
+    vec4 ball;    // that holds them; w: its radius, m
+    uvec4 range;  // x: the first, y: after the last
+};
+
+struct LuminaireHead {
+    uvec4 counts;  // x: luminaires, y: groups, z: rays along an edge of a pixel
+    vec4 cut;      // x: what is nearer along the line of sight is not drawn, m
+    LuminaireGroup groups[MOST_LUMINAIRES / LUMINAIRES_IN_GROUP];
+};
+
 // What view_lamps.comp does, see view/pixel_lamps.h.
 #define LAMPS_BEGIN 0u
 #define LAMPS_ADD 1u
@@ -419,7 +445,7 @@ struct ContinuedPixel {
     uint old_index;   // of the same end in the picture before, or NO_HIT
     uint branch;      // 0: the strongest of the pixel's ends
     uint added;       // 1: what a smooth coat reflects, besides what the pixel shows of itself
-    uint pad0;
+    float way;        // from the last deflection to the end, m
 };
 
 struct PickResult {

@@ -16,7 +16,7 @@ layout(binding = UNIT_SHADOW_EDGES) uniform usampler2DArray shadow_edges;
 layout(binding = UNIT_MATERIALS) uniform samplerBuffer material_texels;
 #endif
 #ifdef IES
-layout(std430, binding = BINDING_IES) readonly buffer IesBuffer { float ies_candela[]; };
+#include "ies_profile.glsl"
 #endif
 uniform uint punctual_count;
 uniform float shadow_tie;  // m: surfaces closer to a point than this are its own
@@ -127,16 +127,7 @@ bool is_lit(PunctualData light, vec3 position, vec3 to_light, uint own_facet) {
 /// Luminous intensity, cd, of a profile towards a unit direction away from the light.
 float profile_candela(PunctualData light, vec3 direction) {
     vec3 d = vec3(dot(light.axis_x.xyz, direction), dot(light.axis_y.xyz, direction), dot(light.axis_z.xyz, direction));
-    const float degrees_per_radian = 57.295779513;
-    float row = acos(clamp(-d.z, -1.0, 1.0)) * (2.0 * degrees_per_radian);
-    float turn = dot(d.xy, d.xy) > 0.0 ? atan(d.y, d.x) * degrees_per_radian : 0.0;
-    float column = (turn < 0.0 ? turn + 360.0 : turn) * 0.4;
-    uint r = min(uint(row), uint(IES_ROWS - 2));
-    uint c = min(uint(column), uint(IES_COLUMNS - 2));
-    uint first = (light.profile.x * uint(IES_COLUMNS) + c) * uint(IES_ROWS) + r;
-    float low = mix(ies_candela[first], ies_candela[first + 1u], row - float(r));
-    float high = mix(ies_candela[first + uint(IES_ROWS)], ies_candela[first + uint(IES_ROWS) + 1u], row - float(r));
-    return mix(low, high, column - float(c));
+    return ies_intensity(light.profile.x, d);
 }
 #endif
 

@@ -26,6 +26,11 @@ float quantity(uvec2 at) {
 #ifdef FALSE_LUMINANCE
     return luminance(pixel_radiance(index, p)) * view.display.x;
 #else
+#ifdef IES
+    if (luminaires_before(index, p).w < 0.5) {
+        return 0.0;  // of a luminaire's body it is not known
+    }
+#endif
     return p.side == NO_PATCH ? 0.0 : luminance(blended_irradiance(index, p)) * view.display.x;
 #endif
 }
@@ -56,11 +61,26 @@ vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
 #ifdef UNLIT
-    if ((p.facet & PIXEL_UNLIT) != 0u && p.side != NO_PATCH) {
+    if ((p.facet & PIXEL_UNLIT) != 0u && p.side != NO_PATCH
+#ifdef IES
+        && luminaires_before(index, p).w == 1.0
+#endif
+    ) {
         return srgb_encoded(pixel_albedo(p));  // as it is, at any exposure
     }
 #endif
     return srgb_encoded(shoulder(pixel_radiance(index, p) * view.display.y));
+}
+#endif
+
+#ifdef LINEAR
+/// Radiance of a pixel, in units of the display; w: 1, or share of it that shows no luminaire.
+vec4 linear_radiance(uint index) {
+#ifdef IES
+    return radiance_and_surface_share(index, load_pixel(index)) * vec4(vec3(view.display.x), 1.0);
+#else
+    return vec4(pixel_radiance(index, load_pixel(index)) * view.display.x, 1.0);
+#endif
 }
 #endif
 
@@ -72,10 +92,9 @@ void main() {
     uint row = index / frame_width;
     uvec2 at = uvec2(index - row * frame_width, frame_height - 1u - row);
 #if defined(CONTINUED)
-    frame[index] = vec4(pixel_radiance(index, load_pixel(index)) * view.display.x, 1.0);
+    frame[index] = linear_radiance(index);
 #elif defined(LINEAR)
-    uint source = at.y * view.size.x + at.x;
-    frame[index] = vec4(pixel_radiance(source, load_pixel(source)) * view.display.x, 1.0);
+    frame[index] = linear_radiance(at.y * view.size.x + at.x);
 #elif defined(SCALED)
     vec2 scale = vec2(view.size.xy) / vec2(frame_width, frame_height);
     vec3 sum = vec3(0.0);

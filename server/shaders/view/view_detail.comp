@@ -27,6 +27,11 @@ uint shown(ivec2 at) {
     if (texelFetch(pixel_texels, 2 * index).w == NO_PATCH) {
         return nothing;
     }
+#ifdef IES
+    if (frame[at.y * int(view.size.x) + at.x].w < 1.0) {
+        return emitter;  // a luminaire
+    }
+#endif
     uint facet = texelFetch(pixel_texels, 2 * index + 1).w;
     return (facet & (PIXEL_EMITTER | PIXEL_UNLIT)) != 0u ? emitter : surface;
 }

@@ -3,7 +3,7 @@
 // estimate, times the albedo at the angle of view, and the glossy part. Variant PATCHES_ONLY: the object-space value
 // alone, as walkthroughs show it; vertices have all of its light.
 #include "rarely.glsl"
-#ifdef CONSTANT_RADIANCE
+#if defined(CONSTANT_RADIANCE) || defined(IES)
 #include "facets.glsl"
 #endif
 #include "pixel_albedo.glsl"
@@ -222,8 +222,15 @@ vec3 gloss_beside_rays(uint index, PixelSurface p, vec3 own, float weight, vec3 
 }
 #endif
 
+#ifdef IES
+#include "view_luminaires.glsl"
+
+/// Radiance of the pixel's surface towards the eye, radiance units.
+vec3 surface_radiance(uint index, PixelSurface p) {
+#else
 /// Radiance towards the eye, radiance units.
 vec3 pixel_radiance(uint index, PixelSurface p) {
+#endif
 #if defined(MIRRORS) && !defined(CONTINUED)
     if ((p.facet & PIXEL_CONTINUED) != 0u) {
 #ifdef AIR_BEFORE
@@ -278,3 +285,23 @@ vec3 pixel_radiance(uint index, PixelSurface p) {
 #endif
     return emitted + reflected;
 }
+
+#ifdef IES
+/// Radiance towards the eye, radiance units; w: share of the pixel that shows no luminaire.
+vec4 radiance_and_surface_share(uint index, PixelSurface p) {
+    vec4 sum = luminaires_before(index, p);
+    if (sum.w > 0.0) {
+        sum.rgb += sum.w * surface_radiance(index, p);
+#if defined(MIRRORS) && !defined(CONTINUED)
+        if ((p.facet & PIXEL_CONTINUED) != 0u) {
+            uint row = index / view.size.x;
+            uvec2 at = uvec2(index - row * view.size.x, row);
+            sum.w *= continued_radiance[continued_index(at, continued_entry(at), 0u)].w;
+        }
+#endif
+    }
+    return sum;
+}
+
+vec3 pixel_radiance(uint index, PixelSurface p) { return radiance_and_surface_share(index, p).rgb; }
+#endif

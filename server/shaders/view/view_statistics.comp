@@ -117,6 +117,11 @@ vec4 probe_statistics(uint probe) {
         return vec4(0.0);
     }
 #endif
+#ifdef IES
+    if (luminaires_before(index, p).w < 1.0) {
+        return vec4(0.0);  // it is exact
+    }
+#endif
     float l = share * luminance(pixel_radiance(index, p));
     float logarithm = log(max(l, logarithm_floor));
 #ifdef AIR_BEFORE

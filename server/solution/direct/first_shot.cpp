@@ -341,6 +341,15 @@ void FirstShot::bind() const {
     }
 }
 
+std::optional<std::uint32_t> FirstShot::profile_number(const IesProfile* profile) const {
+    for (std::size_t i = 0; i < ies_.size(); ++i) {
+        if (ies_[i].get() == profile) {
+            return static_cast<std::uint32_t>(i);
+        }
+    }
+    return std::nullopt;
+}
+
 void FirstShot::set_uniforms(const ShaderProgram& program) const {
     program.set("punctual_count", static_cast<unsigned>(scene_.punctual_lights().size()));
     program.set("shadow_tie", many_ ? tie_share * scene_.diameter() : tie_);

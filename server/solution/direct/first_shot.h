@@ -52,6 +52,8 @@ class FirstShot {
     /// For change_source.comp.
     void bind_remembered() const { remembered_.bind_storage(BINDING_OLD_FIRST_SHOT); }
     void bind() const;
+    /// Number of a light's profile to shaders; nothing where it is not known yet.
+    [[nodiscard]] std::optional<std::uint32_t> profile_number(const IesProfile* profile) const;
     /// Sets the uniforms of shaders/solution/first_shot.glsl.
     void set_uniforms(const ShaderProgram& program) const;
     /// Where there are more lights than shadow maps, else null. The light of those is found little

@@ -109,7 +109,9 @@ void LightSlots::put(std::size_t slot, const PunctualLight& light) {
 
 void LightSlots::empty(std::size_t slot) {
     for (std::size_t i = 0; i < slot_lights_; ++i) {
-        lights_[fixed_ + slot * slot_lights_ + i].intensity = glm::vec3(0.0F);
+        PunctualLight& light = lights_[fixed_ + slot * slot_lights_ + i];
+        light.intensity = glm::vec3(0.0F);
+        light.removed = true;
     }
 }
 

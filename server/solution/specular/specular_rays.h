@@ -28,6 +28,7 @@ struct ContinuedRay {
     std::uint32_t surface = sky;  ///< 2 * facet + side (0 front, 1 back); sky: it leaves the scene
     glm::vec3 throughput{0.0F};   ///< share of the radiance there that arrives at the eye
     glm::vec3 towards{0.0F};      ///< unit, from the end back along the ray
+    float way = 0.0F;             ///< from the last deflection to the end, m; 0 to the sky
     bool added = false;           ///< beside what the first surface, below a coat, shows
 };
 

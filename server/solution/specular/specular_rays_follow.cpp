@@ -33,7 +33,8 @@ class SpecularRays::Walk {
             }
         }
         if (count_ == 0) {  // all light is lost on the way: black
-            ends_[count_++] = {origin, ContinuedRay::sky, glm::vec3(0.0F), -direction, added_};
+            ends_[count_++] = {origin, ContinuedRay::sky, glm::vec3(0.0F), -direction, 0.0F,
+                               added_};
         }
         const auto strongest =
             std::max_element(ends_.begin(), ends_.begin() + static_cast<std::ptrdiff_t>(count_),
@@ -76,6 +77,7 @@ class SpecularRays::Walk {
         ray.surface = hit ? 2 * hit->facet + (hit->front ? 0U : 1U) : ContinuedRay::sky;
         ray.throughput = branch.throughput;
         ray.towards = -branch.direction;
+        ray.way = hit ? hit->distance : 0.0F;
         ray.added = added_;
     }
 

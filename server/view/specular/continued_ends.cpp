@@ -31,6 +31,7 @@ layout::ContinuedPixel pixel_of(const ContinuedRay& ray, std::size_t branch) {
     pixel.surface = ray.surface;
     pixel.throughput = ray.throughput;
     pixel.towards = glm::packSnorm2x16(octahedral_from_vector(ray.towards));
+    pixel.way = ray.way;
     pixel.branch = static_cast<std::uint32_t>(branch);
     pixel.added = ray.added ? 1U : 0U;
     return pixel;
