@@ -47,6 +47,7 @@ class Project {
     [[nodiscard]] std::string problem(FrontTime now) const;
 
     [[nodiscard]] ProjectState state() const { return state_; }
+    [[nodiscard]] bool runs() const { return server_ != nullptr; }
     /// Its server is to start, for which it may need memory.
     [[nodiscard]] bool wants_to_start(FrontTime now) const;
     void start(FrontTime now);

@@ -157,6 +157,10 @@ void Visit::begin_errand(Errand errand, FrontTime now) {
 }
 
 void Visit::wait(FrontTime now) {
+    if (projects_.find(errand_->project->settings().name) != errand_->project) {
+        reply(FrontPages::refuse(errand_->head, 404, "There is no such project any more"), now);
+        return;
+    }
     const std::string problem = errand_->project->problem(now);
     if (!problem.empty() || now > until_) {
         const std::string reason = problem.empty() ? "its server does not start" : problem;
