@@ -38,7 +38,9 @@ int list_gpus() {
 }
 
 int run(const Options& options, const CLI::App& app) {
-    if (options.command != Options::Command::serve) {
+    const bool reloads =
+        options.command == Options::Command::serve || options.command == Options::Command::projects;
+    if (!reloads) {
         raybundle::release_hangup();
     }
     if (options.device.list_gpus) {
@@ -47,6 +49,8 @@ int run(const Options& options, const CLI::App& app) {
     switch (options.command) {
         case Options::Command::serve:
             return raybundle::run_serve(options);
+        case Options::Command::projects:
+            return raybundle::run_projects(options);
         case Options::Command::render:
             return raybundle::run_render(options);
         case Options::Command::export_scene:

@@ -62,6 +62,16 @@ std::optional<std::string> NetworkState::photometry() const {
     return source ? std::optional(source()) : std::nullopt;
 }
 
+void NetworkState::set_presence(std::string json) {
+    const std::lock_guard lock(presence_mutex_);
+    presence_ = std::move(json);
+}
+
+std::string NetworkState::presence() const {
+    const std::lock_guard lock(presence_mutex_);
+    return presence_;
+}
+
 void NetworkState::set_upload_factory(UploadFactory factory) {
     const std::lock_guard lock(upload_mutex_);
     upload_factory_ = std::move(factory);

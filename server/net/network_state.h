@@ -52,6 +52,9 @@ struct NetworkState {
     void set_photometry_source(std::function<std::string()> source);
     /// JSON of the photometric files; nothing where there are none.
     [[nodiscard]] std::optional<std::string> photometry() const;
+    void set_presence(std::string json);
+    /// The message of presence that viewers have been told last, as JSON.
+    [[nodiscard]] std::string presence() const;
     void set_upload_factory(UploadFactory factory);
     /// Null where there is no factory or it cannot begin.
     [[nodiscard]] std::unique_ptr<Upload> begin_upload(const std::string& name) const;
@@ -70,6 +73,8 @@ struct NetworkState {
     mutable std::mutex upload_mutex_;
     std::function<std::string()> photometry_source_;
     UploadFactory upload_factory_;
+    mutable std::mutex presence_mutex_;
+    std::string presence_ = R"({"presence":{"viewers":[]}})";
     mutable std::mutex document_mutex_;
     DocumentSource document_source_;
     const void* document_owner_ = nullptr;

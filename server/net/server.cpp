@@ -54,6 +54,9 @@ void Server::send(ViewerId viewer, const v1::ServerMessage& message) {
 
 void Server::broadcast(const v1::ServerMessage& message, ViewerId except) {
     const std::string json = to_json(message);
+    if (message.has_presence()) {
+        impl_->state.set_presence(json);
+    }
     for (const auto& link : impl_->state.viewers.all()) {
         if (link->viewer() != except) {
             link->send_if_welcomed(json);

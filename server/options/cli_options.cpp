@@ -24,6 +24,9 @@ struct CommandRow {
 
 constexpr CommandRow command_table[] = {
     {"serve", "Serve a scene to browsers", Options::Command::serve, false},
+    {"projects",
+     "Serve many scenes at one address, each by a server that sleeps while nobody looks",
+     Options::Command::projects, false},
     {"render", "Render a picture to EXR or PNG", Options::Command::render, true},
     {"export", "Write a walkthrough for any web server, and glTF with the light baked in",
      Options::Command::export_scene, true},
@@ -134,6 +137,37 @@ void finish_serve(const CLI::App& app, Options& o) {
     }
     if (o.scene.file.empty() && !o.config.print) {
         throw UsageError("serve: needs a SCENE, on the command line or in the --config file");
+    }
+}
+
+void add_projects(CLI::App& app, Options& o) {
+    app.add_option("PROJECTS", o.projects.source,
+                   "JSON file that names the projects, or a folder of .gltf and .glb files")
+        ->required();
+    app.add_option("--listen", o.network.listen, "Address and port; port 0: any free one")
+        ->capture_default_str();
+    app.add_flag("--allow-remote", o.network.allow_remote,
+                 "Listen beyond this machine though projects have no tokens");
+    app.add_option("--state", o.projects.state,
+                   "Folder of journals and pictures (default: ~/.local/state/raybundle/projects)");
+    app.add_option("--sleep-after-seconds", o.projects.sleep_after_s,
+                   "A project falls asleep when nobody has been there for so long")
+        ->capture_default_str()
+        ->check(number_that([](double value) { return value >= 0.0 && value <= 1e9; },
+                            "a number of 0 to 1e9"));
+    app.add_option("--memory-megabytes", o.projects.memory_megabytes,
+                   "Of all projects; beyond that those asleep end (0: no limit)")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1'000'000'000));
+}
+
+/// What the command line says of `projects` wins over its file.
+void finish_projects(const CLI::App& app, Options& o) {
+    for (const char* key :
+         {"listen", "allowRemote", "state", "sleepAfterSeconds", "memoryMegabytes"}) {
+        if (app.get_option(flag_of(key))->count() > 0) {
+            o.config.on_command_line.insert(key);
+        }
     }
 }
 
@@ -265,10 +299,16 @@ void define_options(CLI::App& app, Options& options) {
             check_rows(*command, options);
             if (row.command == Options::Command::serve) {
                 finish_serve(*command, options);
+            } else if (row.command == Options::Command::projects) {
+                finish_projects(*command, options);
             }
         });
         if (row.command == Options::Command::token) {
             add_token(*command, options);
+            continue;
+        }
+        if (row.command == Options::Command::projects) {
+            add_projects(*command, options);
             continue;
         }
         add_common(*command, options);

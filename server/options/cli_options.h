@@ -101,6 +101,7 @@ struct JwtOptions {
 /// Who may connect to a server, and how.
 struct NetworkOptions {
     std::string listen = "127.0.0.1:8080";
+    std::string address_file;  ///< empty: none
     std::string tls_cert, tls_key;
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;
@@ -133,6 +134,14 @@ struct ServeOptions {
 struct TokenOptions {
     std::string name;
     std::string role = "VIEWER";
+};
+
+/// Many projects behind one address; what their file can say besides: projects_file.h.
+struct ProjectsOptions {
+    std::string source;  ///< configuration file, or a folder of scenes
+    std::string state;   ///< folder of journals and pictures; empty: one of the user's
+    double sleep_after_s = 60.0;
+    int memory_megabytes = 0;  ///< of all projects together; 0: no limit
 };
 
 struct CameraOptions {
@@ -215,6 +224,7 @@ struct Options {
     enum class Command {
         none,
         serve,
+        projects,
         render,
         export_scene,
         save,
@@ -238,6 +248,8 @@ struct Options {
     ConfigOptions config;
     NetworkOptions network;
     ServeOptions serve;
+
+    ProjectsOptions projects;  // with network and log
 
     CameraOptions camera;  // render, export, accuracy
     StopOptions stop;      // render, export, accuracy, inspect, bench, measure

@@ -11,14 +11,14 @@
 #include <numeric>
 #include <set>
 
+#include "options/config_json.h"
 #include "options/option_table.h"
 
 namespace raybundle {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = ConfigJson;
 
-constexpr std::size_t max_file_bytes = 1U << 20U;
 constexpr std::size_t max_tokens = 1000;
 constexpr const char* scene_key = "scene";
 constexpr const char* tokens_key = "tokens";
@@ -269,32 +269,6 @@ void apply_key(const std::string& key, const Json& value, Options& options) {
     }
 }
 
-/// Throws UsageError where the text is no JSON object or a key comes twice.
-Json parse(const std::string& name, const std::string& text) {
-    std::vector<std::set<std::string>> seen;
-    const auto callback = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        const auto level = static_cast<std::size_t>(depth);
-        if (event == Json::parse_event_t::object_start) {
-            seen.resize(level + 1);
-            seen[level].clear();
-        } else if (event == Json::parse_event_t::key &&
-                   !seen[level - 1].insert(parsed.get<std::string>()).second) {
-            throw UsageError(name + ": " + parsed.get<std::string>() + ": is there twice");
-        }
-        return true;
-    };
-    try {
-        Json json = Json::parse(text, callback);
-        if (!json.is_object()) {
-            throw UsageError(name + ": must hold one JSON object");
-        }
-        return json;
-    } catch (const nlohmann::json::exception& error) {
-        const std::string reason = error.what();
-        throw UsageError(name + ": " + reason.substr(reason.find("] ") + 2));
-    }
-}
-
 Json to_json(const std::optional<float>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
@@ -312,7 +286,7 @@ Json to_json(const Value& value) {
 }  // namespace
 
 void apply_config_text(const std::string& name, const std::string& text, Options& options) {
-    const Json json = parse(name, text);
+    const Json json = parse_config_json(name, text);
     Options changed = options;
     for (const auto& [key, value] : json.items()) {
         try {
@@ -326,17 +300,7 @@ void apply_config_text(const std::string& name, const std::string& text, Options
 }
 
 void apply_config_file(const std::string& file, Options& options) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(max_file_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!stream.is_open() || stream.bad()) {
-        throw UsageError(file + ": cannot be read");
-    }
-    if (text.size() > max_file_bytes) {
-        throw UsageError(file + ": is larger than 1 MiB");
-    }
-    apply_config_text(file, text, options);
+    apply_config_text(file, read_config_file(file), options);
 }
 
 Options reread_config(const Options& options) {

@@ -108,7 +108,10 @@ std::string sky_problem(const std::string& text) {
 constexpr std::array serve_table{
     OptionRow{"listen", "Address and port; port 0: any free one",
               field<&Options::network, &NetworkOptions::listen>(), 0, 0, address_problem},
-    OptionRow{"allowRemote", "Listen beyond this machine without tokens",
+    OptionRow{"addressFile", "File that gets the server's address once it listens, for port 0",
+              field<&Options::network, &NetworkOptions::address_file>()},
+    OptionRow{"allowRemote",
+              "Listen beyond this machine, or stand behind a proxy that does, without tokens",
               field<&Options::network, &NetworkOptions::allow_remote>()},
     OptionRow{"tlsCert", "PEM certificate chain; the server then speaks https",
               field<&Options::network, &NetworkOptions::tls_cert>()},

@@ -119,7 +119,8 @@ ServerSettings server_settings(const Options& options) {
     settings.max_upload_s = options.serve.max_upload_seconds;
     // Without tokens, who reaches the server may do everything: on this machine a browser can be
     // made to by any page.
-    const bool no_foreign_names = !has_tokens(options) && is_loopback(host);
+    const bool no_foreign_names =
+        !has_tokens(options) && is_loopback(host) && !options.network.allow_remote;
     settings.access = {AccessTokens(options.network.tokens),
                        {options.network.allowed_origins, no_foreign_names},
                        jwt_verifier(options)};

@@ -55,6 +55,13 @@ Daemon::Daemon(Unready /*unready*/, const std::string& scene,
     start(arguments);
 }
 
+Daemon::Daemon(const Command& command) {
+    std::vector<std::string> arguments{RAYBUNDLE_EXECUTABLE};
+    arguments.insert(arguments.end(), command.arguments.begin(), command.arguments.end());
+    start(arguments);
+    wait_for_address();
+}
+
 void Daemon::wait_for_address() {
     const auto end = Clock::now() + kStartTime;
     std::size_t found = 0;

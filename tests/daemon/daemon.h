@@ -11,7 +11,7 @@
 
 namespace raybundle {
 
-/// A running `raybundle serve` on a free port of this machine.
+/// A running `raybundle serve`, or another command that serves, on a free port of this machine.
 class Daemon {
   public:
     /// Starts it and waits until it listens. `options` follow the scene. It keeps a journal where
@@ -21,6 +21,11 @@ class Daemon {
     /// Only starts it: wait_for_address() has to follow before port().
     struct Unready {};
     Daemon(Unready unready, const std::string& scene, const std::vector<std::string>& options);
+    /// Another command, with its arguments; waits until it listens.
+    struct Command {
+        std::vector<std::string> arguments;
+    };
+    explicit Daemon(const Command& command);
     void wait_for_address();
     ~Daemon();  ///< kills it if need be
     Daemon(const Daemon&) = delete;

@@ -17,7 +17,9 @@ constexpr int kShortBox = 2;  ///< id of the Cornell box' short box
 /// A client as the protocol describes it: JSON messages, and every frame acknowledged.
 class JsonViewer {
   public:
-    explicit JsonViewer(std::uint16_t port) : client_(port) { head_ = client_.upgrade(); }
+    explicit JsonViewer(std::uint16_t port, std::string_view path = "/ws") : client_(port) {
+        head_ = client_.upgrade(path);
+    }
 
     /// Answer to the WebSocket handshake.
     [[nodiscard]] const std::string& head() const { return head_; }

@@ -148,6 +148,7 @@ TEST_F(RestTest, WhatIsChangedOverHttpIsSeenOverTheSocket) {
         }
         return viewers.size() == 2 && viewers.at(1).at("viewer") == own;
     });
+    EXPECT_EQ(ask("GET /api/v1/viewers").json().at("viewers").at(1).at("viewer"), own);
 }
 
 TEST_F(RestTest, PinsComeAndGo) {

@@ -253,6 +253,14 @@ TEST_F(RestServerTest, RefusesWithAProblem) {
     expect(ask("GET /api/v1/scene?wait=0.01"), 503);
 }
 
+TEST_F(RestServerTest, WhoIsHereIsAsViewersWereToldLast) {
+    EXPECT_TRUE(ask("GET /api/v1/viewers").ends_with("{\"viewers\":[]}\n"));
+    v1::ServerMessage message;
+    message.mutable_presence()->add_viewers()->set_name("Ada");
+    server_.broadcast(message);
+    EXPECT_TRUE(has(ask("GET /api/v1/viewers"), "\"name\":\"Ada\""));
+}
+
 TEST_F(RestServerTest, WhatTakesLongerIsAskedForAgainAndOneCallerHasEightRunning) {
     std::string url;
     for (int i = 0; i < 8; ++i) {

@@ -30,6 +30,7 @@ enum class RestSource {
     session,     ///< the messages, on the render thread
     photometry,  ///< the folder of photometric files
     requests,    ///< an earlier request that was answered with 202
+    presence,    ///< what viewers have been told last of who is here
 };
 
 /// An operation of the interface. Requests become messages as they come over the socket, by their

@@ -94,10 +94,12 @@ std::optional<RestService::Outcome> RestService::examine_caller(const RestHead& 
     return std::nullopt;
 }
 
-/// Who asks again for an answer has been named when it asked first.
+/// Who asks again for an answer has been named when it asked first. Who is here is asked for again
+/// and again.
 void RestService::audit(const RestHead& head, const Running& running) const {
     const RestCall::Caller& who = running.caller;
-    if (state_.settings.audit && running.match.route->source != RestSource::requests) {
+    const RestSource source = running.match.route->source;
+    if (state_.settings.audit && source != RestSource::requests && source != RestSource::presence) {
         state_.settings.audit->request({who.name, who.role, who.token, who.address},
                                        std::string(method_name(head.method)) + " " + head.path);
     }
@@ -226,6 +228,12 @@ RestService::Outcome RestService::start(lws* connection) {
     const RestRoute& route = *running.match.route;
     if (route.source == RestSource::photometry) {
         return answer(answer_photometry());
+    }
+    if (route.source == RestSource::presence) {
+        HttpResponse response;
+        response.content_type = "application/json";
+        response.body = rest_answer(running.match, state_.presence()).value_or("{}") + "\n";
+        return answer(std::move(response));
     }
     if (route.source == RestSource::requests) {
         return answer(answer_request(running));
