@@ -223,7 +223,7 @@ TEST_F(SleepyProjectsTest, SleepWithoutProcessorTimeAndAnswerAVisit) {
     EXPECT_NE(process_state(servers()[0]), "T");
 }
 
-TEST_F(SleepyProjectsTest, EndWhereMemoryIsShortAndComeBackWithTheirPins) {
+TEST_F(SleepyProjectsTest, HeavyEndWhereMemoryIsShortAndComeBackWithTheirPins) {
     // Less than one server has, so that nobody stays asleep, and more than none: somebody may
     // start.
     config_["memoryMegabytes"] = 1;
@@ -269,7 +269,7 @@ TEST_F(ProjectsTest, AServerThatWasKilledComesBackWithItsEdits) {
     EXPECT_EQ(ask("GET /p/box/healthz/live").body, "live\n");
 }
 
-TEST_F(ProjectsTest, SettingsAreReadAgain) {
+TEST_F(ProjectsTest, HeavySettingsAreReadAgain) {
     config_["projects"]["box"]["maxViewers"] = 8;
     start();
     JsonViewer viewer(front_->port(), "/p/box/ws");
