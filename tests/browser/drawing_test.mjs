@@ -219,31 +219,31 @@ describe('drawing here', () => {
         await context.close();
     });
 
-    it('gets no pictures while the camera moves', async () => {
+    it('gets no pictures while the camera moves', async (t) => {
         const {page, context} = await open();
-        await page.evaluate(() => {
+        const {pictures, steady} = await page.evaluate(async () => {
             const app = window.raybundle;
-            window.seen = {turns: 0, pictures: 0};
-            app.on('picture', () => ++window.seen.pictures);
-            window.turning = setInterval(() => app.camera.turn(++window.seen.turns % 2 ? 0.01 : -0.01, 0.001), 30);
+            // A camera that stands still for longer rests, and on a slow machine it may between two turns.
+            const rest = 100; // ms
+            const underWay = 1000; // ms until what was sent before has come
+            let [last, since] = [performance.now(), performance.now()];
+            let [turns, pictures, steady] = [0, 0, 0];
+            app.on('picture', () => {
+                const now = performance.now();
+                pictures += now - last < rest && now - since > underWay ? 1 : 0;
+            });
+            for (const end = last + 4000; last < end;) {
+                app.camera.turn(++turns % 2 ? 0.01 : -0.01, 0.001);
+                await new Promise((resolve) => setTimeout(resolve, 30));
+                const now = performance.now();
+                since = now - last > rest ? now : since;
+                steady += now - since > underWay ? 1 : 0;
+                last = now;
+            }
+            return {pictures, steady};
         });
-        // Those on their way when it begins to move still come, late where machines are slow.
-        await page.waitForFunction(
-            () => {
-                const {seen} = window;
-                if (seen.pictures !== seen.before) {
-                    Object.assign(seen, {before: seen.pictures, since: seen.turns});
-                }
-                return window.raybundleParts.drawing.visible && seen.turns - seen.since >= 30;
-            },
-            null, {timeout: PATIENCE_MS, polling: 20});
-        const {turns, pictures} = await page.evaluate(() => ({...window.seen}));
-        await page.waitForFunction((end) => window.seen.turns >= end, turns + 90, {timeout: PATIENCE_MS, polling: 20});
-        const after = await page.evaluate(() => {
-            clearInterval(window.turning);
-            return window.seen.pictures;
-        });
-        assert.ok(after - pictures <= 1, `${after - pictures} pictures`);
+        t.diagnostic(`${pictures} pictures while it moved without a rest, ${steady} turns`);
+        assert.ok(pictures <= 2, `${pictures} pictures`);
         await atRest(page);
         await context.close();
     });

@@ -71,7 +71,9 @@ std::optional<std::uint32_t> ReviewService::named_side(const ViewerSession& sess
     const auto eye = session.is_caller() ? std::nullopt : std::optional(session.camera().eye);
     const float rounding = probe_rounding(live.solver().scene(), point);
     const auto found = side_near(live.scene(), live.mesh(), wanted.patch(), point, eye, rounding);
-    if (found && found->distance <= rounding) {
+    // Positions that people type have few digits; what is further away than that is no surface.
+    constexpr float typed = 100.0F;  // times what single precision and the picture round
+    if (found && found->distance <= typed * rounding) {
         return found->side;
     }
     std::string text = "addPin.position: no surface is there";
