@@ -263,7 +263,7 @@ Json field_of_four() {
         "field");
 }
 
-TEST_F(Additions, WhatIsAskedForAgainAfterAKillIsNotMadeAgain) {
+TEST_F(Additions, HeavyWhatIsAskedForAgainAfterAKillIsNotMadeAgain) {
     ASSERT_EQ(put("wide.ies", wide), 201);
     const std::vector<Json> requests{
         keyed({{"setLight", {{"light", 1}, {"intensity", 500.0}}}}, "light"),

@@ -11,7 +11,7 @@
 namespace raybundle {
 namespace {
 
-TEST(EffectCosts, AreMeasuredBesideTheSceneWhichGoesOnAfterwards) {
+TEST(EffectCosts, HeavyAreMeasuredBesideTheSceneWhichGoesOnAfterwards) {
     Daemon daemon(scene_file("effects/overcast_sky.gltf"));
     JsonViewer viewer(daemon.port());
     viewer.join();

@@ -191,7 +191,7 @@ TEST_F(Lighting, ScenesComeBackAfterARestart) {
 
 /// The floor has the illuminance of the sky and of the sun that `sceneChanged` states, in a scene
 /// that was opened without either; by night it has none.
-TEST_F(Lighting, DaylightComesByTheClockAndGoes) {
+TEST_F(Lighting, HeavyDaylightComesByTheClockAndGoes) {
     begin();
     for (const Json& light : scene_.at("lights")) {
         viewer_->request({{"setLight", {{"light", light.at("id")}, {"on", false}}}});

@@ -74,7 +74,7 @@ TEST(HeavyAccuracyCommand, MeasuresTheFirstPicturesOfAViewer) {
 
 /// By default methods are left out that know no glass (single rays) or do not see what is behind it
 /// (light tracing). Named, the one runs and the other is an error.
-TEST(AccuracyCommand, MeasuresASceneWithGlassByTheMethodsThatKnowIt) {
+TEST(AccuracyCommand, HeavyMeasuresASceneWithGlassByTheMethodsThatKnowIt) {
     const fs::path folder = fs::path(testing::TempDir()) / "raybundle_accuracy_glass";
     fs::remove_all(folder);
     const std::string command = ACCURACY RAYBUNDLE_SCENES

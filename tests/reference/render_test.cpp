@@ -75,9 +75,10 @@ TEST_P(Render, NeedsNoGlContextAndRepeatsItsBits) {
     EXPECT_GT(fs::file_size(file("a.png")), 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Render,
-                         testing::Values("path", "path-reuse", "single-ray", "ray-cast", "light",
-                                         "bidirectional", "metropolis", "photon-map"));
+INSTANTIATE_TEST_SUITE_P(Methods, Render, testing::Values("path", "single-ray", "photon-map"));
+INSTANTIATE_TEST_SUITE_P(HeavyMethods, Render,
+                         testing::Values("path-reuse", "ray-cast", "light", "bidirectional",
+                                         "metropolis"));
 
 class RenderFailure : public Render {};
 

@@ -60,10 +60,4 @@ void main() {
     picks[slot].normal = vec4(vector_from_octahedral(unpackSnorm2x16(p.normal)), uintBitsToFloat(object_of_triangle(t)));
     picks[slot].irradiance = vec4(blended_irradiance(pixel_index, p), uintBitsToFloat(p.side));
     picks[slot].radiance = vec4(pixel_radiance(pixel_index, p), relative_error(pixel_index, p));
-#ifdef IES
-    if (luminaires_before(pixel_index, p).w < 0.5) {  // what arrives at a luminaire's body is not known
-        picks[slot].irradiance.rgb = vec3(0.0);
-        picks[slot].radiance.w = 0.0;
-    }
-#endif
 }
