@@ -102,7 +102,14 @@ TEST(LuminaireBody, ProbesAndFalseColourShowIt) {
     EXPECT_NEAR(static_cast<double>(luminance(probe->radiance)), exact, 0.01 * exact);
     EXPECT_GT(glm::distance(probe->position, eyes[1]), glm::distance(panel_place, eyes[1]))
         << "place and illuminance are those of what is behind it";
-    EXPECT_GT(luminance(probe->irradiance), 0.0F);
+    // From behind, the floor that it lights is behind it.
+    image.set_camera(towards({2.3F, 2.95F, 2.1F}, panel_place));
+    const auto below = image.probe({16, 16});
+    ASSERT_TRUE(below);
+    EXPECT_EQ(below->radiance, glm::vec3(0.0F));
+    EXPECT_NEAR(below->position.y, 0.0F, 1e-3F);
+    EXPECT_GT(luminance(below->irradiance), 0.0F);
+    image.set_camera(towards(eyes[1], panel_place));
     // Above the scale, which ends below its luminance, it is white.
     image.compose(DisplayMode::false_luminance, 0.0F, odd_size,
                   {static_cast<float>(0.5 * exact), 0.0F, true});
