@@ -71,7 +71,9 @@ export function size(bytes) {
         ? `${(megabytes / 1000).toFixed(1)} GB`
         : megabytes >= 10
           ? `${megabytes.toFixed(0)} MB`
-          : `${megabytes.toFixed(1)} MB`;
+          : megabytes >= 0.1
+            ? `${megabytes.toFixed(1)} MB`
+            : `${Math.ceil(bytes / 1000)} kB`;
 }
 
 /**
@@ -81,7 +83,7 @@ export function size(bytes) {
  * @returns {string}
  */
 export function stateText(project) {
-    const people = project.people ?? [];
+    const people = (project.people ?? []).map((name) => name.trim() || 'Somebody');
     if (project.problem) {
         return `Not available: ${project.problem}`;
     }

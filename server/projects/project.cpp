@@ -170,6 +170,7 @@ void Project::end(FrontTime now) {
 }
 
 void Project::fail(const std::string& reason, FrontTime now) {
+    failure_.without_scene = server_ && !server_->has_scene();
     server_.reset();
     failure_.reason = reason;
     failure_.again = now;
@@ -216,9 +217,11 @@ void Project::step(const PollSet& set, FrontTime now) {
         note_end(*status, now);
         return;
     }
-    if (state_ == ProjectState::starting && server_->port()) {
+    // Visitors see how far a new server is; where the last one had no scene they wait for that.
+    const bool listens = server_->port() && (!failure_.without_scene || server_->has_scene());
+    if (state_ == ProjectState::starting && listens) {
         set_state(ProjectState::awake, now);
-    } else if (state_ == ProjectState::starting && now - since_ > start_time) {
+    } else if (state_ == ProjectState::starting && !server_->port() && now - since_ > start_time) {
         fail("its server does not listen", now);
     } else if (state_ == ProjectState::ending && now - since_ > end_time) {
         server_->kill();

@@ -95,6 +95,7 @@ class Project {
     struct Failure {
         std::string reason;
         int times = 0;
+        bool without_scene = false;  ///< its server had not shown any
         FrontTime again;
     } failure_;
     std::uint64_t starts_ = 0;

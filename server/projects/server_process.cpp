@@ -191,10 +191,15 @@ void ServerProcess::read_log() {
         line_.append(bytes.data(), static_cast<std::size_t>(count));
         for (std::size_t end = 0;
              (end = line_.find('\n')) != std::string::npos || (end = max_line) <= line_.size();) {
-            std::fputs(named_line(name_, std::string_view(line_).substr(0, end)).c_str(), stderr);
+            take_line(std::string_view(line_).substr(0, end));
             line_.erase(0, end + (line_.size() > end && line_[end] == '\n' ? 1 : 0));
         }
     }
+}
+
+void ServerProcess::take_line(std::string_view line) {
+    has_scene_ = has_scene_ || line.starts_with("raybundle serves ");
+    std::fputs(named_line(name_, line).c_str(), stderr);
 }
 
 std::string named_line(std::string_view name, std::string_view line) {

@@ -37,6 +37,9 @@ class ServerProcess {
     /// The port on 127.0.0.1 that it listens on; nothing before it does.
     std::optional<std::uint16_t> port();
 
+    /// Its log says that its scene has been read and accepted.
+    [[nodiscard]] bool has_scene() const { return has_scene_; }
+
     /// It gets no processor time until resume().
     void pause() const;
     void resume() const;
@@ -53,6 +56,7 @@ class ServerProcess {
   private:
     void signal(int number) const;
     void read_log();
+    void take_line(std::string_view line);
 
     std::string name_, address_file_;
     pid_t process_ = -1;
@@ -60,6 +64,7 @@ class ServerProcess {
     std::optional<std::uint16_t> port_;
     Descriptor log_;
     std::string line_;  ///< that is not complete yet
+    bool has_scene_ = false;
     PollSet::Entry entry_ = PollSet::none;
 };
 

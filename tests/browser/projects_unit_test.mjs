@@ -11,6 +11,7 @@ const project = {name: 'box', title: 'Box', path: 'p/box/', state: 'ASLEEP', nee
 test('who is there comes before the state', () => {
     assert.equal(stateText(project), 'Asleep, wakes at once');
     assert.equal(stateText({...project, people: ['Ada', 'Ben']}), 'Ada, Ben');
+    assert.equal(stateText({...project, people: ['', 'Ben']}), 'Somebody, Ben');
     assert.equal(stateText({...project, people: ['a', 'b', 'c', 'd', 'e']}), 'a, b, c and 2 more');
     assert.equal(
         stateText({...project, state: 'FAILED', problem: 'its scene is not accepted'}),
@@ -19,6 +20,7 @@ test('who is there comes before the state', () => {
 });
 
 test('sizes are said as far as they are known', () => {
+    assert.equal(size(8396), '9 kB');
     assert.equal(size(1.24e6), '1.2 MB');
     assert.equal(size(340e6), '340 MB');
     assert.equal(size(2.5e9), '2.5 GB');

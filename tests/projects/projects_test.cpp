@@ -260,6 +260,8 @@ TEST_F(ProjectsTest, AServerThatWasKilledComesBackWithItsEdits) {
     // One that cannot be loaded says so, and is no trouble to the others.
     wait_until([&] { return ask("GET /p/broken/").status == 503; });
     EXPECT_EQ(state("broken"), "FAILED");
+    // Once it has failed nobody gets a page of which half is missing.
+    EXPECT_EQ(ask("GET /p/broken/").status, 503);
     wait_until([&] {
         const Answer page = ask("GET /p/broken/", "Accept: text/html\r\n");
         return page.body.find("its scene is not accepted") != std::string::npos &&
