@@ -5,10 +5,11 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include "commands/command.h"
+#include "journal/project_log.h"
+#include "journal/state_folder.h"
 #include "options/log_settings.h"
 #include "options/serve_settings.h"
 #include "projects/front.h"
@@ -18,20 +19,16 @@ namespace {
 
 constexpr std::uint64_t bytes_per_megabyte = 1'000'000;
 
-/// The user's folder of state (XDG base directories).
+/// Given, or in the user's folder of state.
 std::string state_folder(const Options& front) {
     if (!front.projects.state.empty()) {
         return std::filesystem::absolute(front.projects.state).string();
     }
-    const char* const state = std::getenv("XDG_STATE_HOME");  // NOLINT(concurrency-mt-unsafe)
-    const char* const home = std::getenv("HOME");             // NOLINT(concurrency-mt-unsafe)
-    if (state != nullptr && *state == '/') {
-        return std::string(state) + "/raybundle/projects";
+    try {
+        return StateFolder::of_user().path() / "projects";
+    } catch (const JournalError& error) {
+        throw UsageError(std::string("needs --state: ") + error.what());
     }
-    if (home == nullptr || *home != '/') {
-        throw UsageError("needs --state: neither XDG_STATE_HOME nor HOME names a folder");
-    }
-    return std::string(home) + "/.local/state/raybundle/projects";
 }
 
 /// Throws UsageError where a project would let strangers in, as `serve` would.

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -29,6 +28,7 @@
 #include "scene/gltf/file/gltf_confinement.h"
 #include "session/changes/change_log.h"
 #include "session/render_loop.h"
+#include "view/image/whole_file.h"
 
 namespace raybundle {
 
@@ -65,19 +65,6 @@ ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& load
     settings.scene_name = loaded.scene.name;
     settings.scene_digest = loaded.digest;
     return ChangeLog(settings);
-}
-
-/// Whole or not at all: who waits for the file reads it as soon as it is there.
-void write_address(const std::string& file, const std::string& address) {
-    if (file.empty()) {
-        return;
-    }
-    const std::string fresh = file + ".new";
-    std::ofstream stream(fresh);
-    stream << address << "\n" << std::flush;
-    if (!stream || std::rename(fresh.c_str(), file.c_str()) != 0) {
-        throw UsageError("--address-file " + file + ": cannot be written");
-    }
 }
 
 /// Why a loop ends: `leave` is set last.
@@ -181,7 +168,9 @@ class SceneServer {
             const std::lock_guard lock(control_.serving_mutex);
             server_.start();
         }
-        write_address(options_.network.address_file, server_.address());
+        if (const std::string& file = options_.network.address_file; !file.empty()) {
+            write_file(file, server_.address() + "\n");
+        }
         auto [file, loaded] = first_scene();
         shown_file_ = file;
         fmt::print("raybundle serves {} at {}\n", file, server_.address());

@@ -27,6 +27,8 @@ class StateFolder {
     /// What remember_scene() was told last for that scene; empty: nothing, or it cannot be read.
     [[nodiscard]] std::string remembered_scene(const std::string& started_with) const;
 
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
   private:
     [[nodiscard]] std::string memory() const { return folder_ / "open_scenes.db"; }
 
