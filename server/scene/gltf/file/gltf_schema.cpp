@@ -159,7 +159,7 @@ constexpr Rule rules[] = {
     index("skins[].inverseBindMatrices", "accessors"),
     choice("cameras[].type", "perspective|orthographic", required),
     text("cameras[].name"),
-    number("cameras[].perspective.yfov", 1e-6, huge, required),
+    number("cameras[].perspective.yfov", -huge, huge),
 
     object("nodes[]"),
     text("nodes[].name"),
