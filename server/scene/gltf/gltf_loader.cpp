@@ -86,9 +86,39 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
     }
 }
 
+/// Names the options of a sky or of an image that the scene does not have.
+void note_unused_daylight(GltfDocument& document, const Daylight& options, bool sky,
+                          bool environment) {
+    std::string names;
+    const auto add = [&](const char* name, bool given, bool used) {
+        if (given && !used) {
+            names += (names.empty() ? "" : ", ") + std::string(name);
+        }
+    };
+    add("skyZenith", options.zenith_luminance.has_value(), sky);
+    add("sunElevation", options.sun_elevation.has_value(), sky);
+    add("sunAzimuth", options.sun_azimuth.has_value(), sky);
+    add("sunIlluminance", options.sun_illuminance.has_value(), sky);
+    add("sunDiameter", options.sun_diameter.has_value(), sky);
+    add("groundAlbedo", options.ground_albedo.has_value(), sky);
+    if (!names.empty()) {
+        document.note(names + " change nothing: the scene has no standard sky (--sky clear)");
+    }
+    names.clear();
+    add("environmentRotation", options.environment_rotation.has_value(), environment);
+    add("environmentScale", options.environment_scale.has_value(), environment);
+    if (!names.empty()) {
+        document.note(names + " change nothing: the scene has no image of its surroundings");
+    }
+}
+
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
     scene.medium = document.air();
     const Daylight daylight = overlaid(document.daylight(), settings.daylight);
+    const bool uniform = settings.sky_luminance.has_value();
+    note_unused_daylight(document, settings.daylight,
+                         !uniform && daylight.sky && !daylight.environment,
+                         !uniform && daylight.environment);
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
     } else if (daylight.given()) {
