@@ -221,6 +221,10 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     scene.name = std::filesystem::path(scene.path).stem().string();
     GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
     const std::uint32_t default_material = read_materials(document, scene);
+    for (Material& material : scene.materials) {
+        material.thickness *= settings.metres_per_unit;
+        material.attenuation_distance *= settings.metres_per_unit;
+    }
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
         read_placed_geometry(document, tree, settings.metres_per_unit, scene);
@@ -244,6 +248,11 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     if (!whole && split_lone_object(scene) > 1 && plans.size() == 1) {
         document.note(fmt::format("the only object is divided into {} connected parts",
                                   scene.objects.size()));
+    }
+    for (const std::string& name : thin_open_glass(scene)) {
+        document.note(fmt::format(
+            "material '{}' has a thickness, but its surfaces do not close: they are thin panes",
+            name));
     }
     scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);
