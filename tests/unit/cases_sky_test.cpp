@@ -330,7 +330,7 @@ TEST(CasesSky, TheFirstPartWithColoursIsRead) {
     EXPECT_EQ(read_image(depth.bytes()).pixels[0], glm::vec3(1.0F));
     const TemporaryFolder folder;
     const std::string path = folder.write("x.exr", "");
-    OIIO::ImageSpec parts[] = {OIIO::ImageSpec(8, 4, 1, OIIO::TypeDesc::FLOAT),
+    OIIO::ImageSpec parts[] = {OIIO::ImageSpec(16, 8, 1, OIIO::TypeDesc::FLOAT),
                                OIIO::ImageSpec(16, 8, 3, OIIO::TypeDesc::HALF)};
     parts[0].channelnames = {"Z"};
     parts[0].attribute("name", "depth");
