@@ -249,10 +249,12 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
         document.note(fmt::format("the only object is divided into {} connected parts",
                                   scene.objects.size()));
     }
-    for (const std::string& name : thin_open_glass(scene)) {
+    if (const std::vector<std::string> open = thin_open_glass(scene); !open.empty()) {
+        const std::string more =
+            open.size() > 1 ? fmt::format(" and {} more", open.size() - 1) : std::string();
         document.note(fmt::format(
-            "material '{}' has a thickness, but its surfaces do not close: they are thin panes",
-            name));
+            "material '{}'{}: surfaces that have a thickness do not close: they are thin panes",
+            open.front(), more));
     }
     scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);
