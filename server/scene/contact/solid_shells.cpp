@@ -419,10 +419,7 @@ std::vector<std::string> thin_open_glass(Scene& scene) {
         if (!open[i] || !is_body(material)) {
             continue;
         }
-        const SpecularSurface body = specular_surface(material, glm::vec3(1.0F));
-        material.base_colour *= glm::exp(-body.absorption * material.thickness);
-        material.thickness = 0.0F;
-        material.attenuation_distance = 0.0F;
+        material.thickness = -material.thickness;
         names.push_back(material.name);
     }
     return names;
