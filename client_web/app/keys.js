@@ -166,12 +166,21 @@ const isText = (target) =>
     target instanceof HTMLTextAreaElement ||
     (target instanceof HTMLInputElement && !['range', 'checkbox', 'color'].includes(target.type));
 
+/**
+ * Whether a key means nothing to the control that has the focus, as letters to a tab that has been clicked.
+ *
+ * @param {KeyboardEvent} event
+ */
+const isFree = ({target, key}) =>
+    key.length === 1 && key !== ' ' && !isText(target) && target instanceof HTMLElement &&
+    !target.isContentEditable && !target.closest('select, dialog, [role="dialog"]');
+
 /** @param {KeyTargets} targets */
 export function addKeys(targets) {
     const {app} = targets;
     addAim(app);
     document.addEventListener('keydown', (event) => {
-        const here = event.target === document.body || event.target === app.picture.element;
+        const here = event.target === document.body || event.target === app.picture.element || isFree(event);
         const modified = event.ctrlKey || event.metaKey;
         if (event.key === 'Escape' && !here && !event.defaultPrevented) {
             if (!targets.cancel()) {

@@ -93,6 +93,23 @@ export function isOutside(object, scene) {
 /** What is larger or higher than that is no building, metres; as the server's log has it. */
 const LARGEST = {scene: 1000, height: 100};
 
+/** Smaller units of `--unit`, metres, and how large a building is in its true one. */
+const UNITS = /** @type {const} */ ([['ft', 0.3048], ['in', 0.0254], ['cm', 0.01], ['mm', 0.001]]);
+const BUILDING = {least: 2, most: 100};
+
+/**
+ * Units in which a scene would be as large as a building.
+ *
+ * @param {number} size  metres, as it was read
+ * @returns {string} as "--unit cm: 100 m, --unit mm: 10 m"
+ */
+function likelyUnits(size) {
+    const fitting = UNITS.filter(([, metres]) => size * metres >= BUILDING.least && size * metres <= BUILDING.most);
+    return (fitting.length ? fitting : UNITS.slice(-1))
+        .map(([name, metres]) => `-\u2060-\u2060unit\u00a0${name}: ${threeDigits(size * metres)}\u00a0m`)
+        .join(', ');
+}
+
 /**
  * What makes another unit likely.
  *
@@ -103,7 +120,7 @@ export function sizeHint({min, max}) {
     const height = max.y - min.y;
     const size = Math.max(max.x - min.x, height, max.z - min.z);
     return size > LARGEST.scene || height > LARGEST.height
-        ? `This scene is ${threeDigits(size)} m large and ${threeDigits(height)} m high. If it was drawn in another unit, whoever runs the server can say so (-\u2060-\u2060unit).`
+        ? `This scene is ${threeDigits(size)} m large and ${threeDigits(height)} m high. If it was drawn in another unit, whoever runs the server can say so (${likelyUnits(size)}).`
         : '';
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/measure_task.h"
+#include "scene/significant.h"
 
 namespace raybundle {
 namespace {
@@ -93,7 +94,7 @@ std::string text_of(const Measurement& points, std::size_t i, const Interval& va
     // Direct light of lights without extent is exact: what is left is the rounding of the mean.
     const double error = value.high - value.value;
     const bool exact = error <= 1e-12 * std::abs(value.value);
-    return fmt::format("{:.4g} ±{:.2g}", value.value, exact ? 0.0 : error);
+    return significant(value.value, 4) + " ±" + significant(exact ? 0.0 : error, 2);
 }
 
 void print_values(const MeasureTask& task, const Measurement& points) {
@@ -129,21 +130,22 @@ void print_glare(const Measurement& points) {
     fmt::print("worst view {:.2f}, {:.2f}, {:.2f}{}{}\n", worst->view.x, worst->view.y,
                worst->view.z, worst->words.empty() ? "" : ": ", worst->words);
     for (const GlareShare& share : worst->shares) {
-        fmt::print("{:5.1f} %  {:.4g} cd/m², {:.3g} sr, p = {:.3g}  {}\n", 100.0 * share.share,
-                   share.luminance, share.solid_angle, share.position_index, share.name);
+        fmt::print("{:5.1f} %  {} cd/m², {:.3g} sr, p = {:.3g}  {}\n", 100.0 * share.share,
+                   significant(share.luminance, 4), share.solid_angle, share.position_index,
+                   share.name);
     }
     if (worst->ratios.size() == 3) {
-        fmt::print(
-            "mean luminance within 10°, 10° to 30°, 30° to 60°: {:.4g}, {:.4g}, {:.4g} cd/m²\n",
-            worst->ratios[0], worst->ratios[1], worst->ratios[2]);
+        fmt::print("mean luminance within 10°, 10° to 30°, 30° to 60°: {}, {}, {} cd/m²\n",
+                   significant(worst->ratios[0], 4), significant(worst->ratios[1], 4),
+                   significant(worst->ratios[2], 4));
     }
 }
 
 void print_summary(const MeasureTask& task, const MeasurementSummary& all) {
     const char* const unit = unit_of(task.settings.quantity);
     const auto line = [](const char* name, const Interval& found, const char* of) {
-        fmt::print("{:<10} {:.4g} {} ({:.4g} to {:.4g})\n", name, found.value, of, found.low,
-                   found.high);
+        fmt::print("{:<10} {} {} ({} to {})\n", name, significant(found.value, 4), of,
+                   significant(found.low, 4), significant(found.high, 4));
     };
     line("mean", all.mean, unit);
     line("minimum", all.minimum, unit);

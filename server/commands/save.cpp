@@ -38,6 +38,9 @@ std::optional<JournalSettings> journal_of(const Options& options, const LoadedSc
 }  // namespace
 
 int run_save(const Options& options) {
+    if (std::filesystem::path(options.output.file).extension() != ".glb") {
+        throw UsageError("--output: '" + options.output.file + "' does not end in .glb");
+    }
     require_writable(options.output.file);
     LoadedScene loaded = load_scene(options);
     if (!options.serve.scenes.empty()) {

@@ -64,7 +64,8 @@ PointMeasurement::PointMeasurement(std::shared_ptr<const MeasuredScene> scene,
     }
     for (const CalculationPoint& point : points_) {
         receivers_.emplace_back(settings.quantity, point.direction);
-        places_.push_back(scene_->rays.from_world(point.position));
+        places_.push_back(in_front_of_surface(scene_->rays, scene_->rays.from_world(point.position),
+                                              receivers_.back().axis()));
     }
     const PointPaths paths(*scene_);
     tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/solid_test.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,22 @@ bool inside_solid(const RayScene& scene, const glm::dvec3& position) {
         backs += hit && hit->absorbs() ? 1 : 0;
     }
     return 2 * backs > rays;
+}
+
+glm::dvec3 in_front_of_surface(const RayScene& scene, const glm::dvec3& position,
+                               const glm::dvec3& axis) {
+    constexpr double rounding = 4e-6;     // of the diameter: rays start 1e-6 in front of surfaces
+    constexpr double model_share = 1e-4;  // of the diameter: in scenes below ten metres
+    constexpr double most_metres = 1e-3;
+    const double least = rounding * scene.diameter();
+    const double reach = std::max(least, std::min(most_metres / std::sqrt(scene.square_metres()),
+                                                  model_share * scene.diameter()));
+    const glm::dvec3 start = position + reach * axis;
+    const auto hit = scene.trace(start, -axis);
+    if (!hit || hit->absorbs() || glm::dot(start - hit->position, axis) > reach + least) {
+        return position;
+    }
+    return glm::dvec3(scene.departure(*hit));
 }
 
 }  // namespace raybundle

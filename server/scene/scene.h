@@ -83,7 +83,7 @@ struct Material {
     glm::vec3 specular_colour{1.0F};  ///< specularColorFactor of the same, linear
     float ior = 1.5F;                 ///< KHR_materials_ior, of what is transmitted
     float transmission = 0.0F;  ///< KHR_materials_transmission: share of what is not reflected
-    float thickness = 0.0F;     ///< KHR_materials_volume; 0: a thin pane
+    float thickness = 0.0F;     ///< KHR_materials_volume; 0: a thin pane; below: thin_open_glass()
     glm::vec3 attenuation_colour{1.0F};  ///< of the same: left after attenuation_distance, m
     float attenuation_distance = 0.0F;   ///< m; 0: nothing is absorbed
     /// Over a Lambert base_colour, instead of metallic-roughness.

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "scene/scene_report.h"
+#include "scene/significant.h"
 
 #include "scene/animation/scene_animations.h"
 #include "scene/light/environment.h"
@@ -16,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::string text_of(const glm::vec3& v) {
-    return fmt::format("{:.4g}, {:.4g}, {:.4g}", v.x, v.y, v.z);
+    return fmt::format("{}, {}, {}", significant(v.x, 4), significant(v.y, 4), significant(v.z, 4));
 }
 
 Json json_of(const glm::vec3& v) {
@@ -42,8 +43,8 @@ void print_summary(std::ostream& out, const Scene& scene, const SceneReport& rep
     if (report.unit_hint) {
         out << fmt::format("unit        {}\n", *report.unit_hint);
     }
-    out << fmt::format("file        {} triangles, {} vertices, {:.4g} m²\n", scene.triangles.size(),
-                       report.referenced_vertices, report.area);
+    out << fmt::format("file        {} triangles, {} vertices, {} m²\n", scene.triangles.size(),
+                       report.referenced_vertices, significant(report.area, 4));
     out << fmt::format("patches     {} on {} triangles, {} vertices\n", report.patches,
                        report.patch_triangles, report.patch_vertices);
     if (report.joined_triangles > 0) {
@@ -104,16 +105,17 @@ std::string moved_by(const Scene& scene, const Animation& animation) {
 std::string strength_of(const PunctualLight& light) {
     const LightFigures figures = loaded_figures(light);
     if (light.kind == PunctualKind::directional) {
-        return fmt::format("{:.4g} lx  (RGB {})", luminance(light.intensity),
+        return fmt::format("{} lx  (RGB {})", significant(luminance(light.intensity), 4),
                            text_of(light.intensity));
     }
     if (!light.profile) {
-        return fmt::format("{:.4g} cd, {:.4g} lm  (RGB {})", figures.peak, figures.flux,
-                           text_of(light.intensity));
+        return fmt::format("{} cd, {} lm  (RGB {})", significant(figures.peak, 4),
+                           significant(figures.flux, 4), text_of(light.intensity));
     }
     const std::string watts =
-        figures.watts > 0.0 ? fmt::format(", {:.4g} W", figures.watts) : std::string();
-    return fmt::format("{:.4g} lm, at most {:.4g} cd{}", figures.flux, figures.peak, watts);
+        figures.watts > 0.0 ? ", " + significant(figures.watts, 4) + " W" : std::string();
+    return fmt::format("{} lm, at most {} cd{}", significant(figures.flux, 4),
+                       significant(figures.peak, 4), watts);
 }
 
 void print_lists(std::ostream& out, const Scene& scene) {
@@ -132,9 +134,9 @@ void print_lists(std::ostream& out, const Scene& scene) {
     }
     out << fmt::format("lights      {}\n", scene.lights.size() + scene.punctual_lights.size());
     for (const Light& light : scene.lights) {
-        out << fmt::format("  {:4} {}  {:.4g} cd/m², {:.4g} lm  (RGB {})\n", light.id, light.name,
-                           luminance(light.radiance), loaded_figures(light).flux,
-                           text_of(light.radiance));
+        out << fmt::format("  {:4} {}  {} cd/m², {} lm  (RGB {})\n", light.id, light.name,
+                           significant(luminance(light.radiance), 4),
+                           significant(loaded_figures(light).flux, 4), text_of(light.radiance));
     }
     std::size_t id = scene.lights.size();
     for (const PunctualLight& light : scene.punctual_lights) {

@@ -97,6 +97,36 @@ describe('what is awaited', () => {
     });
 });
 
+describe('keys', () => {
+    it('mean the same after a tab or a switch has been clicked, and nothing to who writes', async () => {
+        const {page} = await openPage(server());
+        await page.waitForFunction(CONNECTED);
+        const eye = () => page.evaluate(() => ({...window.raybundle.view.eye}));
+        const walks = async () => {
+            const before = await eye();
+            await page.keyboard.down('w');
+            await page.waitForFunction(({x, z}) => {
+                const now = window.raybundle.view.eye;
+                return now.x !== x || now.z !== z;
+            }, before);
+            await page.keyboard.up('w');
+        };
+        await page.getByRole('tab', {name: 'Light'}).click();
+        await walks();
+        await page.keyboard.press('?');
+        await page.waitForSelector('#help[open]');
+        await page.getByRole('tab', {name: 'Scene'}).click();
+        await page.focus('#share');
+        await walks();
+        await page.focus('#viewpoint-name');
+        const before = await eye();
+        await page.keyboard.type('wasd?');
+        assert.deepEqual(await eye(), before);
+        assert.equal(await page.inputValue('#viewpoint-name'), 'wasd?');
+        assert.ok(await page.locator('#help[open]').count(), 'typing closes no list');
+    });
+});
+
 describe('a scene that is opened', () => {
     const opening = (by, stage) => ({replyTo: undefined, sceneOpening: {name: 'hall.glb', by, byName: by ? 'Ben' : '', stage, reason: ''}});
 

@@ -250,6 +250,21 @@ TEST_F(ViewersTest, APictureOfAnotherSizeDoesNotFlash) {
     }
 }
 
+/// A window that shrinks to nothing and comes back before a small picture has been drawn: memory is
+/// counted by the picture that is there.
+TEST_F(ViewersTest, AWindowThatShrinksMayGrowAgainAtOnce) {
+    JsonViewer viewer(daemon_->port());
+    viewer.join("", 640, 480);
+    ASSERT_FALSE(viewer.next_frame([](const Json& f) { return f["width"] == 640; }).empty());
+    for (int turn = 0; turn < 3; ++turn) {
+        EXPECT_TRUE(
+            viewer.request({{"setViewport", {{"width", 1}, {"height", 1}}}}).contains("ok"));
+        const Json grown = viewer.request({{"setViewport", {{"width", 640}, {"height", 480}}}});
+        ASSERT_TRUE(grown.contains("ok")) << grown.dump();
+        EXPECT_FALSE(grown.at("ok").contains("viewport")) << grown.dump();
+    }
+}
+
 TEST_F(ViewersTest, RequestsThatDrawWaitTheirTurnAndAreAllAnswered) {
     constexpr int kRequests = 60;  // fewer than may wait
     JsonViewer moving(daemon_->port());

@@ -271,6 +271,35 @@ TEST(MeasuredPoints, APointInASolidIsNotMeasured) {
     EXPECT_EQ(points.summary().uniformity.value, 1.0);
 }
 
+/// A lamp 2 m above a floor: on the floor, within a board of 20 mm, and just below the floor.
+TEST(MeasuredPoints, APointOnASurfaceHasTheLightOfItsFront) {
+    SceneBuilder builder;
+    const std::uint32_t black = builder.add_material(glm::vec3(0.0F));
+    sized(builder).add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, 4, 4, black);
+    builder.add_box({1.5F, 0.7F, -0.5F}, {2.5F, 0.72F, 0.5F}, false, 1, black);
+    add_punctual_light(builder, glm::mat4(1.0F), PunctualKind::point, {0, 2, 0}, {0, -1, 0},
+                       glm::vec3(500.0F));
+    const auto exact = [](double x, double y) {
+        const double h = 2.0 - y;
+        return 500.0 * h / std::pow(x * x + h * h, 1.5);
+    };
+    for (const double below : {0.0, 1e-6, 5e-4, -5e-4}) {
+        const auto measured = [&](Quantity quantity, double x, double y) {
+            return measure_at(builder, quantity, {x, y - below, 0.3}, {0, 1, 0}, 1).value;
+        };
+        SCOPED_TRACE(below);
+        const double lux = exact(std::hypot(0.5, 0.3), 0.0);
+        EXPECT_NEAR(measured(Quantity::horizontal, 0.5, 0.0), lux, 2e-3 * lux);
+        EXPECT_NEAR(measured(Quantity::normal, 0.5, 0.0), lux, 2e-3 * lux);
+        EXPECT_GT(measured(Quantity::cylindrical, 0.5, 0.0), 1.0);
+        const double board = exact(std::hypot(2.0, 0.3), 0.72);
+        EXPECT_NEAR(measured(Quantity::horizontal, 2.0, 0.72), board, 2e-3 * board);
+    }
+    // What is under the board stays there, and what is well below the floor, too.
+    EXPECT_EQ(measure_at(builder, Quantity::horizontal, {2, 0.69, 0}, {}, 1).value, 0.0);
+    EXPECT_EQ(measure_at(builder, Quantity::horizontal, {0.5, -0.01, 0}, {}, 1).value, 0.0);
+}
+
 /// The same seed gives the same bits, in whatever slices.
 TEST(MeasuredPoints, SlicesDoNotMatter) {
     const SceneBuilder room = enclosure(0.5F);

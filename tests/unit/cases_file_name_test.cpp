@@ -73,6 +73,16 @@ TEST(CasesFileNames, OnlyOneFileMayFit) {
     EXPECT_EQ(found(folder, "folder.png"), "folder.png");
 }
 
+TEST(CasesFileNames, ASceneInTheWorkingFolderFindsThem) {
+    const TemporaryFolder folder;
+    folder.write("Maps/Wood.png", "1");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
+    EXPECT_EQ(local_file("scene.gltf", "", "maps\\wood.png"), "Maps/Wood.png");
+    EXPECT_EQ(local_file("./scene.gltf", "", "maps/wood.png"), "./Maps/Wood.png");
+    fs::current_path(before);
+}
+
 TEST(CasesFileNames, NothingOutsideOfTheFolderFits) {
     const TemporaryFolder folder;
     folder.write("Secret.png", "1");

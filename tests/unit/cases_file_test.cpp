@@ -43,6 +43,13 @@ TEST(CasesFile, OtherKindsOfFilesAreNamed) {
     EXPECT_EQ(gltf_error("\x1F\x8B\x08"), "f: not glTF: this is compressed (gzip)");
     EXPECT_EQ(gltf_error("<!DOCTYPE html>"), "f: not glTF: this is XML or HTML");
     EXPECT_EQ(gltf_error("PK\x03\x04"), "f: not glTF: this is a ZIP archive");
+    EXPECT_EQ(gltf_error("ISO-10303-21;\nHEADER;\n"), "f: not glTF: this is IFC or STEP");
+    EXPECT_EQ(gltf_error("\xFF\xFE\xFF\x0ES\0k\0e\0t\0c\0h\0U\0p\0"s),
+              "f: not glTF: this is SketchUp");
+    for (const char* obj : {"o house\n", "# Blender\r\n\r\nmtllib a.mtl\n", "#\n#\nv 0 0 0"}) {
+        EXPECT_EQ(gltf_error(obj), "f: not glTF: this is Wavefront OBJ") << obj;
+    }
+    EXPECT_EQ(gltf_error("# nothing\n#").find("this is"), std::string::npos);
     EXPECT_EQ(error_of([] { parse_ies("f", "version https://git-lfs.github.com/spec/v1\n"); }),
               "f: line 1: this is a Git LFS pointer: the file itself has not been fetched");
 }

@@ -123,10 +123,34 @@ TEST(CasesIes, TheThirdNumberIsAFactorUntil1995WhateverIsAroundTheHeader) {
 }
 
 TEST(CasesIes, TiltIsReadHoweverItIsWritten) {
-    for (const char* tilt : {"TILT = NONE", "\tTILT=NONE", "tilt=none", "Tilt = None  ",
-                             "TILT=INCLUDE\n1\n3\n0 90 180\n1 0.9 0.8",
-                             " tilt = include\n1\n3\n0 90 180\n1 0.9 0.8"}) {
+    for (const char* tilt :
+         {"TILT = NONE", "\tTILT=NONE", "tilt=none", "Tilt = None  ",
+          "TILT=INCLUDE\n1\n3\n0 90 180\n1 0.9 0.8", " tilt = include\n1\n3\n0 90 180\n1 0.9 0.8",
+          "TILT=", "TILT=LAMP.TLT"}) {
         expect_clean(replaced(clean(), "TILT=NONE", tilt));
+    }
+    const IesProfile tilted =
+        parse_ies("lamp.ies", replaced(clean(), "TILT=NONE", "TILT=..\\lamp.tlt"));
+    ASSERT_EQ(tilted.data().notes.size(), 1U);
+    EXPECT_NE(tilted.data().notes[0].find("file of tilt factors"), std::string::npos);
+}
+
+/// Ends of files of DOS, padding, form feeds, no-break spaces of Latin-1 and UTF-8.
+TEST(CasesIes, ControlCharactersAreBlanks) {
+    const std::string ends_with_digit = clean().substr(0, clean().find_last_of("0123456789") + 1);
+    for (const std::string& end :
+         {std::string("\x1a"), std::string(3, '\0'), std::string("\n\x1a"), std::string("\x7f\n"),
+          std::string("\xA0"), std::string("\xC2\xA0")}) {
+        expect_clean(ends_with_digit + end);
+    }
+    for (const char* blank : {"\f", "\v", "\xA0", "\xC2\xA0 "}) {
+        expect_clean(replaced(clean(), "1 -1 1 19", std::string("1") + blank + "-1 1 19"));
+    }
+}
+
+TEST(CasesIes, NegativeCountsSayThatIntensitiesAreAbsolute) {
+    for (const char* lamps : {"-1 3140 1 19", "1 -2 1 19", "1 0 1 19"}) {
+        expect_clean(replaced(clean(), "1 -1 1 19", lamps));
     }
 }
 
@@ -147,6 +171,8 @@ TEST(CasesIes, WideCharactersAreRead) {
     }
     expect_clean(little);
     expect_clean(big);
+    expect_clean(little.substr(2));
+    expect_clean(big.substr(2));
 }
 
 TEST(CasesIes, CommasSeparateNumbersOrAreDecimal) {

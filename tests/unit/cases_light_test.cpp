@@ -27,6 +27,22 @@ TEST(CasesSpot, HardSpotsAreDiscsOfEvenIntensity) {
     EXPECT_NEAR(spot.flux().g, 2000.0 * pi * (1.0 - std::cos(0.4)), 0.1);
 }
 
+/// A file whose inner cone is the wider one: all of the outer cone is as bright as the axis.
+TEST(CasesSpot, AnInnerConeBeyondTheOuterOneIsCutOff) {
+    for (const double inner : {0.6, 0.400001}) {
+        GltfBuilder builder = one_triangle();
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "spot"},
+             {"intensity", 1000},
+             {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", 0.4}}}}};
+        builder.add_node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        const Scene scene = builder.load();
+        EXPECT_NEAR(place_light(scene, scene.punctual_lights.at(0)).flux().g,
+                    2000.0 * pi * (1.0 - std::cos(0.4)), 0.1);
+        EXPECT_EQ(has_notice(scene, "the outer cone gets a hard edge"), inner > 0.5);
+    }
+}
+
 /// However narrow or wide, and where rounding puts one cone beyond the other.
 TEST(CasesSpot, TheEdgeIsWhereTheOuterConeIs) {
     for (const double angle : {0.005, 0.02, 0.4, 1.0, 1.5}) {

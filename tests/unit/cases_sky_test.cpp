@@ -319,5 +319,35 @@ TEST(CasesSky, ChannelsAreFoundByTheirNames) {
     EXPECT_LT(glm::distance(read_image(wide.bytes()).pixels[0], glm::vec3(1.0F)), 1e-3F);
 }
 
+/// Depth and coverage are no light, and a file may have parts.
+TEST(CasesSky, TheFirstPartWithColoursIsRead) {
+    Exr depth(8, 4, 1);
+    for (const char* name : {"Z", "depth", "view.Depth", "A"}) {
+        depth.spec.channelnames = {name};
+        EXPECT_EQ(refused(depth.bytes()), std::string("has no channels R, G and B, but ") + name);
+    }
+    depth.spec.channelnames = {"sky"};
+    EXPECT_EQ(read_image(depth.bytes()).pixels[0], glm::vec3(1.0F));
+    const TemporaryFolder folder;
+    const std::string path = folder.write("x.exr", "");
+    OIIO::ImageSpec parts[] = {OIIO::ImageSpec(16, 8, 1, OIIO::TypeDesc::FLOAT),
+                               OIIO::ImageSpec(16, 8, 3, OIIO::TypeDesc::HALF)};
+    parts[0].channelnames = {"Z"};
+    parts[0].attribute("name", "depth");
+    parts[1].attribute("name", "beauty");
+    const std::vector<float> values(16 * 8 * 3, 5.0F);
+    const auto out = OIIO::ImageOutput::create("openexr");
+    ASSERT_TRUE(out->open(path, 2, parts));
+    EXPECT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    ASSERT_TRUE(out->open(path, parts[1], OIIO::ImageOutput::AppendSubimage));
+    EXPECT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    EXPECT_TRUE(out->close());
+    std::ifstream in(path, std::ios::binary);
+    const EquirectangularImage image =
+        read_image({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()});
+    EXPECT_EQ(image.width, 16);
+    EXPECT_EQ(image.pixels[9], glm::vec3(5.0F));
+}
+
 }  // namespace
 }  // namespace raybundle::test

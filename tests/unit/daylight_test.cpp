@@ -204,6 +204,18 @@ TEST(Daylight, CommandLineGoesBeforeTheFile) {
     EXPECT_EQ(uniform.sky_radiance, glm::vec3(70.0F));
 }
 
+TEST(Daylight, OptionsWithoutTheirSkyAreNamed) {
+    SceneSettings settings;
+    settings.daylight.sun_elevation = 30.0F;
+    settings.daylight.environment_scale = 2.0F;
+    const Scene dark = one_triangle().load(settings);
+    EXPECT_TRUE(has_notice(dark, "sunElevation change nothing: the scene has no standard sky"));
+    EXPECT_TRUE(has_notice(dark, "environmentScale change nothing"));
+    EXPECT_FALSE(has_notice(lit_by({{"sky", "clear"}}).load(settings), "sunElevation"));
+    settings.sky_luminance = 70.0F;
+    EXPECT_TRUE(has_notice(lit_by({{"sky", "clear"}}).load(settings), "sunElevation change"));
+}
+
 TEST(Daylight, NonsenseIsRejected) {
     const auto rejected = [](const Json& daylight, const std::string& reason) {
         try {

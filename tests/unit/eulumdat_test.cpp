@@ -191,6 +191,8 @@ TEST(Eulumdat, OddFilesAreReadAsTheyAreMeant) {
     absolute.lamps = "-4";
     EXPECT_EQ(parse_photometry("f", eulumdat(absolute)).flux(), flux);
     EXPECT_EQ(parse_photometry("f", text + "\n\n\x1A").flux(), flux);
+    EXPECT_EQ(parse_photometry("f", text.substr(0, text.find_last_of('0') + 1) + "\x1A").flux(),
+              flux);
 }
 
 TEST(Eulumdat, AGltfLightTakesIt) {
@@ -223,6 +225,19 @@ std::string with_line(std::size_t number, const std::string& line) {
         at = text.find('\n', at) + 1;
     }
     return text.replace(at, text.find('\n', at) - at, line);
+}
+
+TEST(Eulumdat, TextStandsWhereTheLightDoesNotDependOnIt) {
+    const double flux = parse_eulumdat("f", eulumdat({})).flux();
+    const IesProfile profile = parse_eulumdat("f", with_line(32, "2x36 W"));
+    EXPECT_EQ(profile.flux(), flux);
+    ASSERT_EQ(profile.data().notes.size(), 1U);
+    EXPECT_EQ(profile.data().notes[0], "the power is not a number: \"2X36W\"");
+    for (const std::size_t line : {13U, 15U, 22U, 23U, 32U, 33U, 42U}) {
+        const IesProfile dashed = parse_eulumdat("f", with_line(line, "-"));
+        EXPECT_EQ(dashed.flux(), flux) << line;
+        EXPECT_TRUE(dashed.data().notes.empty()) << line;
+    }
 }
 
 TEST(Eulumdat, ErrorsNameTheLineAndTheReason) {

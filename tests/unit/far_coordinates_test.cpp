@@ -107,6 +107,15 @@ TEST(FarCoordinates, VerticesThatAreStoredFarAwayAreTold) {
     const Scene scene = builder.load();
     EXPECT_TRUE(has_notice(scene, "the vertices of 'house' are stored 5e+06 m away"));
     EXPECT_LT(largest_coordinate(scene), 10.0);
+    // Of many the one that is farthest away.
+    for (int k = 1; k < 100; ++k) {
+        builder.add_node({{"name", "part"},
+                          {"mesh", builder.add_box_mesh({5e6F + 9.0F, 0, 0}, {5e6F + 10.0F, 3, 4})},
+                          {"translation", {0, 0, 5 * k}}});
+    }
+    const Scene town = builder.load();
+    EXPECT_TRUE(has_notice(town, " and 99 more are stored 5e+06 m away"));
+    EXPECT_LT(town.notices.size(), 8U);
 }
 
 /// A box of 5 m, on a ground of so many metres, and a box of a size at a place.

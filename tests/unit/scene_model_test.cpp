@@ -70,8 +70,11 @@ TEST(SceneModel, CamerasNeedOnlyWhatIsRead) {
     GltfBuilder builder = one_triangle();
     builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}}}},
                                {{"type", "perspective"}},
+                               {{"type", "perspective"}, {"perspective", {{"znear", 0.1}}}},
+                               {{"type", "perspective"}, {"perspective", {{"yfov", 0}}}},
+                               {{"type", "perspective"}, {"perspective", {{"yfov", -1}}}},
                                {{"type", "orthographic"}}};
-    for (int camera = 0; camera < 3; ++camera) {
+    for (int camera = 0; camera < 6; ++camera) {
         builder.add_node({{"camera", camera}, {"translation", {0, 0, 5}}});
     }
     const Scene scene = builder.load();

@@ -47,6 +47,11 @@ TEST_P(SceneRejection, NamesThePlaceAndTheReason) {
 const SceneFault scene_faults[] = {
     {"no_asset", [](Json& j) { j.erase("asset"); }, "asset", "is missing"},
     {"old_version", [](Json& j) { j["asset"]["version"] = "1.0"; }, "asset.version", "only 2.0"},
+    {"old_file",
+     [](Json& j) {
+         j = {{"asset", {{"version", "1.0"}}}, {"scenes", {{"a", 1}}}};
+     },
+     "asset.version", "only 2.0"},
     {"newer_minimum", [](Json& j) { j["asset"]["minVersion"] = "2.1"; }, "asset.minVersion",
      "only 2.0"},
     {"required_extension", [](Json& j) { j["extensionsRequired"] = {"ACME_magic"}; },

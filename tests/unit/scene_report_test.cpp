@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "gltf_builder.h"
+#include "scene/significant.h"
 
 namespace raybundle::test {
 namespace {
@@ -15,6 +17,19 @@ Bounds cube(float size) {
     bounds.add(glm::vec3(0));
     bounds.add(glm::vec3(size));
     return bounds;
+}
+
+TEST(SceneReport, NumbersOfLightHaveNoExponent) {
+    EXPECT_EQ(significant(24998.0, 4), "25000");
+    EXPECT_EQ(significant(9999.6, 4), "10000");
+    EXPECT_EQ(significant(-123456.0, 4), "-123500");
+    EXPECT_EQ(significant(123.456, 4), "123.5");
+    EXPECT_EQ(significant(117.0, 2), "120");
+    EXPECT_EQ(significant(0.0, 4), "0");
+    EXPECT_EQ(significant(0.00123, 2), "0.0012");
+    EXPECT_EQ(significant(1.5e-7, 2), "1.5e-07");
+    EXPECT_EQ(significant(2e20, 4), "2e+20");
+    EXPECT_EQ(significant(std::numeric_limits<double>::infinity(), 4), "inf");
 }
 
 TEST(SceneReport, HintsAtWrongUnits) {

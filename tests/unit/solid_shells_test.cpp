@@ -6,7 +6,10 @@
 
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <vector>
 
+#include "scene/material/specular_surface.h"
 #include "scene/mesh/patch_mesh.h"
 
 namespace raybundle {
@@ -136,6 +139,57 @@ TEST(SolidShells, NestedShellsTakeLimitedTime) {
     }
     EXPECT_EQ(mark_solid_shells(scene), 12U);  // the innermost one
     EXPECT_EQ(solid_triangles(scene, 1), 12U);
+}
+
+/// Glass of 10 mm whose distance of attenuation is its thickness: half of the light is left.
+Scene glass_scene() {
+    Scene scene = empty_scene();
+    Material& glass = scene.materials[0];
+    glass.name = "glass";
+    glass.base_colour = glm::vec3(1.0F);
+    glass.metallic = 0.0F;
+    glass.transmission = 1.0F;
+    glass.thickness = 0.01F;
+    glass.attenuation_distance = 0.01F;
+    glass.attenuation_colour = glm::vec3(0.5F);
+    return scene;
+}
+
+/// Of a box only these two triangles: one of its faces.
+void keep_faces(Scene& scene, std::size_t first_triangle, const std::vector<std::size_t>& faces) {
+    const std::vector<Triangle> all = scene.triangles;
+    scene.triangles.resize(first_triangle);
+    for (const std::size_t face : faces) {
+        scene.triangles.push_back(all[first_triangle + 2 * face]);
+        scene.triangles.push_back(all[first_triangle + 2 * face + 1]);
+    }
+}
+
+TEST(OpenGlass, SheetsAreThinPanesThatAbsorbAsMuch) {
+    Scene scene = glass_scene();
+    add_box(scene, {0, 0, 0}, {2, 2, 0.01F});
+    keep_faces(scene, 0, {0});
+    add_box(scene, {5, 0, 0}, {5.01F, 2, 2});
+    keep_faces(scene, 2, {4});
+    EXPECT_EQ(thin_open_glass(scene), std::vector<std::string>{"glass"});
+    EXPECT_EQ(specular_kind(scene.materials[0]), SpecularKind::pane);
+    EXPECT_NEAR(specular_surface(scene.materials[0], glm::vec3(0.8F)).tint.g, 0.4F, 1e-6F);
+    EXPECT_TRUE(thin_open_glass(scene).empty());
+}
+
+TEST(OpenGlass, WhatClosesStaysABody) {
+    Scene scene = glass_scene();
+    add_box(scene, {0, 0, 0}, {2, 2, 0.01F});
+    EXPECT_TRUE(thin_open_glass(scene).empty());
+    keep_faces(scene, 0, {0, 1});  // a pane's two faces without its rims
+    EXPECT_TRUE(thin_open_glass(scene).empty());
+    // A sheet beside a body of the same material: that stays one.
+    scene = glass_scene();
+    add_box(scene, {0, 0, 0}, {2, 2, 0.01F});
+    add_box(scene, {5, 0, 0}, {5.01F, 2, 2});
+    keep_faces(scene, 12, {4});
+    EXPECT_TRUE(thin_open_glass(scene).empty());
+    EXPECT_EQ(specular_kind(scene.materials[0]), SpecularKind::glass);
 }
 
 }  // namespace

@@ -76,13 +76,19 @@ TEST(SpecularSurface, AClearPaneLosesNothing) {
                 1e-5F);
 }
 
-Material read_material(const Json& json) {
+Scene box_of(const Json& material, float metres_per_unit = 1.0F) {
     GltfBuilder builder;
-    const int positions = builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-    const int mesh = builder.add_mesh(
-        {{"attributes", {{"POSITION", positions}}}, {"material", builder.add_material(json)}});
+    const int mesh = builder.add_box_mesh({0, 0, 0}, {1, 2, 3});
+    builder.json["meshes"][static_cast<std::size_t>(mesh)]["primitives"][0]["material"] =
+        builder.add_material(material);
     builder.add_node({{"mesh", mesh}});
-    return builder.load().materials.front();
+    SceneSettings settings;
+    settings.metres_per_unit = metres_per_unit;
+    return builder.load(settings);
+}
+
+Material read_material(const Json& json) {
+    return box_of(json).materials.front();
 }
 
 TEST(SpecularSurface, FilesAskForMirrorsPanesAndBodies) {
@@ -109,6 +115,10 @@ TEST(SpecularSurface, FilesAskForMirrorsPanesAndBodies) {
     EXPECT_NEAR(std::exp(-body.absorption.r), 1.0F, 1e-6F);
     EXPECT_NEAR(std::exp(-body.absorption.g), 0.5F, 1e-6F);
     EXPECT_NEAR(body.absorption.b, 0.5F * std::numbers::ln2_v<float>, 1e-6F);
+    // In a file in millimetres as much is left behind as many of them.
+    const SpecularSurface small =
+        specular_surface(box_of(glass, 0.001F).materials.front(), glm::vec3(1.0F));
+    EXPECT_NEAR(std::exp(-0.001F * small.absorption.g), 0.5F, 1e-5F);
 
     glass["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.2;
     EXPECT_EQ(specular_kind(read_material(glass)), SpecularKind::none);

@@ -56,6 +56,22 @@ TEST(StandingViews, AreAtEyeHeightInsideWhereItIsLitAndLookFar) {
     EXPECT_NE(left(scene.cameras[0]), left(scene.cameras[1])) << "both in one room";
 }
 
+/// Rooms 3 m high that were drawn in millimetres and read as metres.
+TEST(StandingViews, AreAtEyeHeightInAnotherUnit) {
+    SceneSettings settings;
+    settings.metres_per_unit = 1000.0F;
+    const Scene scene = two_rooms().load(settings);
+    ASSERT_GE(scene.cameras.size(), 3U);
+    EXPECT_EQ(scene.cameras[0].name, "inside");
+    for (std::size_t i = 0; i + 1 < scene.cameras.size(); ++i) {
+        EXPECT_GT(scene.cameras[i].eye.y, 1300.0F);
+        EXPECT_LT(scene.cameras[i].eye.y, 2200.0F);
+    }
+    // A hall of 30 m is one.
+    settings.metres_per_unit = 10.0F;
+    EXPECT_NEAR(two_rooms().load(settings).cameras[0].eye.y, eye_height, 0.01F);
+}
+
 // Seen from where one can stand, half of what is around has light; along the longest line through
 // it, nearly all are backs: a shell modelled from outside.
 TEST(StandingViews, DoNotLookAtTheBacksOfWalls) {

@@ -118,7 +118,74 @@ class ShellSearch {
         return found;
     }
 
+    /// Of each material, whether it is on shells and all of these are sheets.
+    [[nodiscard]] std::vector<bool> only_on_sheets() const {
+        std::vector<char> sheet(scene_.materials.size(), 0);
+        std::vector<char> body(scene_.materials.size(), 0);
+        std::vector<Sheet> sheets;
+        std::vector<BoxTree::Box> boxes;
+        for (const Shell& shell : shells_) {
+            const std::uint32_t material = scene_.triangles[shell.triangles.front()].material;
+            if (scene_.materials[material].thickness <= 0.0F) {
+                continue;
+            }
+            const Sheet found = sheet_of(shell);
+            if (shell.closed || glm::length(found.across) < flattest * found.area) {
+                body[material] = 1;
+            } else {
+                sheets.push_back(found);
+                boxes.push_back(shell.box);
+            }
+        }
+        const BoxTree tree(std::move(boxes));
+        for (const Sheet& one : sheets) {
+            (has_other_face(one, sheets, tree) ? body : sheet)[one.material] = 1;
+        }
+        std::vector<bool> result(sheet.size());
+        for (std::size_t m = 0; m < result.size(); ++m) {
+            result[m] = sheet[m] != 0 && body[m] == 0;
+        }
+        return result;
+    }
+
   private:
+    /// Area vectors shorter than this share of the area are those of something that nearly closes.
+    static constexpr double flattest = 0.05;
+
+    /// A shell that does not close; world space.
+    struct Sheet {
+        std::uint32_t material = 0, object = 0;
+        BoxTree::Box box;
+        glm::dvec3 across{0.0};  ///< its area as a vector, m²
+        double area = 0.0;       ///< m²
+    };
+
+    [[nodiscard]] Sheet sheet_of(const Shell& shell) const {
+        const Triangle& first = scene_.triangles[shell.triangles.front()];
+        Sheet sheet{first.material, first.object, shell.box, {}, 0.0};
+        for (const std::uint32_t t : shell.triangles) {
+            const auto c = world_corners(scene_, scene_.triangles[t]);
+            const glm::dvec3 across = 0.5 * glm::cross(c[1] - c[0], c[2] - c[0]);
+            sheet.across += across;
+            sheet.area += glm::length(across);
+        }
+        return sheet;
+    }
+
+    [[nodiscard]] bool has_other_face(const Sheet& one, const std::vector<Sheet>& sheets,
+                                      const BoxTree& tree) const {
+        const double reach = 2.0 * static_cast<double>(scene_.materials[one.material].thickness);
+        bool found = false;
+        tree.for_each_overlapping(
+            {one.box.low - reach, one.box.high + reach}, [&](std::uint32_t index) {
+                const Sheet& other = sheets[index];
+                found = found || (other.material == one.material && other.object == one.object &&
+                                  glm::length(one.across + other.across) <
+                                      flattest * (one.area + other.area));
+            });
+        return found;
+    }
+
     struct Lamp {
         std::uint32_t shell = 0;
         const std::string* name = nullptr;
@@ -336,6 +403,26 @@ std::size_t mark_solid_shells(Scene& scene) {
         scene.triangles[t].solid = true;
     }
     return solid.size();
+}
+
+std::vector<std::string> thin_open_glass(Scene& scene) {
+    const auto is_body = [](const Material& material) {
+        return specular_kind(material) == SpecularKind::glass;
+    };
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), is_body)) {
+        return {};
+    }
+    const std::vector<bool> open = ShellSearch(scene).only_on_sheets();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        Material& material = scene.materials[i];
+        if (!open[i] || !is_body(material)) {
+            continue;
+        }
+        material.thickness = -material.thickness;
+        names.push_back(material.name);
+    }
+    return names;
 }
 
 }  // namespace raybundle

@@ -32,4 +32,11 @@ struct EnclosedLight {
 /// without glass. Looks no further where that would take too long. `scene.cameras` must be known.
 std::vector<EnclosedLight> find_enclosed_lights(const Scene& scene);
 
+/// Makes thin panes of glass bodies (KHR_materials_volume) all of whose surfaces are sheets: light
+/// would go into them and never out again. Their thickness is below 0 then, and what it absorbs
+/// tints them (specular_surface()). A sheet has an edge, and its area as a vector, which is 0 of
+/// whatever closes, is not; another sheet of the object at about the thickness closes it, too: two
+/// faces of a pane without its rims. Returns the names of these materials.
+std::vector<std::string> thin_open_glass(Scene& scene);
+
 }  // namespace raybundle

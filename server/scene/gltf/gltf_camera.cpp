@@ -9,6 +9,7 @@
 namespace raybundle {
 namespace {
 
+constexpr double min_vertical_fov = 1e-6;
 constexpr double max_vertical_fov = 3.1;
 
 /// glTF 2.0, 3.10: a camera looks along its node's -Z with +Y up; scale does not count.
@@ -46,7 +47,8 @@ std::vector<Camera> read_cameras(GltfDocument& document, const GltfNodeTree& tre
         const GltfNode& node = item(tree.nodes, index);
         const tinygltf::Camera& source = item(document.model().cameras, camera_index);
         Camera camera;
-        if (source.type != "perspective" || !place_camera(node, bounds, camera)) {
+        if (source.type != "perspective" || !(source.perspective.yfov >= min_vertical_fov) ||
+            !place_camera(node, bounds, camera)) {
             document.note("orthographic and degenerate cameras are left out");
             continue;
         }

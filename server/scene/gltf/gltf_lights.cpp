@@ -206,10 +206,12 @@ class LightReader {
         const Json& spot = found == nullptr ? none : *found;
         const double inner = value_or(spot, "innerConeAngle", 0.0);
         const double outer = value_or(spot, "outerConeAngle", glm::quarter_pi<double>());
-        if (!(inner <= outer)) {
-            document_.fail(
-                fmt::format("extensions.KHR_lights_punctual.lights[{}].spot", definition),
-                fmt::format("innerConeAngle {} is above outerConeAngle {}", inner, outer));
+        constexpr double rounding = 1e-4;  // of programs that store cones in other ways
+        if (inner > outer + rounding) {
+            document_.note(fmt::format(
+                "extensions.KHR_lights_punctual.lights[{}].spot: innerConeAngle {:.6g} is above "
+                "outerConeAngle {:.6g}: the outer cone gets a hard edge",
+                definition, inner, outer));
         }
         // A hard edge has both cones at once: it falls within 16 roundings of a cosine.
         constexpr float min_gap = 16.0F * std::numeric_limits<float>::epsilon();

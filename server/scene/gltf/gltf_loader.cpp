@@ -86,9 +86,39 @@ void apply_ies(const std::string& choice, GltfDocument& document, Scene& scene) 
     }
 }
 
+/// Names the options of a sky or of an image that the scene does not have.
+void note_unused_daylight(GltfDocument& document, const Daylight& options, bool sky,
+                          bool environment) {
+    std::string names;
+    const auto add = [&](const char* name, bool given, bool used) {
+        if (given && !used) {
+            names += (names.empty() ? "" : ", ") + std::string(name);
+        }
+    };
+    add("skyZenith", options.zenith_luminance.has_value(), sky);
+    add("sunElevation", options.sun_elevation.has_value(), sky);
+    add("sunAzimuth", options.sun_azimuth.has_value(), sky);
+    add("sunIlluminance", options.sun_illuminance.has_value(), sky);
+    add("sunDiameter", options.sun_diameter.has_value(), sky);
+    add("groundAlbedo", options.ground_albedo.has_value(), sky);
+    if (!names.empty()) {
+        document.note(names + " change nothing: the scene has no standard sky (--sky clear)");
+    }
+    names.clear();
+    add("environmentRotation", options.environment_rotation.has_value(), environment);
+    add("environmentScale", options.environment_scale.has_value(), environment);
+    if (!names.empty()) {
+        document.note(names + " change nothing: the scene has no image of its surroundings");
+    }
+}
+
 void set_sky(GltfDocument& document, const SceneSettings& settings, Scene& scene) {
     scene.medium = document.air();
     const Daylight daylight = overlaid(document.daylight(), settings.daylight);
+    const bool uniform = settings.sky_luminance.has_value();
+    note_unused_daylight(document, settings.daylight,
+                         !uniform && daylight.sky && !daylight.environment,
+                         !uniform && daylight.environment);
     if (settings.sky_luminance) {
         scene.sky_radiance = glm::vec3(*settings.sky_luminance);
     } else if (daylight.given()) {
@@ -191,6 +221,10 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     scene.name = std::filesystem::path(scene.path).stem().string();
     GltfNodeTree tree = read_node_tree(document, settings.metres_per_unit);
     const std::uint32_t default_material = read_materials(document, scene);
+    for (Material& material : scene.materials) {
+        material.thickness *= settings.metres_per_unit;
+        material.attenuation_distance *= settings.metres_per_unit;
+    }
     check_meshes(document);
     const std::vector<NodeGeometry> geometries =
         read_placed_geometry(document, tree, settings.metres_per_unit, scene);
@@ -214,6 +248,13 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     if (!whole && split_lone_object(scene) > 1 && plans.size() == 1) {
         document.note(fmt::format("the only object is divided into {} connected parts",
                                   scene.objects.size()));
+    }
+    if (const std::vector<std::string> open = thin_open_glass(scene); !open.empty()) {
+        const std::string more =
+            open.size() > 1 ? fmt::format(" and {} more", open.size() - 1) : std::string();
+        document.note(fmt::format(
+            "material '{}'{}: surfaces that have a thickness do not close: they are thin panes",
+            open.front(), more));
     }
     scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);

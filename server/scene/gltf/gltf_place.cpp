@@ -217,9 +217,12 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Meshes whose own vertices single precision has moved.
+/// Meshes whose own vertices single precision has moved: the one that it has moved most.
 void note_rounded_vertices(GltfDocument& document, const GltfNodeTree& tree, double tie,
                            const std::vector<NodeGeometry>& geometries) {
+    std::size_t count = 0;
+    double farthest = 0.0;
+    const NodeGeometry* worst = nullptr;
     for (const NodeGeometry& geometry : geometries) {
         const Bounds local = geometry.local_bounds();
         const glm::dmat3 world(
@@ -229,11 +232,20 @@ void note_rounded_vertices(GltfDocument& document, const GltfNodeTree& tree, dou
         const double scale = std::cbrt(std::abs(glm::determinant(world)));
         const double away = scale * std::max(largest(local.min), largest(local.max));
         if (away * half_unit_in_last_place > tie) {
-            document.note(fmt::format(
-                "the vertices of {} are stored {:.3g} m away from the mesh's own zero: single "
-                "precision has rounded them to {:.1g} m",
-                name_of(document, tree, geometry), away, 2.0 * away * half_unit_in_last_place));
+            ++count;
+            if (away > farthest) {
+                farthest = away;
+                worst = &geometry;
+            }
         }
+    }
+    if (worst != nullptr) {
+        document.note(fmt::format(
+            "the vertices of {}{} are stored {:.3g} m away from the mesh's own zero: single "
+            "precision has rounded them to {:.1g} m",
+            name_of(document, tree, *worst),
+            count > 1 ? fmt::format(" and {} more", count - 1) : std::string(), farthest,
+            2.0 * farthest * half_unit_in_last_place));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,15 +20,24 @@ namespace raybundle {
 namespace {
 
 constexpr int max_channels = 64;
+constexpr int max_parts = 64;
+constexpr const char* no_light[] = {"Z", "ZBack", "depth", "A", "alpha"};
 constexpr float largest_half = 65504.0F;
 
 [[noreturn]] void fail_picture(const std::string& file, const std::string& reason) {
     throw SceneError(file, "", reason);
 }
 
+/// Whether a channel has another meaning than light: depth and coverage.
+bool is_no_light(const std::string& name) {
+    const std::string last = name.substr(name.rfind('.') + 1);
+    return std::any_of(std::begin(no_light), std::end(no_light),
+                       [&](const char* other) { return OIIO::Strutil::iequals(last, other); });
+}
+
 /// Channels of red, green and blue: R, G, B, else those of the first layer that has them, else Y
 /// for all, else the only channel.
-std::array<int, 3> colour_channels(const std::string& file, const OIIO::ImageSpec& spec) {
+std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageSpec& spec) {
     const std::vector<std::string>& names = spec.channelnames;
     constexpr std::array<std::array<const char*, 3>, 3> spellings = {
         {{"R", "G", "B"}, {"r", "g", "b"}, {"red", "green", "blue"}}};
@@ -40,21 +50,18 @@ std::array<int, 3> colour_channels(const std::string& file, const OIIO::ImageSpe
             const int g = spec.channelindex(layer + green);
             const int b = spec.channelindex(layer + blue);
             if (g >= 0 && b >= 0) {
-                return {spec.channelindex(name), g, b};
+                return std::array<int, 3>{spec.channelindex(name), g, b};
             }
         }
     }
-    const int grey = spec.nchannels == 1 ? 0 : spec.channelindex("Y");
+    const bool lone = spec.nchannels == 1 && !is_no_light(names[0]);
+    const int grey = lone ? 0 : spec.channelindex("Y");
     const bool colour =  // of XYZ, or of luminance and chroma
         spec.channelindex("X") >= 0 || spec.channelindex("RY") >= 0;
     if (grey >= 0 && !colour) {
-        return {grey, grey, grey};
+        return std::array<int, 3>{grey, grey, grey};
     }
-    std::string list;
-    for (const std::string& name : names) {
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    fail_picture(file, fmt::format("has no channels R, G and B, but {}", list.substr(0, 200)));
+    return std::nullopt;
 }
 
 void check_openexr(const std::string& file, const OIIO::ImageSpec& spec) {
@@ -116,6 +123,22 @@ PictureFile placed(const OIIO::ImageSpec& spec, const std::vector<float>& values
     return image;
 }
 
+/// Makes the first part that has colours the input's own; its channels.
+std::array<int, 3> seek_colours(const std::string& file, OIIO::ImageInput& input) {
+    std::string list;
+    for (int part = 0; part < max_parts && input.seek_subimage(part, 0); ++part) {
+        const OIIO::ImageSpec& spec = input.spec();
+        if (const auto colours = colour_channels(spec)) {
+            check_openexr(file, spec);
+            return *colours;
+        }
+        for (const std::string& name : spec.channelnames) {
+            list += (list.empty() ? "" : ", ") + name;
+        }
+    }
+    fail_picture(file, fmt::format("has no channels R, G and B, but {}", list.substr(0, 200)));
+}
+
 }  // namespace
 
 PictureFile read_openexr_picture(const std::string& file, std::span<const std::uint8_t> bytes) {
@@ -127,16 +150,16 @@ PictureFile read_openexr_picture(const std::string& file, std::span<const std::u
     if (!input) {
         fail_picture(file, fmt::format("cannot be decoded: {}", plain_message(OIIO::geterror())));
     }
+    const std::array<int, 3> colours = seek_colours(file, *input);
     const OIIO::ImageSpec& spec = input->spec();
-    check_openexr(file, spec);
-    const std::array<int, 3> colours = colour_channels(file, spec);
     const auto [low, high] = std::minmax_element(colours.begin(), colours.end());
     const int first = *low;
     const int channels = *high - *low + 1;
     std::vector<float> values(static_cast<std::size_t>(spec.width) *
                               static_cast<std::size_t>(spec.height) *
                               static_cast<std::size_t>(channels));
-    if (!input->read_image(0, 0, first, first + channels, OIIO::TypeDesc::FLOAT, values.data())) {
+    if (!input->read_image(input->current_subimage(), 0, first, first + channels,
+                           OIIO::TypeDesc::FLOAT, values.data())) {
         fail_picture(file, fmt::format("cannot be decoded: {}", plain_message(input->geterror())));
     }
     PictureFile image = placed(spec, values, first, channels, colours);

@@ -66,11 +66,13 @@ SpecularSurface specular_surface(const Material& material, const glm::vec3& base
         surface.f90 = brdf.lobe.f90;
     } else if (surface.is_glass()) {
         surface.ior = std::clamp(material.ior, least_index, most_index);
-        const glm::vec3 colour =
-            glm::clamp(base_colour, 0.0F, 1.0F) * (material.reflectance * material.transmission);
+        const glm::vec3 absorption = absorption_of(material);
+        const glm::vec3 colour = glm::clamp(base_colour, 0.0F, 1.0F) *
+                                 (material.reflectance * material.transmission) *
+                                 glm::exp(absorption * std::min(material.thickness, 0.0F));
         // Through a body light passes two boundaries: its colour is that of both.
         surface.tint = surface.kind == SpecularKind::glass ? glm::sqrt(colour) : colour;
-        surface.absorption = absorption_of(material);
+        surface.absorption = absorption;
     }
     return surface;
 }

@@ -69,6 +69,17 @@ class LineReader {
                                                      IesReader::max_number));
     }
 
+    /// Of a value that the light does not depend on, where anything may stand; a note tells.
+    std::optional<double> number_if_legible(const std::string& what,
+                                            std::vector<std::string>& notes) {
+        const std::string digits = compact(text(what));
+        const std::optional<double> value = legible(digits);
+        if (!value && digits.find_first_not_of('-') != std::string::npos) {
+            notes.push_back(fmt::format("{} is not a number: \"{}\"", what, digits.substr(0, 40)));
+        }
+        return value;
+    }
+
     std::size_t count(const std::string& what, double low, double high) {
         const double value = number(what, low, high);
         if (value != std::floor(value)) {
@@ -99,19 +110,25 @@ class LineReader {
     }
 
   private:
-    double parsed(const std::string& what, std::string digits, double low, double high) const {
+    static std::optional<double> legible(std::string digits) {
         std::replace(digits.begin(), digits.end(), ',', '.');
-        const std::size_t sign = digits.front() == '+' ? 1 : 0;
+        const std::size_t sign = digits.starts_with('+') ? 1 : 0;
         double value = 0.0;
         const char* last = digits.data() + digits.size();
         const auto [end, error] = std::from_chars(digits.data() + sign, last, value);
-        if (error != std::errc() || end != last) {
+        return error == std::errc() && end == last ? std::optional(value) : std::nullopt;
+    }
+
+    double parsed(const std::string& what, const std::string& digits, double low,
+                  double high) const {
+        const std::optional<double> value = legible(digits);
+        if (!value) {
             fail(fmt::format("{} is not a number: \"{}\"", what, digits.substr(0, 40)));
         }
-        if (!(value >= low && value <= high)) {
-            fail(fmt::format("{} is {}, not in [{}, {}]", what, value, low, high));
+        if (!(*value >= low && *value <= high)) {
+            fail(fmt::format("{} is {}, not in [{}, {}]", what, *value, low, high));
         }
-        return value;
+        return *value;
     }
 
     IesReader reader_;
@@ -162,11 +179,12 @@ Head read_head(LineReader& in, IesProfile::Data& data) {
                             IesReader::max_values));
     }
     for (const char* size : {"the length", "the width", "the height"}) {
-        in.number_if_given(size);
+        in.number_if_legible(size, data.notes);
     }
     data.opening = read_opening(in);
-    in.number_if_given("the downward flux fraction");
-    head.light_output_ratio = in.number_if_given("the light output ratio").value_or(0.0) / 100.0;
+    in.number_if_legible("the downward flux fraction", data.notes);
+    head.light_output_ratio =
+        in.number_if_legible("the light output ratio", data.notes).value_or(0.0) / 100.0;
     head.factor = in.number_if_given("the conversion factor").value_or(1.0);
     if (head.factor == 0.0) {
         data.notes.emplace_back("its conversion factor is 0, which is read as 1");
@@ -194,7 +212,7 @@ void read_lamps(LineReader& in, std::size_t sets, IesProfile::Data& data) {
         }
         in.text("the colour of the light");
         in.text("the colour rendering");
-        const double watts = in.number_if_given("the power").value_or(0.0);
+        const double watts = in.number_if_legible("the power", data.notes).value_or(0.0);
         if (set == 0) {
             data.lamp_lumens = flux;
             data.input_watts = watts;
@@ -321,7 +339,7 @@ IesProfile parse_eulumdat(const std::string& file, std::string_view bytes) {
     const Head head = read_head(in, data);
     read_lamps(in, head.lamp_sets, data);
     for (int k = 1; k <= 10; ++k) {
-        in.number_if_given("a direct ratio");
+        in.number_if_legible("a direct ratio", data.notes);
     }
     const std::vector<double> all = in.ascending("a C angle", head.planes, 360.0);
     choose_planes(in, head.symmetry, all, data.horizontal);

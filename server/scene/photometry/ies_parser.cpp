@@ -40,12 +40,12 @@ int year_of(std::string_view line) {
     return digits == 4 ? year : 0;
 }
 
-/// What a file that has no TILT is instead, by its first lines; empty: not known.
-std::string other_format(const std::string& text) {
+/// What a file that has no TILT is instead, by its first bytes; empty: not known.
+std::string other_format(const std::string& text, std::string_view bytes) {
     if (compact(text.substr(0, 200)).starts_with("<")) {
         return "this is XML or HTML, not the text of LM-63";
     }
-    return other_file_kind({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return other_file_kind({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 struct Head {
@@ -64,8 +64,9 @@ void skip_tilt(IesReader& reader) {
     }
 }
 
-/// The part up to and with TILT.
-Head read_head(IesReader& reader, const std::string& text) {
+/// The part up to and with TILT. A file that TILT names is for tilted luminaires, too.
+Head read_head(IesReader& reader, const std::string& text, std::string_view bytes,
+               std::vector<std::string>& notes) {
     Head head;
     constexpr int max_lines = 10'000;
     for (int i = 0; i < max_lines && !reader.at_end(); ++i) {
@@ -76,8 +77,9 @@ Head read_head(IesReader& reader, const std::string& text) {
             continue;
         }
         const bool included = key.starts_with("TILT=INCLUDE");
-        if (!included && !key.starts_with("TILT=NONE")) {
-            reader.fail("TILT names a file: only NONE and INCLUDE are supported");
+        if (!included && !key.starts_with("TILT=NONE") && key != "TILT=") {
+            notes.emplace_back(
+                "the file of tilt factors that it names is not read: it is measured upright");
         }
         head.decimal_commas = resolve_commas(reader, included);
         if (included) {
@@ -85,7 +87,7 @@ Head read_head(IesReader& reader, const std::string& text) {
         }
         return head;
     }
-    const std::string other = other_format(text);
+    const std::string other = other_format(text, bytes);
     if (!other.empty()) {
         reader.fail(1, other);
     }
@@ -213,13 +215,14 @@ int read_candela(IesReader& reader, double factor, IesProfile::Data& data) {
 IesProfile parse_ies(const std::string& file, std::string_view bytes) {
     const std::string text = plain_photometric_text(file, bytes);
     IesReader reader(file, text);
-    const Head head = read_head(reader, text);
     IesProfile::Data data;
+    const Head head = read_head(reader, text, bytes, data.notes);
     if (head.decimal_commas) {
         data.notes.emplace_back("its decimal commas are read as decimal points");
     }
-    const double lamps = reader.number("the number of lamps", 0, 1e6);
-    data.lamp_lumens = lamps * reader.number("the lumens per lamp", -1, IesReader::max_number);
+    // Negative ones are what says that intensities are absolute, as they always are here.
+    const double lamps = reader.number("the number of lamps", -1e6, 1e6);
+    data.lamp_lumens = std::abs(lamps) * reader.number("the lumens per lamp");
     const double multiplier = reader.number("the candela multiplier", 0, IesReader::max_number);
     const std::size_t rows = reader.count("the number of vertical angles", IesReader::max_values);
     const std::size_t columns =

@@ -13,14 +13,32 @@
 namespace raybundle {
 namespace {
 
-/// UTF-16 as ASCII, '?' for all else. high: offset of the upper byte.
+/// UTF-16 as Latin-1, '?' for all else. high: offset of the upper byte.
 std::string from_utf16(std::string_view bytes, std::size_t high) {
     std::string text;
     for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-        const auto low = static_cast<std::uint8_t>(bytes[i + 1 - high]);
-        text += bytes[i + high] == '\0' && low < 0x80 ? static_cast<char>(low) : '?';
+        text += bytes[i + high] == '\0' ? bytes[i + 1 - high] : '?';
     }
     return text;
+}
+
+/// Whether the text begins with two ASCII characters of UTF-16 and no mark says so. high: as above.
+bool looks_like_utf16(std::string_view bytes, std::size_t high) {
+    const auto ascii = [&](std::size_t i) {
+        const auto low = static_cast<std::uint8_t>(bytes[i + 1 - high]);
+        return bytes[i + high] == '\0' && low > 0 && low < 0x80;
+    };
+    return bytes.size() >= 4 && ascii(0) && ascii(2);
+}
+
+/// What separates words but for the end of a line: control characters (DOS ends files with
+/// Control-Z, and programs pad them with zeros), and the no-break space of Latin-1 and UTF-8.
+bool is_space(std::string_view bytes, std::size_t i) {
+    constexpr std::uint8_t no_break = 0xA0;
+    const auto c = static_cast<std::uint8_t>(bytes[i]);
+    const bool first_of_two =
+        c == 0xC2 && i + 1 < bytes.size() && static_cast<std::uint8_t>(bytes[i + 1]) == no_break;
+    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || c == no_break || first_of_two;
 }
 
 }  // namespace
@@ -40,13 +58,16 @@ std::string plain_photometric_text(const std::string& file, std::string_view byt
         bytes = decoded;
     } else if (bytes.starts_with("\xEF\xBB\xBF")) {
         bytes.remove_prefix(3);
+    } else if (looks_like_utf16(bytes, 1) || looks_like_utf16(bytes, 0)) {
+        decoded = from_utf16(bytes, looks_like_utf16(bytes, 1) ? 1 : 0);
+        bytes = decoded;
     }
     std::string text;
     text.reserve(bytes.size());
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         const bool pair = bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
         if (!pair) {
-            text += bytes[i] == '\r' ? '\n' : bytes[i];
+            text += bytes[i] == '\r' ? '\n' : is_space(bytes, i) ? ' ' : bytes[i];
         }
     }
     return text;

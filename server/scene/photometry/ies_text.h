@@ -9,8 +9,9 @@
 namespace raybundle {
 
 /// The bytes of a photometric file as ASCII text whose lines end with LF: without a byte order
-/// mark, from UTF-16 where one says so, from lines that end with CR LF or CR alone. Throws
-/// SceneError where there are more than 16 MiB; `file` is the name for it.
+/// mark, from UTF-16 with or without one, from lines that end with CR LF or CR alone; control
+/// characters and no-break spaces are blanks. Throws SceneError where there are more than 16 MiB;
+/// `file` is the name for it.
 std::string plain_photometric_text(const std::string& file, std::string_view bytes);
 
 /// In upper case and without blanks.

@@ -33,13 +33,15 @@ constexpr float in_the_dark = 0.2F;    // worth of a place that no light reaches
 constexpr float least_apart = 2.0F;    // m
 
 struct Standing {
+    glm::vec3 place{0.0F};  ///< before it goes back
     Camera camera;
     float worth = 0.0F;
 };
 
 class Finder {
   public:
-    Finder(const Scene& scene, const WorldRays& rays) : scene_(scene), rays_(rays) {
+    Finder(const Scene& scene, const WorldRays& rays, float metre)
+        : scene_(scene), rays_(rays), metre_(metre) {
         const glm::vec3 mean(mean_sky(scene));
         sky_ = mean != glm::vec3(0.0F);
         any_light_ = sky_ || has_emitter(scene);
@@ -49,8 +51,9 @@ class Finder {
         std::vector<Standing> found;
         const Bounds& bounds = scene_.bounds;
         const glm::vec3 extent = bounds.extent();
-        const auto count = [](float length) {
-            return std::clamp(static_cast<int>(length / nearest_places), 1, places_a_side);
+        const auto count = [this](float length) {
+            return std::clamp(static_cast<int>(length / (nearest_places * metre_)), 1,
+                              places_a_side);
         };
         const int columns = count(extent.x);
         const int rows = count(extent.z);
@@ -58,10 +61,10 @@ class Finder {
             const int row = i / columns;
             const float u = (static_cast<float>(i % columns) + 0.5F) / static_cast<float>(columns);
             const float v = (static_cast<float>(row) + 0.5F) / static_cast<float>(rows);
-            const glm::vec3 top(bounds.min.x + u * extent.x, bounds.max.y + 1.0F,
+            const glm::vec3 top(bounds.min.x + u * extent.x, bounds.max.y + metre_,
                                 bounds.min.z + v * extent.z);
             for (const float floor : floors_below(top)) {
-                if (auto standing = stand({top.x, floor + eye_height, top.z})) {
+                if (auto standing = stand({top.x, floor + eye_height * metre_, top.z})) {
                     found.push_back(*standing);
                 }
             }
@@ -80,7 +83,7 @@ class Finder {
                 break;
             }
             const float y = from.y - hit.distance;
-            if (hit.normal.y > level_cosine && above - y >= headroom && k > 0) {
+            if (hit.normal.y > level_cosine && above - y >= headroom * metre_ && k > 0) {
                 floors.push_back(y);
             }
             above = y;
@@ -93,12 +96,12 @@ class Finder {
         for (int i = 0; i < 8; ++i) {
             const float angle = static_cast<float>(i) * half_turn / 4.0F;
             const glm::vec3 aside(std::cos(angle), 0.0F, std::sin(angle));
-            if (rays_.trace(eye, aside).distance < elbow_room ||
-                rays_.trace(eye - glm::vec3(0, 1, 0), aside).distance < elbow_room) {
+            if (rays_.trace(eye, aside).distance < elbow_room * metre_ ||
+                rays_.trace(eye - glm::vec3(0, metre_, 0), aside).distance < elbow_room * metre_) {
                 return false;
             }
-            const float depth = rays_.trace(eye + elbow_room * aside, {0, -1, 0}).distance;
-            if (std::abs(depth - eye_height) > evenness) {
+            const float depth = rays_.trace(eye + elbow_room * metre_ * aside, {0, -1, 0}).distance;
+            if (std::abs(depth - eye_height * metre_) > evenness * metre_) {
                 return false;
             }
         }
@@ -173,7 +176,8 @@ class Finder {
         std::vector<float> length;
         for (int i = 0; i < turnings; ++i) {
             const WorldRays::Hit hit = rays_.trace(place, turn(i));
-            length.push_back(hit.met() && hit.front ? std::min(hit.distance, longest_view) : 0.0F);
+            length.push_back(hit.met() && hit.front ? std::min(hit.distance, longest_view * metre_)
+                                                    : 0.0F);
         }
         int best = 0;
         for (int i = 1; i < turnings; ++i) {
@@ -184,18 +188,19 @@ class Finder {
         const float behind = length[static_cast<std::size_t>((best + turnings / 2) % turnings)];
         Standing result;
         Camera& camera = result.camera;
+        result.place = place;
         camera.eye = place;
         float back = step_back * behind;
-        while (back > elbow_room && !has_room(place - back * turn(best))) {
+        while (back > elbow_room * metre_ && !has_room(place - back * turn(best))) {
             back *= 0.5F;
         }
-        if (back > elbow_room) {
+        if (back > elbow_room * metre_) {
             camera.eye = place - back * turn(best);
         }
-        camera.target = camera.eye + turn(best);
+        camera.target = camera.eye + metre_ * turn(best);
         camera.vertical_fov = standing_fov;
         const float ahead = length[static_cast<std::size_t>(best)];
-        result.worth = std::min(ahead + glm::distance(camera.eye, place), longest_view);
+        result.worth = std::min(ahead + glm::distance(camera.eye, place), longest_view * metre_);
         return result;
     }
 
@@ -206,20 +211,46 @@ class Finder {
 
     const Scene& scene_;
     const WorldRays& rays_;
+    float metre_;
     bool sky_ = false;
     bool any_light_ = false;
 };
 
+/// What a metre is likely to be: 1, unless most places (some may be below a table) have a ceiling
+/// so high above that the file is in another unit, as rooms drawn in millimetres are without
+/// --unit.
+float likely_metre(const WorldRays& rays, const std::vector<Standing>& found) {
+    constexpr float highest_hall = 50.0F;
+    constexpr float usual_room = 2.5F;
+    std::vector<float> heights;
+    for (const Standing& standing : found) {
+        const WorldRays::Hit above = rays.trace(standing.place, {0, 1, 0});
+        if (above.met()) {
+            heights.push_back(eye_height + above.distance);
+        }
+    }
+    if (heights.empty()) {
+        return 1.0F;
+    }
+    std::sort(heights.begin(), heights.end());
+    const float low = heights[heights.size() / 4];
+    return low > highest_hall ? heights[heights.size() / 2] / usual_room : 1.0F;
+}
+
 }  // namespace
 
 std::vector<Camera> standing_views(const Scene& scene, const WorldRays& rays, std::size_t most) {
-    std::vector<Standing> found = Finder(scene, rays).all();
+    std::vector<Standing> found = Finder(scene, rays, 1.0F).all();
+    const float metre = likely_metre(rays, found);
+    if (metre > 1.0F) {
+        found = Finder(scene, rays, metre).all();
+    }
     std::stable_sort(found.begin(), found.end(),
                      [](const Standing& a, const Standing& b) { return a.worth > b.worth; });
     std::vector<Camera> views;
     for (const Standing& standing : found) {
         const auto seen = [&](const Camera& other) {
-            return glm::distance(other.eye, standing.camera.eye) < least_apart ||
+            return glm::distance(other.eye, standing.camera.eye) < least_apart * metre ||
                    !rays.blocked(other.eye, standing.camera.eye);
         };
         if (views.size() < most && std::none_of(views.begin(), views.end(), seen)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/viewers/viewer_admission.h"
 
+#include <algorithm>
+
 #include "net/ws/wire_codec.h"
 #include "session/memory_room.h"
 #include "session/messages/scene_messages.h"
@@ -36,9 +38,13 @@ std::optional<glm::uvec2> ViewerAdmission::within_memory(glm::uvec2 size,
     double released = 0.0;
     for (const auto& [id, session] : parts_.viewers) {
         if (session->has_image()) {
-            bytes += static_cast<double>(session->image().bytes());
-            pixels += session->pixels();
-            released += session.get() == instead ? session->pixels() : 0.0;
+            // Of the picture as it is: a new size counts once it has been drawn.
+            const glm::uvec2 present = session->image().full_size();
+            const auto own = static_cast<double>(session->image().bytes());
+            bytes += own;
+            pixels += std::max(static_cast<double>(present.x) * static_cast<double>(present.y),
+                               CostModel::min_pixels);
+            released += session.get() == instead ? own : 0.0;
         }
     }
     const auto available = parts_.software_rendering ? available_memory() : std::nullopt;
@@ -46,7 +52,7 @@ std::optional<glm::uvec2> ViewerAdmission::within_memory(glm::uvec2 size,
         return size;
     }
     const double per_pixel = bytes / pixels;
-    return size_within_memory(size, per_pixel, *available + released * per_pixel);
+    return size_within_memory(size, per_pixel, *available + released);
 }
 
 glm::uvec2 ViewerAdmission::served_size(glm::uvec2 wanted, const ViewerSession* instead) const {

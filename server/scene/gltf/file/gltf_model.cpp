@@ -48,12 +48,13 @@ void remove_placeholder_view(tinygltf::Model& model) {
 }
 
 /// Members that tinygltf insists on and nobody reads. What has no perspective becomes an
-/// orthographic camera: neither is used.
+/// orthographic camera, and what has no field of view one without any: neither is used.
 void complete_cameras(Json& json) {
     for (Json& camera : json["cameras"]) {
         if (const auto perspective = camera.find("perspective"); perspective != camera.end()) {
             camera["type"] = "perspective";
             perspective->emplace("znear", 0.0);
+            perspective->emplace("yfov", 0.0);
         } else {
             camera["type"] = "orthographic";
             camera["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"zfar", 1}, {"znear", 0}};

@@ -65,10 +65,14 @@ constexpr std::string_view specular_glossiness_extension =
     "materials[].extensions.KHR_materials_pbrSpecularGlossiness";
 constexpr std::string_view accessor_types = "SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4";
 
-constexpr Rule rules[] = {
+/// Checked first: what else another version has otherwise is a symptom.
+constexpr Rule asset_rules[] = {
     object("asset", required),
     text("asset.version", required),
     text("asset.minVersion"),
+};
+
+constexpr Rule rules[] = {
     text("extensionsUsed[]"),
     text("extensionsRequired[]"),
 
@@ -159,7 +163,7 @@ constexpr Rule rules[] = {
     index("skins[].inverseBindMatrices", "accessors"),
     choice("cameras[].type", "perspective|orthographic", required),
     text("cameras[].name"),
-    number("cameras[].perspective.yfov", 1e-6, huge, required),
+    number("cameras[].perspective.yfov", -huge, huge),
 
     object("nodes[]"),
     text("nodes[].name"),
@@ -386,10 +390,13 @@ void check_version(const std::string& file, const Json& asset) {
 
 void check_schema(const std::string& file, Json& json) {
     Checker checker(file, json);
-    for (const Rule& rule : rules) {
+    for (const Rule& rule : asset_rules) {
         checker.check(rule);
     }
     check_version(file, json.at("asset"));
+    for (const Rule& rule : rules) {
+        checker.check(rule);
+    }
     for (const std::string_view info : texture_infos) {
         const std::string path(info);
         const std::string transform = path + ".extensions.KHR_texture_transform";

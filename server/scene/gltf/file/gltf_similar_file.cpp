@@ -55,7 +55,8 @@ std::optional<fs::path> similar_file(const fs::path& folder, const std::string& 
     if (path.empty() || path.is_absolute() || *path.begin() == "..") {
         return std::nullopt;
     }
-    std::vector<fs::path> candidates{folder.empty() ? fs::path(".") : folder};
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
+    std::vector<fs::path> candidates{base};
     std::size_t looked_at = 0;
     for (const fs::path& name : path) {
         candidates = entries_like(candidates, name.native(), looked_at);
@@ -64,10 +65,10 @@ std::optional<fs::path> similar_file(const fs::path& folder, const std::string& 
         std::error_code error;
         return !fs::is_regular_file(file, error);
     });
-    if (candidates.size() != 1 || looked_at > max_entries || !is_below(candidates[0], folder)) {
+    if (candidates.size() != 1 || looked_at > max_entries || !is_below(candidates[0], base)) {
         return std::nullopt;
     }
-    return folder.empty() ? candidates[0].lexically_relative(".") : candidates[0];
+    return folder.empty() ? candidates[0].lexically_relative(base) : candidates[0];
 }
 
 }  // namespace raybundle
