@@ -65,6 +65,9 @@ async function open(options = {}) {
             send({ok: {}});
         }
     }, options);
+        } else if (measure?.quantity === 'NORMAL') {
+            const points = measure.points.map((point) => ({position: point.position, inside: false, value: 100 + 50 * point.normal.y}));
+            send({measured: {...desk, name: '', measurement: 11, quantity: 'NORMAL', points}});
     await opened.page.waitForFunction(() => window.raybundle.client.state === 'connected');
     return {...opened, say: (/** @type {object} */ body) => say(body)};
 }
@@ -132,6 +135,30 @@ describe('zones', () => {
         await page.locator('#zones-title').scrollIntoViewIfNeeded();
         await keepScreenshot(page, 'zone_outlines');
         await page.evaluate(() => { window.raybundle.view = {...window.raybundle.view, eye: {x: 2, y: 1.6, z: 7}}; });
+    it('have arrows of light direction where somebody wants them', async () => {
+        const {page, sent, faults, say} = await open({colorScheme: 'dark'});
+        await page.click('#tab-measure');
+        const points = [1.5, 2.5].map((x) => ({position: {x, y: 0.75, z: 2.5}, value: 500, low: 490, high: 510, inside: false}));
+        say({measured: {...desk, points: [...points, {...points[0], inside: true}]}});
+        await page.check('#light-arrows');
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows .stroke').length === 2);
+        const asked = sent.filter(({measure}) => measure?.quantity === 'NORMAL');
+        assert.equal(asked.length, 1);
+        assert.equal(asked[0].measure.points.length, 12);
+        assert.match(await page.textContent('#light-arrows-state'), /longest stands for 100 lx/);
+        await keepScreenshot(page, 'light_arrows');
+
+        // New values of the same points ask for nothing; other points do, and the old ones are given back.
+        say({measured: {...desk, points, mean: 480}});
+        say({measured: {...desk, points: points.slice(1)}});
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows .stroke').length === 1);
+        assert.equal(sent.filter(({measure}) => measure?.quantity === 'NORMAL').length, 2);
+        assert.ok(sent.some(({removeMeasurement}) => removeMeasurement?.measurement === 11));
+        await page.uncheck('#light-arrows');
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows path').length === 0);
+        assert.deepEqual(faults, []);
+    });
+
         await page.waitForFunction((before) => document.querySelector('.zone-outlines .stroke')?.getAttribute('d') !== before, drawn);
         await page.uncheck('#zones-in-picture');
         await page.waitForFunction(() => !document.querySelector('.zone-outlines text'));
