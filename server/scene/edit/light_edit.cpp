@@ -209,6 +209,17 @@ std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
     return light >= 1 && light <= scene.lights.size()
                ? static_cast<std::uint32_t>(scene.lights[light - 1].material)
                : no_material;
+std::uint32_t punctual_number(const Scene& scene, std::size_t index) {
+    const PunctualLight& light = scene.punctual_lights[index];
+    const auto of_file =
+        std::count_if(scene.punctual_lights.begin(),
+                      scene.punctual_lights.begin() + static_cast<std::ptrdiff_t>(index),
+                      [](const PunctualLight& other) { return !other.added; });
+    return light.added ? light.added->number
+                       : static_cast<std::uint32_t>(scene.lights.size()) +
+                             static_cast<std::uint32_t>(of_file) + 1;
+}
+
 }
 
 std::string problem_of(const Scene& scene, const LightEdit& edit) {

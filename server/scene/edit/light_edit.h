@@ -43,6 +43,9 @@ std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t ligh
 
 /// Numbers of all lights that have not been removed. Those of the scene's file and its sky have
 /// numbers from 1 on, others from first_added_light on.
+/// The number of a punctual light.
+std::uint32_t punctual_number(const Scene& scene, std::size_t index);
+
 std::vector<std::uint32_t> light_numbers(const Scene& scene);
 constexpr std::uint32_t first_added_light = 1'000'001;
 /// Whether some light has this number, or had it before it was removed.
