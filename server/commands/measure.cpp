@@ -132,8 +132,8 @@ std::vector<glm::dvec3> place_in_outline(const MeasureOptions& options, std::siz
     }
     shape.margin = options.margin;
     shape.surrounding = options.surrounding;
-    if (!is_polygon(shape.outline)) {
-        throw UsageError("--outline: needs three corners or more, with an area");
+    if (const std::string problem = outline_problem(shape.outline); !problem.empty()) {
+        throw UsageError("--outline: " + problem);
     }
     const bool standard = options.grid == "EN12464";
     ZoneGrid zone = lay_grid(shape, standard ? GridSize() : grid_of(options.grid), most);

@@ -133,6 +133,12 @@ TEST(MeasureCommand, RefusesWhatSaysNothing) {
     EXPECT_EQ(measure("--point 1,1,1 --maintenance 1.1").status, 2);
 }
 
+    const Outcome crossed = measure("--outline 1,1,1 4,1,4 4,1,1 1,1,3");
+    EXPECT_EQ(crossed.status, 2);
+    EXPECT_NE(crossed.text.find("--outline: crosses itself: the edge from corner 1 to 2 meets that "
+                                "from corner 3 to 4"),
+              std::string::npos)
+        << crossed.text;
 /// A closed box without a window.
 TEST(MeasureCommand, TheDaylightFactorLeavesLampsOut) {
     const Outcome found =

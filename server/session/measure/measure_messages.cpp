@@ -68,7 +68,8 @@ void place_in_outline(const v1::Measure& measure, MeasureRequest& request) {
         shape.outline = outline_of({vector(area.origin()), vector(area.u()), vector(area.v())});
     }
     request.outline = shape.outline;
-    if (!is_polygon(shape.outline)) {
+    request.problem = outline_problem(shape.outline);
+    if (!request.problem.empty()) {
         return;
     }
     ZoneGrid zone = lay_grid(shape, {measure.columns(), measure.rows()},

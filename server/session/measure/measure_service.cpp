@@ -36,6 +36,10 @@ std::string MeasureService::problem_of(const ViewerSession& session, const v1::M
         return "measure.name: only reviewers and editors keep zones";
     }
     code = v1::Error::INVALID_ARGUMENT;
+    if (!request.problem.empty()) {
+        return (measure.outline().empty() ? "measure.area: " : "measure.outline: ") +
+               (zone ? "zone '" + measure.name() + "' " : std::string()) + request.problem;
+    }
     const std::size_t most = most_points(request.task.settings.quantity);
     if (request.task.points.empty() || request.task.points.size() > most) {
         const GridSize& grid =
