@@ -12,7 +12,7 @@ const openPage = fakePages();
 
 /** @type {(y: number) => {x: number, y: number, z: number}[]} */
 const square = (y) => [{x: 1, y, z: 1}, {x: 3, y, z: 1}, {x: 3, y, z: 4}, {x: 1, y, z: 4}];
-const office = {name: 'Office', mean: 500, uniformity: 0.6, glare: 19};
+const office = {name: 'Office', mean: 500, uniformity: 0.6, glare: 19, vertical: 150, colourRendering: 80};
 const desk = {
     measurement: 4, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 1, rows: 1, factor: 1, points: [],
     mean: 512, meanLow: 490, meanHigh: 534, uniformity: 0.71, uniformityLow: 0.69, uniformityHigh: 0.73,
@@ -20,6 +20,12 @@ const desk = {
     checks: [
         {what: 'Em', required: 500, atMost: false, verdict: 'NOT_YET_KNOWN'},
         {what: 'Uo', required: 0.6, atMost: false, verdict: 'MET'},
+        {what: 'Ra', required: 80, atMost: false, verdict: 'NOT_YET_KNOWN', words: 'not stated by spot'},
+    ],
+    luminaires: [
+        {light: 2, name: 'panel', share: 0.6, colourRendering: 80, colourRenderingMost: 89},
+        {light: 3, name: 'panel', share: 0.3, colourRendering: 80, colourRenderingMost: 89},
+        {light: 4, name: 'spot', share: 0.1},
     ],
 };
 const seats = {
@@ -59,15 +65,15 @@ async function open(options = {}) {
         const {hello, measure} = request;
         if (hello) {
             send({welcome: WELCOME});
+        } else if (measure?.quantity === 'NORMAL') {
+            const points = measure.points.map((point) => ({position: point.position, inside: false, value: 100 + 50 * point.normal.y}));
+            send({measured: {...desk, name: '', measurement: 11, quantity: 'NORMAL', points}});
         } else if (measure) {
             send({measured: measure.quantity === 'UGR' ? (measure.points ? rating : seats) : {...desk, measurement: 5, name: measure.name}});
         } else {
             send({ok: {}});
         }
     }, options);
-        } else if (measure?.quantity === 'NORMAL') {
-            const points = measure.points.map((point) => ({position: point.position, inside: false, value: 100 + 50 * point.normal.y}));
-            send({measured: {...desk, name: '', measurement: 11, quantity: 'NORMAL', points}});
     await opened.page.waitForFunction(() => window.raybundle.client.state === 'connected');
     return {...opened, say: (/** @type {object} */ body) => say(body)};
 }
@@ -93,11 +99,15 @@ describe('zones', () => {
         assert.match(await first.innerText(), /Em 512 lx \(490 lx to 534 lx\), Uo 0\.71/);
         assert.match(await first.innerText(), /\? Em ≥ 500 lx: not yet known/);
         assert.match(await first.innerText(), /✓ Uo ≥ 0\.6: met/);
+        assert.match(await first.innerText(), /\? Ra ≥ 80: not known, not stated by spot/);
+        await first.locator('summary').click();
+        assert.deepEqual(await first.locator('.zone-lamps li').allInnerTexts(), ['2 × panel, Ra 80 to 89', '1 × spot, Ra not stated']);
         await page.locator('#zones-title').scrollIntoViewIfNeeded();
         await page.click('#requirements summary');
         await keepScreenshot(page, 'zones_light');
         say({measured: {...desk, mean: 400, meanLow: 390, meanHigh: 410, verdict: 'MISSED'}});
         await page.waitForFunction(() => document.querySelector('#zones .verdict')?.textContent === '✗');
+        assert.ok(await first.locator('.zone-lamps').isVisible());  // what has been unfolded stays so
 
         await page.fill('#zone-name', 'Board');
         await page.click('#zone-form button');
@@ -113,7 +123,8 @@ describe('zones', () => {
         await page.fill('#requirement-mean', '750');
         await page.click('#requirement-form button');
         await page.waitForFunction(() => document.querySelector('#requirement-name').value === '');
-        assert.equal(sent.find(({setRequirement}) => setRequirement).setRequirement.requirement.mean, 750);
+        const {requirement} = sent.find(({setRequirement}) => setRequirement).setRequirement;
+        assert.deepEqual(requirement, {...office, mean: 750});  // with what the form has no field for
         say({requirementsChanged: {requirements: [{...office, mean: 750}]}});
         await page.waitForFunction(() => document.querySelector('#requirement-rows td')?.textContent === '750');
         say({measured: {measurement: 4, name: desk.name, removed: true, points: []}});
@@ -121,20 +132,6 @@ describe('zones', () => {
         assert.deepEqual(faults, []);
     });
 
-    it('are outlined in the picture, each with its sign', async () => {
-        const {page, faults, say} = await open({colorScheme: 'dark'});
-        const label = () => page.textContent('.zone-outlines text');
-        await page.waitForSelector('.zone-outlines .not_yet_known');
-        assert.equal(await label(), '? Desk by the window');
-        const drawn = await page.getAttribute('.zone-outlines .stroke', 'd');
-        assert.equal(drawn?.split('L').length, 4);
-        say({measured: {...desk, verdict: 'MET'}});
-        await page.waitForSelector('.zone-outlines .met');
-        assert.equal(await label(), '✓ Desk by the window');
-        await page.click('#tab-measure');
-        await page.locator('#zones-title').scrollIntoViewIfNeeded();
-        await keepScreenshot(page, 'zone_outlines');
-        await page.evaluate(() => { window.raybundle.view = {...window.raybundle.view, eye: {x: 2, y: 1.6, z: 7}}; });
     it('have arrows of light direction where somebody wants them', async () => {
         const {page, sent, faults, say} = await open({colorScheme: 'dark'});
         await page.click('#tab-measure');
@@ -159,6 +156,20 @@ describe('zones', () => {
         assert.deepEqual(faults, []);
     });
 
+    it('are outlined in the picture, each with its sign', async () => {
+        const {page, faults, say} = await open({colorScheme: 'dark'});
+        const label = () => page.textContent('.zone-outlines text');
+        await page.waitForSelector('.zone-outlines .not_yet_known');
+        assert.equal(await label(), '? Desk by the window');
+        const drawn = await page.getAttribute('.zone-outlines .stroke', 'd');
+        assert.equal(drawn?.split('L').length, 4);
+        say({measured: {...desk, verdict: 'MET'}});
+        await page.waitForSelector('.zone-outlines .met');
+        assert.equal(await label(), '✓ Desk by the window');
+        await page.click('#tab-measure');
+        await page.locator('#zones-title').scrollIntoViewIfNeeded();
+        await keepScreenshot(page, 'zone_outlines');
+        await page.evaluate(() => { window.raybundle.view = {...window.raybundle.view, eye: {x: 2, y: 1.6, z: 7}}; });
         await page.waitForFunction((before) => document.querySelector('.zone-outlines .stroke')?.getAttribute('d') !== before, drawn);
         await page.uncheck('#zones-in-picture');
         await page.waitForFunction(() => !document.querySelector('.zone-outlines text'));

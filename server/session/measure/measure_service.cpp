@@ -261,7 +261,9 @@ void MeasureService::show_again(Measurement& measurement) {
         to_message(check(board_.required(measure.requirement(), quantity), quantity,
                          any ? known->second.all : std::nullopt,
                          any ? std::span<const GlareRating>(known->second.glare)
-                             : std::span<const GlareRating>()),
+                             : std::span<const GlareRating>(),
+                         any ? std::span<const ZoneLuminaire>(known->second.luminaires)
+                             : std::span<const ZoneLuminaire>()),
                    &message);
     }
     measurement.shown = std::move(message);
