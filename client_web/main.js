@@ -12,6 +12,7 @@ import {announce, byId, fileName, returnFocus, saveFile, whileAsked} from './ui/
 import {Gizmo} from './scene/gizmo.js';
 import {Grabbing} from './scene/grabbing.js';
 import {GlarePanel} from './measure/glare_panel.js';
+import {LightArrowsLayer} from './measure/light_arrows_layer.js';
 import {OutlinesLayer} from './measure/outlines_layer.js';
 import {WorkPlanePanel} from './measure/work_plane_panel.js';
 import {ZonesPanel} from './measure/zones_panel.js';
@@ -81,7 +82,9 @@ const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
 const gridPanel = new GridPanel(app, measuring, display);
 const workPlane = new WorkPlanePanel(app, measuring);
-new OutlinesLayer(app, workPlane, new ZonesPanel(app, measuring, workPlane));
+const zones = new ZonesPanel(app, measuring, workPlane);
+new OutlinesLayer(app, workPlane, zones);
+new LightArrowsLayer(app, measuring, workPlane, zones);
 new GlarePanel(app);
 new Documents(app, measuring);
 const people = new People(app, marks);

@@ -7,7 +7,7 @@ import {Samples} from '../measure/meters.js';
 import {FrameThrottle} from '../picture/frame_throttle.js';
 import {DrawnExposure} from './drawn_exposure.js';
 import {LiveLight} from './live_light.js';
-import {Openings, platesOf} from './luminaire_plates.js';
+import {Openings, PlateFades, platesOf} from './luminaire_plates.js';
 import {placeObjects} from './object_places.js';
 
 /**
@@ -51,6 +51,7 @@ export class LocalDrawing extends EventTarget {
     /** What the server has been told. */
     #told = false;
     #openings = new Openings();
+    #fades = new PlateFades();
     /** Ids of objects that are not shown. @type {Iterable<number>} */
     hidden = [];
 
@@ -167,6 +168,7 @@ export class LocalDrawing extends EventTarget {
             this.#epoch = app.scene?.epoch ?? 0;
         });
         app.on('sceneChanged', (/** @type {import('../net/scene_types.js').SceneChanged} */ change) => {
+            this.#fades.take(change, app.scene?.lights.find(({id}) => id === change.setLight?.light), performance.now());
             if (change.moveObject) {
                 this.#moved();
             }
@@ -217,8 +219,12 @@ export class LocalDrawing extends EventTarget {
     /** Luminaires as they are now. @param {import('../walkthrough/renderer.js').Renderer} renderer */
     #placePlates(renderer) {
         const {client, scene} = this.app;
+        const now = performance.now();
         const lights = scene?.lights ?? [];
-        renderer.plates = platesOf(lights, this.#openings.known);
+        renderer.plates = platesOf(this.#fades.shown(lights, now), this.#openings.known);
+        if (this.#visible && this.#fades.running(now)) {
+            requestAnimationFrame(() => this.#visible && this.#throttle.run());
+        }
         this.#openings.lookUp(lights, () => client.httpHeaders).then((more) => {
             if (more && this.#visible) {
                 this.#throttle.run();

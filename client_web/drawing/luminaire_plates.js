@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What shines of luminaires, as the page draws it: a flat plate each, as bright everywhere as where its file sends most.
 
-import {add, cross, dot, length, normalise, scale, vec3} from '../ui/vector.js';
+import {add, cross, dot, length, mix, normalise, scale, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('../net/scene_types.js').Light} Light
@@ -18,6 +18,8 @@ import {add, cross, dot, length, normalise, scale, vec3} from '../ui/vector.js';
  * @property {[number, number, number]} radiance  cd/m²
  */
 
+/** The server reads some files of a large folder for each list. */
+const NOT_READ = 'not read yet: ask again';
 const DOWN = Object.freeze(vec3(0, -1, 0));
 const X = Object.freeze(vec3(1, 0, 0));
 
@@ -65,7 +67,62 @@ export function platesOf(lights, openings) {
     });
 }
 
-/** Sizes of what shines, by names of photometric files; the server is asked once for each name that is new. */
+/**
+ * What a light sends, in its unit; linear RGB.
+ *
+ * @param {{intensity?: number, dim?: number, on?: boolean, colour?: Vec3}} light
+ * @returns {Vec3}
+ */
+const outputOf = ({intensity = 0, dim = 1, on = true, colour = vec3(1, 1, 1)}) => scale(colour, on ? intensity * dim : 0);
+
+/** Lights on their way to what they are set to, as the server shows them: linearly in RGB. */
+export class PlateFades {
+    /** By Light.id. Times in ms. @type {Map<number, {from: Vec3, begun: number, until: number}>} */
+    #fades = new Map();
+
+    /** Whether any light is on its way. @param {number} now */
+    running(now) {
+        return [...this.#fades.values()].some(({until}) => now < until);
+    }
+
+    /**
+     * The newest setting of a light wins; it begins where the light is shown.
+     *
+     * @param {import('../net/scene_types.js').SceneChanged} change
+     * @param {Light | undefined} light  that it changes, before or after
+     * @param {number} now
+     */
+    take({setLight, lightBefore}, light, now) {
+        if (!setLight) {
+            return;
+        }
+        const {light: id, fadeSeconds = 0} = setLight;
+        const shown = this.#fades.get(id);
+        this.#fades.delete(id);
+        if (fadeSeconds > 0 && light && lightBefore) {
+            const before = outputOf({...light, ...lightBefore});
+            const from = shown && now < shown.until ? mix(shown.from, before, (now - shown.begun) / (shown.until - shown.begun)) : before;
+            this.#fades.set(id, {from, begun: now, until: now + 1000 * fadeSeconds});
+        }
+    }
+
+    /**
+     * Lights as they are shown now.
+     *
+     * @param {Light[]} lights
+     * @param {number} now
+     */
+    shown(lights, now) {
+        return lights.map((light) => {
+            const fade = this.#fades.get(light.id);
+            return fade && now < fade.until
+                ? {...light, on: true, dim: 1, intensity: 1, colour: mix(fade.from, outputOf(light), (now - fade.begun) / (fade.until - fade.begun))}
+                : light;
+        });
+    }
+}
+
+/** Sizes of what shines, by names of photometric files; the server is asked for each name that is new until it knows it. */
 export class Openings {
     /** @type {Map<string, Opening>} */
     known = new Map();
@@ -85,16 +142,18 @@ export class Openings {
         names.forEach((name) => this.#asked.add(name));
         try {
             const answer = await fetch(new URL('photometry', location.href), {headers: headers()});
-            /** @type {{name: string, opening?: Opening}[]} */
+            /** @type {{name: string, opening?: Opening, problems?: string[]}[]} */
             const files = answer.ok ? await answer.json() : [];
-            for (const {name, opening} of files) {
+            for (const {name, opening, problems = []} of files) {
                 if (opening) {
                     this.known.set(name, opening);
+                } else if (problems.includes(NOT_READ)) {
+                    this.#asked.delete(name);
                 }
             }
+            return true;
         } catch {
             return false;  // they are not drawn
         }
-        return true;
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seldom changed of a light: where it is, where it is aimed, its cones, its group, its maintenance factor.
+// What is seldom changed of a light: where it is, where it is aimed, its cones, its group, its maintenance factor, its Ra.
 
 import {LiveField, field, fieldNote, input} from '../ui/elements.js';
+import {renderingText} from '../measure/zones.js';
 import {aimOf, anglesOf} from './light_place.js';
 
 /**
@@ -16,7 +17,11 @@ import {aimOf, anglesOf} from './light_place.js';
  */
 
 /** What a number field of a light is about: what it shows, and what a number typed there sets. Degrees and metres. */
-/** @type {{name: string, unit: string, has: (light: Light) => boolean, get: (light: Light) => number, set: (light: Light, value: number) => Values}[]} */
+/**
+ * @type {{name: string, unit: string, has: (light: Light) => boolean, get: (light: Light) => number,
+ *     set: (light: Light, value: number) => Values, emptied?: () => Values, hint?: string, title?: (light: Light) => string}[]}
+ *     get: NaN: there is none; emptied: what a field without text sets
+ */
 const NUMBERS = [
     ...(/** @type {const} */ (['x', 'y', 'z'])).map((axis) => ({
         name: axis === 'y' ? 'Height y' : axis,
@@ -62,6 +67,19 @@ const NUMBERS = [
         has: ({maintenanceFactor}) => maintenanceFactor !== undefined,
         get: ({maintenanceFactor}) => maintenanceFactor ?? 1,
         set: (_, maintenanceFactor) => ({maintenanceFactor}),
+    },
+    {
+        name: 'Colour rendering Ra',
+        unit: '',
+        // Where nobody knows it the server does not tell it; lamps that have it have a maintenance factor, too.
+        has: ({maintenanceFactor}) => maintenanceFactor !== undefined,
+        get: ({colourRendering}) => colourRendering ?? NaN,
+        set: (_, colourRendering) => ({colourRendering}),
+        emptied: () => ({colourRendering: 0}),
+        hint: 'not known',
+        title: (/** @type {Light} */ light) => (light.colourRendering === undefined
+            ? 'Its file does not state Ra: enter it'
+            : `Ra ${renderingText(light)}. Empty it to go by the file`),
     },
 ];
 
@@ -187,10 +205,14 @@ export class LightDetails {
     }
 
     /** @param {typeof NUMBERS[number]} number */
-    #numberField({name, unit, get, set}) {
-        const typed = input('number', {step: 'any', 'aria-label': `${this.name}, ${name}`});
+    #numberField({name, unit, get, set, emptied, hint = '', title}) {
+        const typed = input('number', {step: 'any', 'aria-label': `${this.name}, ${name}`, placeholder: hint});
         const live = new LiveField(typed);
-        this.#refresh.push(() => live.show(String(Number(get(this.light).toFixed(unit === '°' ? 1 : 3)))));
+        this.#refresh.push(() => {
+            const value = get(this.light);
+            live.show(Number.isNaN(value) ? '' : String(Number(value.toFixed(unit === '°' ? 1 : 3))));
+            typed.title = title?.(this.light) ?? '';
+        });
         typed.addEventListener('change', () => {
             const value = typed.valueAsNumber;
             const refused = (/** @type {string} */ why) => {
@@ -199,6 +221,8 @@ export class LightDetails {
             };
             if (Number.isFinite(value)) {
                 this.change.done(set(this.light, value), refused);
+            } else if (emptied && typed.value === '' && !typed.validity.badInput) {
+                this.change.done(emptied(), refused);
             } else {
                 refused('Enter a number. Nothing has been changed.');
             }

@@ -59,7 +59,44 @@ export function zoneValues(zone, unit) {
  * @param {'lx' | 'fc'} unit
  * @returns {string} e.g. "Em ≥ 500 lx: met"
  */
-export function checkText({what, required, atMost, verdict}, unit) {
+export function checkText({what, required, atMost, verdict, words}, unit) {
     const value = ILLUMINANCES.has(what) ? valueText('HORIZONTAL', unit)(required) : String(Number(required.toPrecision(4)));
-    return `${what} ${atMost ? '≤' : '≥'} ${value}: ${verdictWords(verdict)}`;
+    return `${what} ${atMost ? '≤' : '≥'} ${value}: ${words ? `${wordsOf(what, verdict)}, ${words}` : verdictWords(verdict)}`;
+}
+
+/**
+ * What no measurement goes on to find out is not known, instead of not yet.
+ *
+ * @param {string} what
+ * @param {Verdict} verdict
+ */
+const wordsOf = (what, verdict) => (what === 'Ra' && verdict === 'NOT_YET_KNOWN' ? 'not known' : verdictWords(verdict));
+
+/**
+ * Ra as it is known: "83", "80 to 89", or "not stated".
+ *
+ * @param {{colourRendering?: number, colourRenderingMost?: number}} lamp
+ */
+export function renderingText({colourRendering, colourRenderingMost}) {
+    const number = (/** @type {number} */ value) => String(Number(value.toFixed(1)));
+    if (colourRendering === undefined) {
+        return 'not stated';
+    }
+    return colourRenderingMost === undefined ? number(colourRendering) : `${number(colourRendering)} to ${number(colourRenderingMost)}`;
+}
+
+/**
+ * The luminaires that light a zone, types with their number and Ra, the strongest first.
+ *
+ * @param {Measured} zone
+ * @returns {string[]} e.g. ["12 × panel, Ra 80 to 89", "1 × spot, Ra not stated"]
+ */
+export function luminaireLines({luminaires = []}) {
+    /** @type {Map<string, number>} */
+    const types = new Map();
+    for (const luminaire of luminaires) {
+        const type = `${luminaire.name || 'a lamp without a name'}, Ra ${renderingText(luminaire)}`;
+        types.set(type, (types.get(type) ?? 0) + 1);
+    }
+    return [...types].map(([type, count]) => `${count} × ${type}`);
 }

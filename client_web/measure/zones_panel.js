@@ -2,7 +2,7 @@
 // Zones: planes that are kept with the project under a name, what is required of them, and whether they meet it.
 
 import {byId, fieldNote, replaceRows, smallButton} from '../ui/elements.js';
-import {checkText, verdictSign, verdictWords, zoneValues} from './zones.js';
+import {checkText, luminaireLines, verdictSign, verdictWords, zoneValues} from './zones.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -13,12 +13,16 @@ import {checkText, verdictSign, verdictWords, zoneValues} from './zones.js';
  */
 
 const NONE = '';
+/** Of the table of requirements. */
+const COLUMNS = /** @type {const} */ (['mean', 'uniformity', 'glare', 'cylindrical', 'colourRendering']);
 
 export class ZonesPanel {
     /** @type {Map<number, Measured>} */
     #zones = new Map();
     /** @type {Requirement[]} */
     #requirements = [];
+    /** Zones whose luminaires are listed. @type {Set<number>} */
+    #unfolded = new Set();
     #note = byId('zone-note', HTMLElement);
 
     /**
@@ -88,13 +92,17 @@ export class ZonesPanel {
         /** @type {Record<string, string | number>} */
         const requirement = {name: field('name').value.trim()};
         const known = this.#requirements.find(({name}) => name === requirement.name);
-        for (const key of ['mean', 'uniformity', 'glare', 'cylindrical']) {
+        for (const [key, value] of Object.entries(known ?? {})) {  // what the form has no field for
+            if (!(/** @type {readonly string[]} */ (COLUMNS)).includes(key)) {
+                requirement[key] = value;
+            }
+        }
+        for (const key of COLUMNS) {
             if (Number.isFinite(field(key).valueAsNumber)) {
                 requirement[key] = field(key).valueAsNumber;
             }
         }
-        const kept = known?.colourRendering === undefined ? {} : {colourRendering: known.colourRendering};
-        if (await this.app.ask({setRequirement: {requirement: {...kept, ...requirement}}})) {
+        if (await this.app.ask({setRequirement: {requirement}})) {
             byId('requirement-form', HTMLFormElement).reset();
         }
     }
@@ -131,6 +139,10 @@ export class ZonesPanel {
             line.textContent = `${verdictSign(check.verdict)} ${checkText(check, this.measuring.unit)}`;
             body.append(line);
         }
+        const lamps = luminaireLines(zone);
+        if (lamps.length > 0) {
+            body.append(this.#lampList(zone, lamps));
+        }
         if (this.app.mayReview) {
             body.append(this.#requirementChoice(zone));
         }
@@ -141,6 +153,28 @@ export class ZonesPanel {
             ));
         }
         return item;
+    }
+
+    /**
+     * @param {Measured} zone
+     * @param {string[]} lines
+     */
+    #lampList(zone, lines) {
+        const details = document.createElement('details');
+        details.open = this.#unfolded.has(zone.measurement);
+        details.addEventListener('toggle', () => this.#unfolded[details.open ? 'add' : 'delete'](zone.measurement));
+        const title = document.createElement('summary');
+        const count = zone.luminaires?.length ?? 0;
+        title.textContent = `Lit by ${count} luminaire${count === 1 ? '' : 's'}`;
+        const list = document.createElement('ul');
+        list.className = 'zone-lamps';
+        list.append(...lines.map((line) => {
+            const item = document.createElement('li');
+            item.textContent = line;
+            return item;
+        }));
+        details.append(title, list);
+        return details;
     }
 
     /** @param {Measured} zone */
@@ -162,7 +196,7 @@ export class ZonesPanel {
         head.scope = 'row';
         head.textContent = row.name;
         line.append(head);
-        for (const value of [row.mean, row.uniformity, row.glare, row.cylindrical]) {
+        for (const value of COLUMNS.map((key) => row[key])) {
             const cell = document.createElement('td');
             cell.textContent = value === undefined ? '–' : String(Number(value.toPrecision(4)));
             line.append(cell);

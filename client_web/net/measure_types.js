@@ -30,7 +30,15 @@
 
 /** @typedef {'VERDICT_UNSPECIFIED' | 'MET' | 'MISSED' | 'NOT_YET_KNOWN'} Verdict */
 
-/** @typedef {{what: string, required: number, atMost: boolean, verdict: Verdict}} Check */
+/**
+ * @typedef {{what: string, required: number, atMost: boolean, verdict: Verdict, words?: string}} Check  words: of Ra which
+ *     luminaires fall short, or do not state it
+ */
+
+/**
+ * @typedef {{light: number, name: string, share: number, colourRendering?: number, colourRenderingMost?: number}} ZoneLuminaire
+ *     share: of the light of all lamps there, 0..1; colourRendering: Ra, at least
+ */
 
 /**
  * @typedef {object} Requirement
@@ -80,6 +88,7 @@
  * @property {Verdict} [verdict]
  * @property {boolean} [removed]
  * @property {Vec3[]} [outline]  its corners, world space
+ * @property {ZoneLuminaire[]} [luminaires]  that light a zone, the strongest first
  */
 
 /**

@@ -43,6 +43,8 @@
  * @property {string} [group]  empty: none; absent: it can have none
  * @property {number} [dim]  0..1, share of `intensity` that it shines with
  * @property {number} [maintenanceFactor]
+ * @property {number} [colourRendering]  Ra, at least; absent: not known
+ * @property {number} [colourRenderingMost]  where only a group of Ra is known
  * @property {Vec3} [position]  metres; absent: it has none of its own
  * @property {Vec3} [aim]  likewise
  * @property {number} [rotation]  about its aim, degrees
@@ -113,7 +115,7 @@
  * What is absent stays.
  *
  * @typedef {{light: number, intensity?: number, on?: boolean, colour?: Vec3, group?: string, dim?: number,
- *     maintenanceFactor?: number, position?: Vec3, aim?: Vec3, rotation?: number, innerCone?: number,
+ *     maintenanceFactor?: number, colourRendering?: number, position?: Vec3, aim?: Vec3, rotation?: number, innerCone?: number,
  *     outerCone?: number, photometry?: string, sameType?: boolean, fadeSeconds?: number}} SetLight
  */
 

@@ -346,6 +346,11 @@ function describeControl(name, to, from) {
     if ((to.maintenanceFactor ?? from.maintenanceFactor) !== from.maintenanceFactor) {
         parts.push(`set the maintenance factor of ${name} to ${Number(to.maintenanceFactor?.toFixed(3))}`);
     }
+    if ((to.colourRendering ?? from.colourRendering) !== from.colourRendering) {
+        parts.push(to.colourRendering
+            ? `set Ra of ${name} to ${Number(to.colourRendering.toFixed(1))}`
+            : `left Ra of ${name} to its file`);
+    }
     return parts;
 }
 

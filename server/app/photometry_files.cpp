@@ -38,6 +38,9 @@ OrderedJson entry_of(const SceneFolder& folder, const std::string& name) {
             {"width", opening.round ? 0.0 : shorter},
             {"height", *std::max_element(opening.heights.begin(), opening.heights.end())}};
         entry["opening"] = {{"x", opening.length}, {"y", opening.width}, {"round", opening.round}};
+        if (data.colour_rendering) {
+            entry["colourRendering"] = data.colour_rendering->least;
+        }
         entry["problems"] = data.notes;
     } catch (const SceneError& error) {
         entry["problems"] = {error.json_path().empty() ? error.reason()

@@ -42,10 +42,22 @@ Requirement parse_requirement(const std::string& text, Quantity quantity) {
         return requirement;
     }
     requirement.mean = parse_number("--require", text.substr(0, slash));
-    if (slash != std::string::npos) {
-        requirement.uniformity = parse_number("--require", text.substr(slash + 1));
-        if (*requirement.uniformity > 1.0) {
-            throw UsageError("--require: a uniformity is at most 1");
+    if (slash == std::string::npos) {
+        return requirement;
+    }
+    const std::string rest = text.substr(slash + 1);
+    const std::size_t second = rest.find('/');
+    requirement.uniformity = parse_number("--require", rest.substr(0, second));
+    if (*requirement.uniformity > 1.0) {
+        throw UsageError("--require: a uniformity is at most 1");
+    }
+    if (second != std::string::npos) {
+        if (!has_luminaires(quantity)) {
+            throw UsageError("--require: Ra is of HORIZONTAL and NORMAL");
+        }
+        requirement.colour_rendering = parse_number("--require", rest.substr(second + 1));
+        if (*requirement.colour_rendering > 100.0) {
+            throw UsageError("--require: Ra is at most 100");
         }
     }
     return requirement;
@@ -132,8 +144,8 @@ std::vector<glm::dvec3> place_in_outline(const MeasureOptions& options, std::siz
     }
     shape.margin = options.margin;
     shape.surrounding = options.surrounding;
-    if (!is_polygon(shape.outline)) {
-        throw UsageError("--outline: needs three corners or more, with an area");
+    if (const std::string problem = outline_problem(shape.outline); !problem.empty()) {
+        throw UsageError("--outline: " + problem);
     }
     const bool standard = options.grid == "EN12464";
     ZoneGrid zone = lay_grid(shape, standard ? GridSize() : grid_of(options.grid), most);
@@ -199,8 +211,12 @@ MeasureTask task_of(const Options& options) {
     return task;
 }
 
+/// Whether more samples would not decide anything.
 bool decided(const MeasureTask& task, const Measurement& points) {
-    return verdict_of(task.checks(points)) != Verdict::unknown;
+    const std::vector<Check> checks = task.checks(points);
+    return std::none_of(checks.begin(), checks.end(), [](const Check& one) {
+        return one.by_measurement && one.verdict == Verdict::unknown;
+    });
 }
 
 /// Goes on until the error is met and what is required is known, or time is over. Returns seconds.
@@ -237,7 +253,7 @@ double gather(const Options& options, const MeasureTask& task, Measurement& poin
 }  // namespace
 
 int run_measure(const Options& options) {
-    const MeasureTask task = task_of(options);
+    MeasureTask task = task_of(options);
     LoadedScene loaded = load_scene(options);
     if (task.settings.quantity == Quantity::daylight_factor) {
         leave_overcast_sky(loaded.scene, loaded.mesh);
@@ -245,9 +261,12 @@ int run_measure(const Options& options) {
     if (task.maintained) {
         maintain_lamps(loaded.scene, loaded.mesh);
     }
-    const std::unique_ptr<Measurement> points =
-        make_measurement(std::make_shared<const MeasuredScene>(loaded.scene, loaded.mesh),
-                         task.points, task.settings);
+    const auto scene = std::make_shared<const MeasuredScene>(loaded.scene, loaded.mesh);
+    const std::unique_ptr<Measurement> points = make_measurement(scene, task.points, task.settings);
+    if (has_luminaires(task.settings.quantity)) {
+        task.luminaires =
+            find_zone_luminaires(*scene, task.points, task.settings.quantity, task.settings.direct);
+    }
     if (points->measured() == 0) {
         spdlog::error("all points lie in solids");
         return exit_failed;

@@ -75,11 +75,30 @@ void add_requirement(const MeasureTask& task, const Measurement& points, Json& j
     set("mean", task.requirement->mean);
     set("uniformity", task.requirement->uniformity);
     set("most", task.requirement->most);
+    set("colourRendering", task.requirement->colour_rendering);
     for (const Check& one : checks) {
         json["requirement"]["checks"].push_back({{"what", one.what},
                                                  {"required", one.required},
                                                  {"atMost", one.at_most},
                                                  {"verdict", name_of(one.verdict)}});
+        if (!one.words.empty()) {
+            json["requirement"]["checks"].back()["words"] = one.words;
+        }
+    }
+}
+
+void add_luminaires(const MeasureTask& task, Json& json) {
+    json["luminaires"] = Json::array();
+    for (const ZoneLuminaire& luminaire : task.luminaires) {
+        Json one = {
+            {"light", luminaire.light}, {"name", luminaire.name}, {"share", luminaire.share}};
+        if (luminaire.colour_rendering) {
+            one["colourRendering"] = luminaire.colour_rendering->least;
+            if (luminaire.colour_rendering->most > luminaire.colour_rendering->least) {
+                one["colourRenderingMost"] = luminaire.colour_rendering->most;
+            }
+        }
+        json["luminaires"].push_back(std::move(one));
     }
 }
 
@@ -179,6 +198,9 @@ void print_json(const MeasureTask& task, const Measurement& points, double secon
     json["relativeError"] = points.relative_error();
     json["paths"] = points.rounds() * PointMeasurement::batches;  // of each point
     json["seconds"] = seconds;
+    if (has_luminaires(task.settings.quantity)) {
+        add_luminaires(task, json);
+    }
     if (task.requirement) {
         add_requirement(task, points, json);
     }
@@ -214,6 +236,11 @@ void print_text(const MeasureTask& task, const Measurement& points, double secon
                                  one.at_most ? "at most " : "", one.required);
         }
         fmt::print("required {}: {}\n", words, name_of(verdict_of(checks)));
+        for (const Check& one : checks) {
+            if (!one.words.empty()) {
+                fmt::print("{} {}: {}\n", one.what, name_of(one.verdict), one.words);
+            }
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include "measure/make_measurement.h"
 #include "measure/requirement.h"
 #include "measure/zone_area.h"
+#include "measure/zone_luminaires.h"
 
 namespace raybundle {
 
@@ -19,10 +20,12 @@ struct MeasureTask {
     GridSize spacing_grid;    ///< that it chose: of an outline, of the rectangle around it
     bool maintained = false;  ///< by the lamps' own factors
     std::optional<Requirement> requirement;
+    std::vector<ZoneLuminaire> luminaires;  ///< that light the points, where has_luminaires()
 
     [[nodiscard]] std::vector<Check> checks(const Measurement& found) const {
-        return requirement ? check(*requirement, settings.quantity, found.all(), found.glare())
-                           : std::vector<Check>();
+        return requirement
+                   ? check(*requirement, settings.quantity, found.all(), found.glare(), luminaires)
+                   : std::vector<Check>();
     }
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/requirement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace raybundle {
 namespace {
@@ -26,6 +29,60 @@ Verdict at_most(std::span<const GlareRating> ratings, double most) {
         verdict = holds ? verdict : Verdict::unknown;
     }
     return verdict;
+}
+
+/// Names in the order in which they come, each once with its number: "panel (12), spot".
+std::string listed(std::span<const std::string> names) {
+    constexpr std::size_t most = 3;
+    std::vector<std::pair<std::string, int>> counted;
+    for (const std::string& name : names) {
+        const auto known = std::find_if(counted.begin(), counted.end(),
+                                        [&](const auto& one) { return one.first == name; });
+        if (known == counted.end()) {
+            counted.emplace_back(name, 1);
+        } else {
+            ++known->second;
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < std::min(counted.size(), most); ++i) {
+        const auto& [name, count] = counted[i];
+        text += (text.empty() ? "" : ", ") + (name.empty() ? "a lamp without a name" : name) +
+                (count > 1 ? fmt::format(" ({} of them)", count) : "");
+    }
+    return text + (counted.size() > most ? fmt::format(" and {} more", counted.size() - most) : "");
+}
+
+Check check_colour_rendering(double least, std::span<const ZoneLuminaire> luminaires) {
+    Check check{"Ra", least, false, Verdict::unknown, "", false};
+    std::vector<std::string> short_of;
+    std::vector<std::string> silent;
+    std::vector<std::string> vague;
+    for (const ZoneLuminaire& luminaire : luminaires) {
+        const std::optional<ColourRendering>& known = luminaire.colour_rendering;
+        if (!known) {
+            silent.push_back(luminaire.name);
+        } else if (static_cast<double>(known->most) < least) {
+            short_of.push_back(luminaire.name + " has Ra " + text_of(known));
+        } else if (static_cast<double>(known->least) < least) {
+            vague.push_back(luminaire.name + " has Ra " + text_of(known));
+        }
+    }
+    const auto add = [&check](const std::vector<std::string>& names, const char* before) {
+        check.words +=
+            names.empty() ? "" : (check.words.empty() ? "" : "; ") + (before + listed(names));
+    };
+    add(short_of, "");
+    add(vague, "");
+    add(silent, "not stated by ");
+    if (luminaires.empty()) {
+        check.words = "no luminaire lights it";
+    } else if (!short_of.empty()) {
+        check.verdict = Verdict::missed;
+    } else if (vague.empty() && silent.empty()) {
+        check.verdict = Verdict::met;
+    }
+    return check;
 }
 
 const char* symbol_of(Quantity quantity) {
@@ -62,7 +119,8 @@ const char* name_of(Verdict verdict) {
 
 std::vector<Check> check(const Requirement& requirement, Quantity quantity,
                          const std::optional<MeasurementSummary>& found,
-                         std::span<const GlareRating> ratings) {
+                         std::span<const GlareRating> ratings,
+                         std::span<const ZoneLuminaire> luminaires) {
     std::vector<Check> checks;
     if (is_glare(quantity)) {
         if (requirement.most) {
@@ -79,6 +137,11 @@ std::vector<Check> check(const Requirement& requirement, Quantity quantity,
         checks.push_back(
             {"Uo", *requirement.uniformity, false,
              found ? at_least(found->uniformity, *requirement.uniformity) : Verdict::unknown});
+    }
+    if (requirement.colour_rendering) {
+        checks.push_back(
+            found ? check_colour_rendering(*requirement.colour_rendering, luminaires)
+                  : Check{"Ra", *requirement.colour_rendering, false, Verdict::unknown, "", false});
     }
     return checks;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/zone_area.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +22,40 @@ double twice_area(const std::vector<glm::dvec3>& outline) {
         sum += a.x * b.y - a.y * b.x;
     }
     return std::abs(sum);
+}
+
+/// Above 0 where c lies on the left of the way from a to b, seen with x to the right and z up; 0 on
+/// it, but for rounding.
+double side_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    constexpr double rounding = 1e-9;  // of the edge's length: of a metre, a nanometre
+    const glm::dvec2 edge = b - a;
+    const glm::dvec2 to = c - a;
+    const double twice = edge.x * to.y - edge.y * to.x;
+    return std::abs(twice) <= rounding * glm::dot(edge, edge) ? 0.0 : twice;
+}
+
+/// Whether two edges of a polygon cross, or the way through the first corner of the second crosses
+/// the first one there. Edges that touch do not: an outline may come back to a corner.
+bool crosses(const std::vector<glm::dvec3>& outline, std::size_t first, std::size_t second) {
+    const std::size_t count = outline.size();
+    const auto corner = [&](std::size_t i) { return level(outline[i % count]); };
+    const auto across = [&](std::size_t edge, std::size_t other) {
+        const double before = side_of(corner(edge), corner(edge + 1), corner(other));
+        const double after = side_of(corner(edge), corner(edge + 1), corner(other + 1));
+        return before * after < 0.0;
+    };
+    if (across(first, second) && across(second, first)) {
+        return true;
+    }
+    const auto passes_at_corner = [&](std::size_t edge, std::size_t at) {
+        const glm::dvec2 a = corner(edge);
+        const glm::dvec2 b = corner(edge + 1);
+        const glm::dvec2 p = corner(at);
+        const double along = glm::dot(p - a, b - a) / std::max(glm::dot(b - a, b - a), 1e-300);
+        return side_of(a, b, p) == 0.0 && along > 1e-9 && along < 1.0 - 1e-9 &&
+               side_of(a, b, corner(at + count - 1)) * side_of(a, b, corner(at + 1)) < 0.0;
+    };
+    return passes_at_corner(first, second) || passes_at_corner(second, first);
 }
 
 double distance_to_edge(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
@@ -78,9 +114,23 @@ std::uint32_t steps_along(double side, double spacing) {
 
 }  // namespace
 
-bool is_polygon(const std::vector<glm::dvec3>& outline) {
+std::string outline_problem(const std::vector<glm::dvec3>& outline) {
     constexpr double least = 1e-6;  // m²
-    return outline.size() >= 3 && twice_area(outline) > 2.0 * least;
+    if (outline.size() < 3) {
+        return "needs three corners or more";
+    }
+    const std::size_t count = outline.size();
+    const auto edge = [count](std::size_t i) {
+        return fmt::format("from corner {} to {}", i + 1, (i + 1) % count + 1);
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = i + 1; k < count; ++k) {
+            if (crosses(outline, i, k)) {
+                return fmt::format("crosses itself: the edge {} meets that {}", edge(i), edge(k));
+            }
+        }
+    }
+    return twice_area(outline) > 2.0 * least ? "" : "has no area: its corners lie on a line";
 }
 
 ZoneGrid lay_grid(const ZoneShape& shape, const GridSize& wanted, std::uint64_t most) {

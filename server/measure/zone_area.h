@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
 #include "measure/work_plane.h"
@@ -26,8 +27,9 @@ struct ZoneGrid {
     std::vector<glm::dvec3> points;    ///< these
 };
 
-/// Whether the polygon has corners and area enough to lie on.
-bool is_polygon(const std::vector<glm::dvec3>& outline);
+/// Why a polygon cannot be measured: it has too few corners, no area, or crosses itself, e.g.
+/// "crosses itself: the edge from corner 1 to 2 meets that from corner 3 to 4"; empty: it can.
+std::string outline_problem(const std::vector<glm::dvec3>& outline);
 
 /// wanted: points along the rectangle's sides, or 0 x 0: as dense as EN 12464-1 asks for the
 /// rectangle, and of a strip at least one row of points. Without points where none of them lies in

@@ -211,7 +211,7 @@ struct MeasureOptions {
     double margin = 0.0;  ///< m
     bool direct = false;
     std::optional<double> maintenance;
-    std::string require;  ///< Em or Em/Uo; of glare the most
+    std::string require;  ///< Em, Em/Uo or Em/Uo/Ra; of glare the most
     bool json_to_stdout = false;
 };
 

@@ -48,9 +48,11 @@ void add_measure(CLI::App& app, Options& o) {
                    "(default: 0.05)")
         ->check(relative_error());
     app.add_option("--seconds", o.stop.seconds, "At most so long (default: 60)")->check(positive());
-    app.add_option("--require", m.require,
-                   "Required mean, or mean/uniformity as 500/0.6, of UGR and DGP the most; exit "
-                   "status 5 where it is not met, 6 where that is not known after --seconds");
+    app.add_option(
+        "--require", m.require,
+        "Required mean, mean/uniformity as 500/0.6, or with Ra of the luminaires as "
+        "500/0.6/80; of UGR and DGP the most; exit status 5 where it is not met, 6 where "
+        "that is not known after --seconds");
     app.add_flag("--json", m.json_to_stdout, "Print JSON");
 }
 

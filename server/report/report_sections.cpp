@@ -98,13 +98,14 @@ std::string project_section(const ReportData& data, const ReportWords& w) {
 }
 
 std::string luminaire_section(const ReportData& data, const ReportWords& w) {
-    using Type = std::tuple<std::string, std::string, float, float, float, float>;
+    using Type = std::tuple<std::string, std::string, float, float, std::string, float, float>;
     std::map<Type, std::pair<int, double>> types;  // number of them, and share of the light
     double flux = 0.0;
     for (const v1::Light& light : data.scene.lights()) {
         if (is_lamp(light)) {
-            auto& [count, share] = types[{light.name(), light.group(), light.flux(), light.watts(),
-                                          light.maintenance_factor(), light.dim()}];
+            auto& [count, share] =
+                types[{light.name(), light.group(), light.flux(), light.watts(),
+                       w.colour_rendering(light), light.maintenance_factor(), light.dim()}];
             ++count;
             share += share_of(light);
             flux += share_of(light) * static_cast<double>(light.flux());
@@ -115,17 +116,18 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
     }
     std::vector<std::vector<std::string>> rows;
     for (const auto& [type, number] : types) {
-        const auto& [name, group, lumens, watts, factor, dim] = type;
+        const auto& [name, group, lumens, watts, rendering, factor, dim] = type;
         rows.push_back({escaped(name), std::to_string(number.first),
                         lumens > 0.0F ? fmt::format("{:.0f}", lumens) : "–",
                         watts > 0.0F ? fmt::format("{:.1f}", watts) : "–",
-                        fmt::format("{:.2f}", factor), group.empty() ? "–" : escaped(group),
+                        rendering.empty() ? "–" : rendering, fmt::format("{:.2f}", factor),
+                        group.empty() ? "–" : escaped(group),
                         fmt::format("{:.0f} %", 100.0 * number.second / number.first)});
     }
     std::string html =
         heading(w, "Luminaires", "Leuchten") +
-        html_table({w.of("Type", "Typ"), w.of("Number", "Anzahl"), "lm", "W", w.of("MF", "WF"),
-                    w.of("Group", "Gruppe"), w.of("Light now", "Licht jetzt")},
+        html_table({w.of("Type", "Typ"), w.of("Number", "Anzahl"), "lm", "W", "Ra",
+                    w.of("MF", "WF"), w.of("Group", "Gruppe"), w.of("Light now", "Licht jetzt")},
                    rows);
     const ReportPower power = power_of(data);
     const double area = lit_area(data);

@@ -76,6 +76,11 @@ std::string ReportWords::verdict(v1::Verdict verdict) const {
     }
 }
 
+std::string ReportWords::range(float least, float most) const {
+    return most > least ? fmt::format("{:g} {} {:g}", least, of("to", "bis"), most)
+                        : fmt::format("{:g}", least);
+}
+
 std::string ReportWords::time(double unix_ms) {
     const auto seconds = static_cast<std::time_t>(std::floor(unix_ms / 1000.0));
     std::tm parts{};

@@ -25,10 +25,22 @@ class ReportWords {
     /// A value of a quantity, in that unit without its name.
     [[nodiscard]] std::string number(double value, v1::Measure::Quantity quantity) const;
     [[nodiscard]] std::string verdict(v1::Verdict verdict) const;
+    /// Ra of a luminaire, v1::Light or v1::Measured::Luminaire: "83", "80 to 89"; "" where it is
+    /// not known.
+    template <class Lamp>
+    [[nodiscard]] std::string colour_rendering(const Lamp& lamp) const {
+        return lamp.has_colour_rendering()
+                   ? range(lamp.colour_rendering(), lamp.has_colour_rendering_most()
+                                                        ? lamp.colour_rendering_most()
+                                                        : lamp.colour_rendering())
+                   : "";
+    }
     /// Unix time, ms, as 2026-06-21 15:00 UTC.
     [[nodiscard]] static std::string time(double unix_ms);
 
   private:
+    [[nodiscard]] std::string range(float least, float most) const;
+
     ReportOptions options_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "report/html_text.h"
 #include "report/report_sections.h"
@@ -121,6 +123,37 @@ std::string glare_text(const v1::Measured& found, const ReportWords& w) {
     return html;
 }
 
+/// What lights it, and how well colours look in that light: types with their number.
+std::string luminaire_text(const v1::Measured& found, const ReportWords& w) {
+    constexpr std::size_t most = 12;
+    std::vector<std::pair<std::pair<std::string, std::string>, int>> types;
+    for (const v1::Measured::Luminaire& luminaire : found.luminaires()) {
+        const std::pair<std::string, std::string> type(luminaire.name(),
+                                                       w.colour_rendering(luminaire));
+        const auto known = std::find_if(types.begin(), types.end(),
+                                        [&](const auto& one) { return one.first == type; });
+        if (known == types.end()) {
+            types.emplace_back(type, 1);
+        } else {
+            ++known->second;
+        }
+    }
+    if (types.empty()) {
+        return "";
+    }
+    std::string text;
+    for (std::size_t i = 0; i < std::min(types.size(), most); ++i) {
+        const auto& [type, count] = types[i];
+        text += fmt::format("{}{} × {}, {}", text.empty() ? "" : "; ", count, escaped(type.first),
+                            type.second.empty() ? w.of("Ra not stated", "Ra nicht angegeben")
+                                                : "Ra " + type.second);
+    }
+    if (types.size() > most) {
+        text += fmt::format("; {} {}", types.size() - most, w.of("more types", "weitere Typen"));
+    }
+    return std::string("<p>") + w.of("Lit by ", "Beleuchtet von ") + text + ".</p>\n";
+}
+
 std::string zone_section(const ReportZone& zone, const ReportWords& w) {
     const v1::Measured& found = zone.found;
     std::string html = "<div class=\"zone\"><h3>" + escaped(found.name()) + "</h3>\n<p>" +
@@ -152,6 +185,7 @@ std::string zone_section(const ReportZone& zone, const ReportWords& w) {
         html += std::string("<p class=\"quiet\">") +
                 w.of("Nothing is known yet.", "Noch nichts bekannt.") + "</p>\n";
     }
+    html += luminaire_text(found, w);
     if (!found.requirement().empty()) {
         html += "<p>" + check_text(found, w) + "</p>\n";
     }

@@ -6,8 +6,8 @@ import {afterEach, describe, it, mock} from 'node:test';
 
 import {LiveLight} from '../../client_web/drawing/live_light.js';
 import {inverse, placeObjects, placeOf} from '../../client_web/drawing/object_places.js';
-import {platesOf} from '../../client_web/drawing/luminaire_plates.js';
-import {IDENTITY} from '../../client_web/ui/vector.js';
+import {Openings, PlateFades, platesOf} from '../../client_web/drawing/luminaire_plates.js';
+import {IDENTITY, length} from '../../client_web/ui/vector.js';
 import {Renderer} from '../../client_web/walkthrough/renderer.js';
 
 const AT_ZERO = {translation: {x: 0, y: 0, z: 0}, rotation: {x: 0, y: 0, z: 0, w: 1}, scale: {x: 1, y: 1, z: 1}};
@@ -124,6 +124,46 @@ describe('plates of luminaires', () => {
         // Aimed at +x, what was +x looks up.
         const [aside] = platesOf([{...light, aim: {x: 1, y: 0, z: 0}}], openings);
         near(aside.halfX, {x: 0, y: 0.3, z: 0});
+    });
+
+    it('fade as the light does, evenly in RGB, and the newest setting wins', () => {
+        const fades = new PlateFades();
+        const set = {...light, id: 7, dim: 0, colour: {x: 1, y: 1, z: 1}};  // what it goes to
+        const red = (now) => platesOf(fades.shown([set], now), openings)[0].radiance[0];
+        const full = platesOf([{...light, id: 7}], openings)[0].radiance[0];
+        fades.take({setLight: {light: 7, dim: 0, fadeSeconds: 2}, lightBefore: {light: 7, dim: 0.5, on: true, intensity: 500, colour: light.colour}}, set, 1000);
+        assert.ok(Math.abs(red(1000) - full) < 1e-9);
+        assert.ok(Math.abs(red(1500) - 0.75 * full) < 1e-9);
+        assert.ok(fades.running(2999));
+        assert.equal(red(3000), 0);
+        assert.ok(!fades.running(3000));
+        // Switched on again on its way, at once.
+        fades.take({setLight: {light: 7, dim: 0, fadeSeconds: 2}, lightBefore: {light: 7, dim: 0.5}}, set, 4000);
+        fades.take({setLight: {light: 7, dim: 0.5}, lightBefore: {light: 7, dim: 0}}, set, 4500);
+        assert.ok(!fades.running(4600));
+        assert.deepEqual(fades.shown([set], 4600), [set]);
+    });
+
+    it('follow exchanges and removals, and ask again for files that the server has not read', async () => {
+        assert.equal(platesOf([], openings).length, 0);
+        const [exchanged] = platesOf([{...light, photometry: 'disc.ies'}], openings);
+        assert.ok(exchanged.round && Math.abs(length(exchanged.halfX) - 0.2) < 1e-9);
+        globalThis.location = {href: 'http://server/'};
+        const lists = [
+            [{name: 'panel.ldt', problems: ['not read yet: ask again']}],
+            [{name: 'panel.ldt', problems: [], opening: {x: 0.6, y: 0.3, round: false}}],
+        ];
+        let asked = 0;
+        const fetched = mock.method(globalThis, 'fetch', async () => ({ok: true, json: async () => lists[asked++]}));
+        const known = new Openings();
+        assert.equal(platesOf([light], known.known).length, 0);
+        await known.lookUp([light], () => ({}));
+        assert.equal(known.known.size, 0);
+        await known.lookUp([light], () => ({}));
+        assert.equal(platesOf([light], known.known).length, 1);
+        await known.lookUp([light], () => ({}));
+        assert.equal(asked, 2);
+        fetched.mock.restore();
     });
 
     it('are those of known files that have a place', () => {

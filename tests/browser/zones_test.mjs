@@ -12,7 +12,7 @@ const openPage = fakePages();
 
 /** @type {(y: number) => {x: number, y: number, z: number}[]} */
 const square = (y) => [{x: 1, y, z: 1}, {x: 3, y, z: 1}, {x: 3, y, z: 4}, {x: 1, y, z: 4}];
-const office = {name: 'Office', mean: 500, uniformity: 0.6, glare: 19};
+const office = {name: 'Office', mean: 500, uniformity: 0.6, glare: 19, vertical: 150, colourRendering: 80};
 const desk = {
     measurement: 4, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 1, rows: 1, factor: 1, points: [],
     mean: 512, meanLow: 490, meanHigh: 534, uniformity: 0.71, uniformityLow: 0.69, uniformityHigh: 0.73,
@@ -20,6 +20,12 @@ const desk = {
     checks: [
         {what: 'Em', required: 500, atMost: false, verdict: 'NOT_YET_KNOWN'},
         {what: 'Uo', required: 0.6, atMost: false, verdict: 'MET'},
+        {what: 'Ra', required: 80, atMost: false, verdict: 'NOT_YET_KNOWN', words: 'not stated by spot'},
+    ],
+    luminaires: [
+        {light: 2, name: 'panel', share: 0.6, colourRendering: 80, colourRenderingMost: 89},
+        {light: 3, name: 'panel', share: 0.3, colourRendering: 80, colourRenderingMost: 89},
+        {light: 4, name: 'spot', share: 0.1},
     ],
 };
 const seats = {
@@ -59,6 +65,9 @@ async function open(options = {}) {
         const {hello, measure} = request;
         if (hello) {
             send({welcome: WELCOME});
+        } else if (measure?.quantity === 'NORMAL') {
+            const points = measure.points.map((point) => ({position: point.position, inside: false, value: 100 + 50 * point.normal.y}));
+            send({measured: {...desk, name: '', measurement: 11, quantity: 'NORMAL', points}});
         } else if (measure) {
             send({measured: measure.quantity === 'UGR' ? (measure.points ? rating : seats) : {...desk, measurement: 5, name: measure.name}});
         } else {
@@ -90,11 +99,15 @@ describe('zones', () => {
         assert.match(await first.innerText(), /Em 512 lx \(490 lx to 534 lx\), Uo 0\.71/);
         assert.match(await first.innerText(), /\? Em ≥ 500 lx: not yet known/);
         assert.match(await first.innerText(), /✓ Uo ≥ 0\.6: met/);
+        assert.match(await first.innerText(), /\? Ra ≥ 80: not known, not stated by spot/);
+        await first.locator('summary').click();
+        assert.deepEqual(await first.locator('.zone-lamps li').allInnerTexts(), ['2 × panel, Ra 80 to 89', '1 × spot, Ra not stated']);
         await page.locator('#zones-title').scrollIntoViewIfNeeded();
         await page.click('#requirements summary');
         await keepScreenshot(page, 'zones_light');
         say({measured: {...desk, mean: 400, meanLow: 390, meanHigh: 410, verdict: 'MISSED'}});
         await page.waitForFunction(() => document.querySelector('#zones .verdict')?.textContent === '✗');
+        assert.ok(await first.locator('.zone-lamps').isVisible());  // what has been unfolded stays so
 
         await page.fill('#zone-name', 'Board');
         await page.click('#zone-form button');
@@ -110,11 +123,36 @@ describe('zones', () => {
         await page.fill('#requirement-mean', '750');
         await page.click('#requirement-form button');
         await page.waitForFunction(() => document.querySelector('#requirement-name').value === '');
-        assert.equal(sent.find(({setRequirement}) => setRequirement).setRequirement.requirement.mean, 750);
+        const {requirement} = sent.find(({setRequirement}) => setRequirement).setRequirement;
+        assert.deepEqual(requirement, {...office, mean: 750});  // with what the form has no field for
         say({requirementsChanged: {requirements: [{...office, mean: 750}]}});
         await page.waitForFunction(() => document.querySelector('#requirement-rows td')?.textContent === '750');
         say({measured: {measurement: 4, name: desk.name, removed: true, points: []}});
         await page.waitForFunction(() => document.querySelectorAll('#zones > li').length === 1);
+        assert.deepEqual(faults, []);
+    });
+
+    it('have arrows of light direction where somebody wants them', async () => {
+        const {page, sent, faults, say} = await open({colorScheme: 'dark'});
+        await page.click('#tab-measure');
+        const points = [1.5, 2.5].map((x) => ({position: {x, y: 0.75, z: 2.5}, value: 500, low: 490, high: 510, inside: false}));
+        say({measured: {...desk, points: [...points, {...points[0], inside: true}]}});
+        await page.check('#light-arrows');
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows .stroke').length === 2);
+        const asked = sent.filter(({measure}) => measure?.quantity === 'NORMAL');
+        assert.equal(asked.length, 1);
+        assert.equal(asked[0].measure.points.length, 12);
+        assert.match(await page.textContent('#light-arrows-state'), /longest stands for 100 lx/);
+        await keepScreenshot(page, 'light_arrows');
+
+        // New values of the same points ask for nothing; other points do, and the old ones are given back.
+        say({measured: {...desk, points, mean: 480}});
+        say({measured: {...desk, points: points.slice(1)}});
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows .stroke').length === 1);
+        assert.equal(sent.filter(({measure}) => measure?.quantity === 'NORMAL').length, 2);
+        assert.ok(sent.some(({removeMeasurement}) => removeMeasurement?.measurement === 11));
+        await page.uncheck('#light-arrows');
+        await page.waitForFunction(() => document.querySelectorAll('.light-arrows path').length === 0);
         assert.deepEqual(faults, []);
     });
 

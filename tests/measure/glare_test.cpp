@@ -190,6 +190,12 @@ TEST(Ugr, TakesTheSizeOfALuminaireFromItsFile) {
     ASSERT_EQ(rating.state, State::rated) << rating.words;
     EXPECT_NEAR(rating.value.value, 20.2, 0.05);
     EXPECT_NEAR(rating.shares[0].luminance, 5000.0, 10.0);
+    EXPECT_EQ(rating.shares[0].light, 1U);
+    // One that has been added has its number on the wire, and not its place in the list.
+    AddedLuminaire added;
+    added.number = 1'000'004;
+    builder.scene.punctual_lights.back().added = std::make_shared<const AddedLuminaire>(added);
+    EXPECT_EQ(Seat(builder).rating().shares.at(0).light, 1'000'004U);
     // Without a size it is a small source.
     data.opening = {};
     builder.scene.punctual_lights.back().profile = std::make_shared<const IesProfile>(data);

@@ -102,6 +102,22 @@ TEST(MeasureCommand, RatesGlareAndNamesWhatGlares) {
               0);
 }
 
+/// The box's lamp is a surface, of which no file states anything: that ends before all seconds.
+TEST(MeasureCommand, NamesTheLuminairesAndWhetherTheyStateTheirColourRendering) {
+    const Outcome found = measure(plane + "--json --error 0.3 --seconds 500 --require 20/0/80");
+    EXPECT_EQ(found.status, 6) << found.text;
+    const auto json = nlohmann::json::parse(found.text);
+    ASSERT_EQ(json["luminaires"].size(), 1U) << found.text;
+    EXPECT_EQ(json["luminaires"][0]["light"], 1);
+    EXPECT_EQ(json["luminaires"][0]["share"], 1.0);
+    EXPECT_FALSE(json["luminaires"][0].contains("colourRendering"));
+    EXPECT_EQ(json["requirement"]["colourRendering"], 80.0);
+    const auto& check = json["requirement"]["checks"].back();
+    EXPECT_EQ(check["what"], "Ra");
+    EXPECT_EQ(check["verdict"], "not yet known");
+    EXPECT_EQ(check["words"], "not stated by " + json["luminaires"][0]["name"].get<std::string>());
+}
+
 TEST(MeasureCommand, MeasuresPolygonsAndTheStripsAroundThem) {
     const std::string corners = "--outline 1,3,1 4,3,1 4,3,4 --error 0.5 --json --grid 8x8 ";
     const auto within = nlohmann::json::parse(measure(corners).text);
@@ -117,6 +133,12 @@ TEST(MeasureCommand, MeasuresPolygonsAndTheStripsAroundThem) {
     EXPECT_NEAR(nlohmann::json::parse(maintained.text)["mean"]["value"],
                 0.8 * within["mean"]["value"].get<double>(), 1e-3);
     EXPECT_EQ(measure("--outline 1,1,1 2,1,1 3,1,1").status, 2);
+    const Outcome crossed = measure("--outline 1,1,1 4,1,4 4,1,1 1,1,3");
+    EXPECT_EQ(crossed.status, 2);
+    EXPECT_NE(crossed.text.find("--outline: crosses itself: the edge from corner 1 to 2 meets that "
+                                "from corner 3 to 4"),
+              std::string::npos)
+        << crossed.text;
 }
 
 TEST(MeasureCommand, RefusesWhatSaysNothing) {
@@ -130,6 +152,8 @@ TEST(MeasureCommand, RefusesWhatSaysNothing) {
     EXPECT_EQ(measure("--point 1,1,1 --quantity lumen").status, 2);
     EXPECT_EQ(measure("--point 1,1,1 --require 100/2").status, 2);
     EXPECT_EQ(measure("--point 1,1,1 --require x").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --require 100/0.5/101").status, 2);
+    EXPECT_EQ(measure("--point 1,1,1 --quantity cylindrical --require 100/0.5/80").status, 2);
     EXPECT_EQ(measure("--point 1,1,1 --maintenance 1.1").status, 2);
 }
 

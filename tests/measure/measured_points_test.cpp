@@ -343,8 +343,7 @@ TEST(ZoneArea, KeepsMarginsAndStripsAroundPolygons) {
     // An L of 4 m x 4 m without a corner of 2 m x 2 m.
     const std::vector<glm::dvec3> l_shape = {{0, 1, 0}, {4, 1, 0}, {4, 1, 2},
                                              {2, 1, 2}, {2, 1, 4}, {0, 1, 4}};
-    EXPECT_TRUE(is_polygon(l_shape));
-    EXPECT_FALSE(is_polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(outline_problem(l_shape), "");
     const ZoneGrid whole = lay_grid({l_shape, 0.0, 0.0}, {8, 8}, 4096);
     EXPECT_EQ(whole.points.size(), 48U);
     const ZoneGrid inner = lay_grid({l_shape, 0.5, 0.0}, {30, 30}, 4096);
@@ -364,6 +363,25 @@ TEST(ZoneArea, KeepsMarginsAndStripsAroundPolygons) {
         EXPECT_TRUE(p.x > -0.5 && p.z > -0.5 && p.x < 4.5 && p.z < 4.5);
     }
     EXPECT_TRUE(lay_grid({l_shape, 0.0, 0.0}, {100, 100}, 4096).points.empty());
+}
+
+TEST(ZoneArea, OutlinesThatCrossThemselvesHaveAReason) {
+    EXPECT_NE(outline_problem({{0, 0, 0}, {1, 0, 0}}).find("three corners"), std::string::npos);
+    EXPECT_NE(outline_problem({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}).find("no area"),
+              std::string::npos);
+    // A bow tie whose halves have the same area, and one with a small second half.
+    EXPECT_EQ(outline_problem({{0, 1, 0}, {2, 1, 2}, {2, 1, 0}, {0, 1, 2}}),
+              "crosses itself: the edge from corner 1 to 2 meets that from corner 3 to 4");
+    EXPECT_NE(outline_problem({{0, 1, 0}, {4, 1, 0}, {4, 1, 3}, {3, 1, -1}, {0, 1, 3}}), "");
+    // The way back goes through a corner of the way there, on its edge.
+    EXPECT_NE(outline_problem({{0, 1, 0}, {4, 1, 0}, {4, 1, 2}, {2, 1, 0}, {2, 1, -2}, {0, 1, -2}}),
+              "");
+    // One that touches itself encloses what it seems to: a corner on an edge, a corner twice, a
+    // first corner that comes again at the end.
+    EXPECT_EQ(outline_problem({{0, 1, 0}, {4, 1, 0}, {4, 1, 4}, {2, 1, 0}, {0, 1, 4}}), "");
+    EXPECT_EQ(outline_problem({{0, 1, 0}, {2, 1, 2}, {4, 1, 0}, {4, 1, 4}, {2, 1, 2}, {0, 1, 4}}),
+              "");
+    EXPECT_EQ(outline_problem({{0, 1, 0}, {4, 1, 0}, {4, 1, 4}, {0, 1, 0}}), "");
 }
 
 /// Each lamp by its own factor; the sky as it is.

@@ -43,6 +43,12 @@ PhotometryFolder::PhotometryFolder() {
     std::ofstream(path_ / "photometry" / "narrow.ies")
         << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 4 1 1 2 0 0 0\n1 1 10\n0 10 20 90\n0\n"
            "900 500 0 0\n";
+    std::ofstream(path_ / "photometry" / "panel.ies")
+        << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 4 1 1 2 0.3 0.6 0\n1 1 10\n0 30 60 90\n0\n"
+           "100 90 50 0\n";
+    std::ofstream(path_ / "photometry" / "disc.ies")
+        << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 4 1 1 2 -0.4 -0.4 0\n1 1 10\n0 10 20 90\n0\n"
+           "500 500 500 0\n";
 }
 
 PhotometryFolder::~PhotometryFolder() {

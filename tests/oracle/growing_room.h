@@ -21,7 +21,8 @@ inline constexpr auto room_name = [](const auto& test) {
     return std::string(test.param ? "Open" : "Closed");
 };
 
-/// A folder of two photometric files: wide.ies and narrow.ies; removed with it.
+/// A folder of photometric files, removed with it: wide.ies and narrow.ies without a size,
+/// panel.ies of 0.3 m x 0.6 m, 100 cd straight down, and disc.ies of 0.4 m, 500 cd.
 class PhotometryFolder {
   public:
     PhotometryFolder();

@@ -11,6 +11,7 @@
 
 #include "../reference/luminous_panel.h"
 #include "changed_room.h"
+#include "growing_room.h"
 #include "reference/camera_rays.h"
 #include "reference/path_tracer.h"
 #include "scene/photometry/luminaire_body.h"
@@ -166,6 +167,43 @@ TEST(LuminaireBody, ChangesShowAtOnce) {
     away.position = panel_place;
     room.change(away);
     EXPECT_NEAR(found(), 0.25 * before, 2e-3 * before);
+}
+
+/// A luminaire comes with its body, which is that of the file that it shines by, darkens with the
+/// light while it fades, and goes and comes back with it.
+TEST(LuminaireBody, ComesGoesFadesAndIsExchanged) {
+    const PhotometryFolder files;
+    SceneBuilder b = room_to_furnish(false);
+    b.scene.folder = files.open();
+    GrowingRoom room(std::move(b));
+    const glm::vec3 place(4.5F, 2.0F, 1.0F);
+    const auto seen = [&] {  // from straight below it
+        room.image->set_camera(towards(place - glm::vec3(0.0F, 1.2F, 0.0F), place));
+        return static_cast<double>(luminance(glm::vec3(room.image->read_radiance()[40 * 15 + 20])));
+    };
+    const double panel = 100.0 / (0.3 * 0.6);
+    const double disc = 500.0 / (std::numbers::pi * 0.2 * 0.2);
+    constexpr double ceiling = 60.0;  // more than it has by the room's own lamps
+    EXPECT_LT(seen(), ceiling);
+    const std::uint32_t light = room.add_light("panel.ies", place);
+    EXPECT_NEAR(seen(), panel, 0.01 * panel);
+    room.set_photometry(light, "disc.ies");
+    EXPECT_NEAR(seen(), disc, 0.01 * disc);
+
+    const glm::vec3 full = lamp_output(room.b.scene, light);
+    for (const float share : {0.7F, 0.2F, 0.0F, 1.0F}) {
+        set_lamp_output(room.b.scene, light, share * full);
+        room.change_lights();
+        EXPECT_NEAR(seen(), static_cast<double>(share) * disc, 0.01 * disc) << share;
+    }
+    room.set_photometry(light, "narrow.ies");
+    EXPECT_LT(seen(), ceiling) << "a file without a size";
+    room.set_photometry(light, "panel.ies");
+    EXPECT_NEAR(seen(), panel, 0.01 * panel);
+    room.remove_light(light);
+    EXPECT_LT(seen(), ceiling);
+    room.remove_light(light, false);
+    EXPECT_NEAR(seen(), panel, 0.01 * panel);
 }
 
 // Bodies with luminous sides.

@@ -23,6 +23,45 @@ glm::dvec3 towards(double gamma, double c) {
     return {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c), -std::cos(gamma)};
 }
 
+TEST(ColourRendering, IsReadAsFilesWriteIt) {
+    struct Case {
+        const char* text;
+        float least, most;
+    };
+    for (const Case& c : {Case{"80", 80, 80},
+                          {" 83.5", 83.5F, 83.5F},
+                          {"83,5", 83.5F, 83.5F},
+                          {"1B", 80, 89},
+                          {"1a ", 90, 100},
+                          {"2A", 70, 79},
+                          {"3", 40, 59},
+                          {"4", 20, 39},
+                          {"1B/85", 85, 85},
+                          {"1B (80-89)", 80, 89},
+                          {"Ra > 80", 80, 100},
+                          {">=90", 90, 100},
+                          {"80+", 80, 100},
+                          {"80 - 89", 80, 89},
+                          {"CRI 92", 92, 92},
+                          {"830", 80, 89},
+                          {"940/93", 90, 100},
+                          {"100", 100, 100}}) {
+        const auto known = read_colour_rendering(c.text);
+        ASSERT_TRUE(known) << c.text;
+        EXPECT_EQ(known->least, c.least) << c.text;
+        EXPECT_EQ(known->most, c.most) << c.text;
+    }
+    for (const char* const silent : {"", "-", "0", "1", "n/a", "warm white", "4000", "-1"}) {
+        EXPECT_FALSE(read_colour_rendering(silent)) << silent;
+    }
+    EXPECT_EQ(keyword_colour_rendering("[_CRI] 92")->least, 92.0F);
+    EXPECT_EQ(keyword_colour_rendering("[Color Rendering Index] >80")->most, 100.0F);
+    EXPECT_FALSE(keyword_colour_rendering("[LAMP] LED 840 CRI 80"));
+    EXPECT_FALSE(keyword_colour_rendering("CRI 80"));
+    EXPECT_EQ(text_of(ColourRendering{80, 89}), "80 to 89");
+    EXPECT_EQ(text_of(ColourRendering{83.5F, 83.5F}), "83.5");
+}
+
 struct Luminaire {
     int symmetry = 0;
     int planes = 24;

@@ -26,7 +26,8 @@ Json numbers(const glm::mat4& m) {
 Json control(const LightControl& control) {
     return {{"group", control.group},
             {"dim", control.dim},
-            {"maintenanceFactor", control.maintenance_factor}};
+            {"maintenanceFactor", control.maintenance_factor},
+            {"colourRendering", control.colour_rendering.value_or(0.0F)}};
 }
 
 Json describe(const Scene& scene, const Object& object, std::size_t triangles) {

@@ -23,6 +23,7 @@ TEST_F(SavedScene, LightsAreSetDimmedGroupedAndPlaced) {
     lamp.dim = 0.3F;
     lamp.group = "tables";
     lamp.maintenance_factor = 0.67F;
+    lamp.colour_rendering = 83.0F;
     apply(scene, lamp);
     LightEdit spot = edit_of(scene, "spot");
     spot.position = glm::vec3(0.3F, 2.1F, -0.7F);

@@ -11,6 +11,7 @@
 #include "reference/sampling/directions.h"
 #include "reference/sampling/pane_shares.h"
 #include "scene/disjoint_sets.h"
+#include "scene/edit/light_edit.h"
 
 namespace raybundle {
 namespace {
@@ -102,7 +103,7 @@ void find_lamps(const RayScene& rays, std::vector<GlareSource>& sources) {
         }
         GlareSource source;
         source.name = scene.punctual_lights[i].name;
-        source.light = static_cast<std::uint32_t>(scene.lights.size() + i) + 1;
+        source.light = punctual_number(scene, i);
         source.middle = rays.from_world(placed.position);
         source.lamp = placed;
         sources.push_back(std::move(source));

@@ -32,6 +32,10 @@ void apply_control(LightControl& control, const LightEdit& edit) {
     control.dim = edit.dim.value_or(control.dim);
     control.group = edit.group.value_or(control.group);
     control.maintenance_factor = edit.maintenance_factor.value_or(control.maintenance_factor);
+    if (edit.colour_rendering || edit.photometry) {
+        const float set = edit.colour_rendering.value_or(0.0F);
+        control.colour_rendering = set > 0.0F ? std::optional(set) : std::nullopt;
+    }
 }
 
 /// What angles lose on their way through a message: a light that is set to what it is keeps its
@@ -205,6 +209,17 @@ std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t ligh
     return std::nullopt;
 }
 
+std::uint32_t punctual_number(const Scene& scene, std::size_t index) {
+    const PunctualLight& light = scene.punctual_lights[index];
+    const auto of_file =
+        std::count_if(scene.punctual_lights.begin(),
+                      scene.punctual_lights.begin() + static_cast<std::ptrdiff_t>(index),
+                      [](const PunctualLight& other) { return !other.added; });
+    return light.added ? light.added->number
+                       : static_cast<std::uint32_t>(scene.lights.size()) +
+                             static_cast<std::uint32_t>(of_file) + 1;
+}
+
 std::uint32_t material_of_light(const Scene& scene, std::uint32_t light) {
     return light >= 1 && light <= scene.lights.size()
                ? static_cast<std::uint32_t>(scene.lights[light - 1].material)
@@ -217,7 +232,8 @@ std::string problem_of(const Scene& scene, const LightEdit& edit) {
         return "no light " + number;
     }
     if (is_sky_light(scene, edit.light)) {
-        const bool plain = !edit.dim && !edit.group && !edit.maintenance_factor;
+        const bool plain =
+            !edit.dim && !edit.group && !edit.maintenance_factor && !edit.colour_rendering;
         return plain ? place_problem(edit, "the sky") : "the sky belongs to no group";
     }
     if (const auto punctual = punctual_index(scene, edit.light)) {

@@ -24,6 +24,8 @@ struct LightEdit {
     std::optional<float> dim;                 ///< as in LightControl
     std::optional<std::string> group;         ///< likewise
     std::optional<float> maintenance_factor;  ///< likewise
+    /// Likewise; 0: as the photometric file states it, also where that is exchanged.
+    std::optional<float> colour_rendering;
     /// Of punctual lights that no object carries: in the world, m.
     std::optional<glm::vec3> position;
     std::optional<glm::vec3> aim;   ///< not 0
@@ -40,6 +42,9 @@ std::string problem_of(const Scene& scene, const LightEdit& edit);
 
 /// Index of a punctual light by its number; nothing for other numbers.
 std::optional<std::size_t> punctual_index(const Scene& scene, std::uint32_t light);
+
+/// The number of a punctual light.
+std::uint32_t punctual_number(const Scene& scene, std::size_t index);
 
 /// Numbers of all lights that have not been removed. Those of the scene's file and its sky have
 /// numbers from 1 on, others from first_added_light on.

@@ -32,6 +32,17 @@ glm::vec3 colour_of(const PunctualLight& light) {
     return intensity > 0.0F ? light.intensity / intensity : light.dark_colour;
 }
 
+std::optional<ColourRendering> colour_rendering_of(const LightControl& control) {
+    return control.colour_rendering ? std::optional(ColourRendering{*control.colour_rendering,
+                                                                    *control.colour_rendering})
+                                    : std::nullopt;
+}
+
+std::optional<ColourRendering> colour_rendering_of(const PunctualLight& light) {
+    const std::optional<ColourRendering> set = colour_rendering_of(light.control);
+    return set || !light.profile ? set : light.profile->data().colour_rendering;
+}
+
 PunctualSetting setting_of(const PunctualLight& light) {
     return light.setting.value_or(
         PunctualSetting{light.intensity, colour_of(light), true, light.intensity});

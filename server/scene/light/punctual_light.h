@@ -23,6 +23,9 @@ struct LightControl {
     /// What remains of its light when it is to be serviced, 0..1 (EN 12464-1); for maintained
     /// values, without effect on the light.
     float maintenance_factor = 0.8F;
+    /// Ra that a person has set; nothing: as the photometric file states it. Without effect on the
+    /// light, too.
+    std::optional<float> colour_rendering{};
 };
 
 /// What can be changed of a punctual light while a scene is shown.
@@ -84,6 +87,11 @@ struct PunctualLight {
 
 /// Of luminance 1.
 glm::vec3 colour_of(const PunctualLight& light);
+
+/// What a person has set; nothing: nobody has.
+std::optional<ColourRendering> colour_rendering_of(const LightControl& control);
+/// As set, else as its photometric file states it; nothing: not known.
+std::optional<ColourRendering> colour_rendering_of(const PunctualLight& light);
 
 /// Also of a light that has never been changed.
 PunctualSetting setting_of(const PunctualLight& light);

@@ -211,9 +211,10 @@ void read_lamps(LineReader& in, std::size_t sets, IesProfile::Data& data) {
             in.fail("the flux of its first lamp set is 0, so that its cd/klm are dark");
         }
         in.text("the colour of the light");
-        in.text("the colour rendering");
+        const std::string_view rendering = in.text("the colour rendering");
         const double watts = in.number_if_legible("the power", data.notes).value_or(0.0);
         if (set == 0) {
+            data.colour_rendering = read_colour_rendering(rendering);
             data.lamp_lumens = flux;
             data.input_watts = watts;
         }

@@ -51,6 +51,7 @@ std::string other_format(const std::string& text, std::string_view bytes) {
 struct Head {
     int year = 0;  ///< of the standard; 0 where no line names one
     bool decimal_commas = false;
+    std::optional<ColourRendering> colour_rendering;
 };
 
 /// The factors of TILT=INCLUDE are those of a tilted luminaire; it is measured upright, where its
@@ -72,6 +73,9 @@ Head read_head(IesReader& reader, const std::string& text, std::string_view byte
     for (int i = 0; i < max_lines && !reader.at_end(); ++i) {
         const std::string_view line = reader.next_line();
         head.year = head.year == 0 ? year_of(line) : head.year;
+        if (const auto stated = keyword_colour_rendering(line)) {
+            head.colour_rendering = stated;
+        }
         const std::string key = compact(line);
         if (!key.starts_with("TILT=")) {
             continue;
@@ -217,6 +221,7 @@ IesProfile parse_ies(const std::string& file, std::string_view bytes) {
     IesReader reader(file, text);
     IesProfile::Data data;
     const Head head = read_head(reader, text, bytes, data.notes);
+    data.colour_rendering = head.colour_rendering;
     if (head.decimal_commas) {
         data.notes.emplace_back("its decimal commas are read as decimal points");
     }

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "scene/photometry/colour_rendering.h"
 
 namespace raybundle {
 
@@ -42,6 +45,7 @@ class IesProfile {
         double lamp_lumens = 0.0;  ///< of all lamps, bare; <= 0: not known (absolute photometry)
         std::vector<std::string> notes{};  ///< what a user should know about how it was read
         Opening opening{};
+        std::optional<ColourRendering> colour_rendering{};  ///< nothing: not stated
     };
 
     explicit IesProfile(Data data);

@@ -68,7 +68,8 @@ void place_in_outline(const v1::Measure& measure, MeasureRequest& request) {
         shape.outline = outline_of({vector(area.origin()), vector(area.u()), vector(area.v())});
     }
     request.outline = shape.outline;
-    if (!is_polygon(shape.outline)) {
+    request.problem = outline_problem(shape.outline);
+    if (!request.problem.empty()) {
         return;
     }
     ZoneGrid zone = lay_grid(shape, {measure.columns(), measure.rows()},
@@ -163,6 +164,7 @@ MeasureRequest from_message(const v1::Measure& measure) {
                                                                    ? vector(measure.direction())
                                                                    : glm::dvec3(0.0, 0.0, -1.0));
     }
+    request.task.luminaires = !measure.name().empty() && has_luminaires(settings.quantity);
     settings.factor = request.factor;
     if (settings.quantity == Quantity::daylight_factor) {
         settings.factor *= 100.0 / overcast_illuminance;
@@ -204,6 +206,7 @@ void to_message(std::span<const Check> checks, v1::Measured* message) {
         check.set_required(static_cast<float>(one.required));
         check.set_at_most(one.at_most);
         check.set_verdict(verdict_message(one.verdict));
+        check.set_words(one.words);
     }
     if (!checks.empty()) {
         message->set_verdict(verdict_message(verdict_of(checks)));
@@ -229,6 +232,19 @@ void to_message(const MeasureRequest& request, const PointMeasurer::Result& resu
             point.set_value(static_cast<float>(result.values[i].value));
             point.set_low(static_cast<float>(result.values[i].low));
             point.set_high(static_cast<float>(result.values[i].high));
+        }
+    }
+    for (const ZoneLuminaire& found : result.luminaires) {
+        v1::Measured::Luminaire& luminaire = *message->add_luminaires();
+        luminaire.set_light(found.light);
+        luminaire.set_name(found.name);
+        luminaire.set_share(static_cast<float>(found.share));
+        if (found.colour_rendering) {
+            luminaire.set_colour_rendering(found.colour_rendering->least);
+        }
+        if (found.colour_rendering &&
+            found.colour_rendering->most > found.colour_rendering->least) {
+            luminaire.set_colour_rendering_most(found.colour_rendering->most);
         }
     }
     if (!result.all) {

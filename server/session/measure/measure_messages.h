@@ -20,6 +20,7 @@ struct MeasureRequest {
     double spacing = 0.0;      ///< m, of EN 12464-1 where that chose the grid, else 0
     double factor = 1.0;       ///< of maintenance
     v1::Measure::Quantity quantity = v1::Measure::QUANTITY_UNSPECIFIED;
+    std::string problem{};  ///< of its outline, which has no points then; empty: none
     // Of an area, to draw it.
     std::vector<glm::dvec3> outline;   ///< its corners
     MeasuredArea lattice;              ///< what the grid lies on

@@ -36,6 +36,10 @@ std::string MeasureService::problem_of(const ViewerSession& session, const v1::M
         return "measure.name: only reviewers and editors keep zones";
     }
     code = v1::Error::INVALID_ARGUMENT;
+    if (!request.problem.empty()) {
+        return (measure.outline().empty() ? "measure.area: " : "measure.outline: ") +
+               (zone ? "zone '" + measure.name() + "' " : std::string()) + request.problem;
+    }
     const std::size_t most = most_points(request.task.settings.quantity);
     if (request.task.points.empty() || request.task.points.size() > most) {
         const GridSize& grid =
@@ -257,7 +261,9 @@ void MeasureService::show_again(Measurement& measurement) {
         to_message(check(board_.required(measure.requirement(), quantity), quantity,
                          any ? known->second.all : std::nullopt,
                          any ? std::span<const GlareRating>(known->second.glare)
-                             : std::span<const GlareRating>()),
+                             : std::span<const GlareRating>(),
+                         any ? std::span<const ZoneLuminaire>(known->second.luminaires)
+                             : std::span<const ZoneLuminaire>()),
                    &message);
     }
     measurement.shown = std::move(message);

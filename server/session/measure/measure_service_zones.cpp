@@ -35,8 +35,8 @@ bool MeasureService::take_up(v1::JournalZone zone) {
     MeasureRequest request = from_message(zone.measure());
     if (request.task.points.empty() || count(true) >= most_zones) {
         spdlog::warn(
-            "zone '{}' of the project has no points, or there are too many: it is left out",
-            zone.measure().name());
+            "zone '{}' of the project {}: it is left out", zone.measure().name(),
+            request.problem.empty() ? "has no points, or there are too many" : request.problem);
         return false;
     }
     const std::uint32_t number = zone.number();

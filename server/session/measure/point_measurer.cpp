@@ -164,13 +164,18 @@ void PointMeasurer::work(std::unique_lock<std::mutex>& lock, std::uint32_t measu
     const std::uint32_t epoch = newest_epoch_;
     const bool anew = !job.points || job.scene != scene;
     std::unique_ptr<Measurement> points = anew ? nullptr : std::move(job.points);
+    std::vector<ZoneLuminaire> luminaires;
     preparing_ = anew;
     lock.unlock();
     tbb::task_arena arena(1);
     arena.execute([&] {
         if (anew) {
-            points =
-                make_measurement(scene->measured(light_of(*task)), task->points, task->settings);
+            const auto measured = scene->measured(light_of(*task));
+            points = make_measurement(measured, task->points, task->settings);
+            if (task->luminaires) {
+                luminaires = find_zone_luminaires(*measured, task->points, task->settings.quantity,
+                                                  task->settings.direct);
+            }
         }
         points->add_samples(slice);
     });
@@ -185,6 +190,7 @@ void PointMeasurer::work(std::unique_lock<std::mutex>& lock, std::uint32_t measu
     if (anew) {
         same.scene = scene;
         same.epoch = epoch;
+        same.luminaires = std::move(luminaires);
         same.reported = 0.0;
     }
     report(measurement, same, *same.points);
@@ -215,6 +221,7 @@ void PointMeasurer::report(std::uint32_t measurement, Job& job, const Measuremen
     result.glare = points.glare();
     result.all = points.all();
     result.met = met;
+    result.luminaires = job.luminaires;
     job.reported = error;
     job.done = met && job.scene == newest_;
     std::erase_if(results_, [&](const Result& r) { return r.measurement == measurement; });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "measure/make_measurement.h"
+#include "measure/zone_luminaires.h"
 #include "scene/mesh/patch_mesh.h"
 #include "scene/scene.h"
 #include "scheduling/scheduling_settings.h"
@@ -28,6 +29,7 @@ class PointMeasurer {
         MeasurementSettings settings;
         double relative_error = 0.05;  ///< to reach
         bool maintained = false;       ///< by the lamps' own maintenance factors
+        bool luminaires = false;       ///< find those that light the points, too
     };
     struct Result {
         std::uint32_t measurement = 0;
@@ -38,6 +40,7 @@ class PointMeasurer {
         std::vector<GlareRating> glare;         ///< likewise, where that is measured
         std::optional<MeasurementSummary> all;  ///< nothing: all points lie in solids
         bool met = false;                       ///< the error wanted, or nothing is to be measured
+        std::vector<ZoneLuminaire> luminaires{};  ///< where they are asked for
     };
 
     explicit PointMeasurer(const RestSettings& rests);
@@ -61,6 +64,7 @@ class PointMeasurer {
     struct Job {
         std::shared_ptr<const Task> task;
         std::unique_ptr<Measurement> points;    // of the thread alone
+        std::vector<ZoneLuminaire> luminaires;  // in the scene of the points
         std::shared_ptr<const OwnScene> scene;  // that the points are in
         std::uint32_t epoch = 0;
         double reported = 0.0;  // error of the last result

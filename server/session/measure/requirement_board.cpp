@@ -134,6 +134,7 @@ Requirement RequirementBoard::required(const std::string& name, Quantity quantit
         default:
             take(r.has_mean(), r.mean(), required.mean);
             take(r.has_uniformity(), r.uniformity(), required.uniformity);
+            take(r.has_colour_rendering(), r.colour_rendering(), required.colour_rendering);
     }
     return required;
 }

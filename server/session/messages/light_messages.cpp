@@ -33,6 +33,16 @@ void describe_control(const LightControl& control, Message* out) {
     out->set_maintenance_factor(control.maintenance_factor);
 }
 
+void describe_colour_rendering(const std::optional<ColourRendering>& known, v1::Light* out) {
+    if (!known) {
+        return;
+    }
+    out->set_colour_rendering(known->least);
+    if (known->most > known->least) {
+        out->set_colour_rendering_most(known->most);
+    }
+}
+
 /// Likewise. Where it is, and how its beam is shaped, of what has a place of its own.
 template <class Message>
 void describe_own_place(const PunctualLight& light, Message* out) {
@@ -85,6 +95,7 @@ void describe_light(const PunctualLight& light, std::uint32_t id, v1::Scene* mes
                out->mutable_loaded_colour());
     describe_figures(loaded_figures(light), out);
     describe_control(light.control, out);
+    describe_colour_rendering(colour_rendering_of(light), out);
     describe_place(light, out);
     out->set_photometry(light.photometry);
     out->set_added(light.added != nullptr);
@@ -150,6 +161,9 @@ LightEdit from_message(const v1::SetLight& light) {
     if (light.has_maintenance_factor()) {
         edit.maintenance_factor = light.maintenance_factor();
     }
+    if (light.has_colour_rendering()) {
+        edit.colour_rendering = light.colour_rendering();
+    }
     if (light.has_photometry()) {
         edit.photometry = light.photometry();
     }
@@ -200,6 +214,7 @@ v1::SetLight state_of_light(const Scene& scene, std::uint32_t id) {
     state.set_light(id);
     if (const LightControl* control = control_of(scene, id)) {
         describe_control(*control, &state);
+        state.set_colour_rendering(control->colour_rendering.value_or(0.0F));
     }
     if (const auto punctual = punctual_index(scene, id)) {
         const PunctualLight& light = scene.punctual_lights[*punctual];
@@ -246,6 +261,7 @@ void describe_lights(const Scene& scene, v1::Scene* message) {
                    out->mutable_loaded_colour());
         describe_figures(loaded_figures(light), out);
         describe_control(light.control, out);
+        describe_colour_rendering(colour_rendering_of(light.control), out);
     }
     // Those of the file come before the sky, added ones after it.
     auto next = static_cast<std::uint32_t>(scene.lights.size()) + 1;

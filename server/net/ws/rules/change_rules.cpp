@@ -101,6 +101,8 @@ void check_body(const v1::SetLight& light, MessageChecker& check) {
         check.require(factor > 0.0F && factor <= 1.0F, "setLight.maintenanceFactor",
                       "must be above 0 and at most 1");
     }
+    check.require(light.colour_rendering() >= 0.0F && light.colour_rendering() <= 100.0F,
+                  "setLight.colourRendering", "must be 0..100");
     check.require(characters(light.group()) <= kMaxName, "setLight.group",
                   "must be at most 64 characters");
     if (!light.photometry().empty()) {

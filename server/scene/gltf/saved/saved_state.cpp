@@ -34,6 +34,9 @@ void restore_control(const Json& json, LightControl& control) {
     control.dim = number_in(json, "dim", 0.0F, 1.0F).value_or(control.dim);
     control.maintenance_factor =
         number_in(json, "maintenanceFactor", 0.0F, 1.0F).value_or(control.maintenance_factor);
+    if (const auto set = number_in(json, "colourRendering", 0.0F, 100.0F); set && *set > 0.0F) {
+        control.colour_rendering = set;
+    }
 }
 
 /// Intensity, colour and whether it is on.
@@ -287,9 +290,13 @@ Json setting_json(const glm::vec3& intensity, const glm::vec3& colour, bool on) 
 }
 
 Json control_json(const LightControl& control) {
-    return {{"group", control.group},
-            {"dim", control.dim},
-            {"maintenanceFactor", control.maintenance_factor}};
+    Json json = {{"group", control.group},
+                 {"dim", control.dim},
+                 {"maintenanceFactor", control.maintenance_factor}};
+    if (control.colour_rendering) {
+        json["colourRendering"] = *control.colour_rendering;
+    }
+    return json;
 }
 
 const char* kind_name(ObjectKind kind) {
