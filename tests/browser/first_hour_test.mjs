@@ -102,6 +102,13 @@ describe('keys', () => {
         const {page} = await openPage(server());
         await page.waitForFunction(CONNECTED);
         const eye = () => page.evaluate(() => ({...window.raybundle.view.eye}));
+        // Polled once a display frame, in which the eye makes one step as long as it walks.
+        const rests = () => page.waitForFunction(() => {
+            const {x, z} = window.raybundle.view.eye;
+            const before = window.eyeBefore;
+            window.eyeBefore = {x, z};
+            return before?.x === x && before?.z === z;
+        });
         const walks = async () => {
             const before = await eye();
             await page.keyboard.down('w');
@@ -110,6 +117,7 @@ describe('keys', () => {
                 return now.x !== x || now.z !== z;
             }, before);
             await page.keyboard.up('w');
+            await rests();
         };
         await page.getByRole('tab', {name: 'Light'}).click();
         await walks();
@@ -121,6 +129,7 @@ describe('keys', () => {
         await page.focus('#viewpoint-name');
         const before = await eye();
         await page.keyboard.type('wasd?');
+        await rests();
         assert.deepEqual(await eye(), before);
         assert.equal(await page.inputValue('#viewpoint-name'), 'wasd?');
         assert.ok(await page.locator('#help[open]').count(), 'typing closes no list');
