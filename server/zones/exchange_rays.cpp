@@ -269,6 +269,17 @@ bool ExchangeRays::choose_densities(const PatchMesh& mesh) {
     return shares_ != before;
 }
 
+std::vector<double> ExchangeRays::rays_per_area() const {
+    std::vector<double> result(areas_.size(), 0.0);
+    for (std::size_t i = 0; i < areas_.size(); ++i) {
+        if (areas_[i] > 0.0F) {
+            result[i] = shares_[i] * static_cast<double>(starts_.size()) /
+                        static_cast<double>(areas_[i]);
+        }
+    }
+    return result;
+}
+
 void ExchangeRays::look_up_sky(ExchangeRay& ray) const {
     if (ray.towards != glm::vec3(0.0F)) {
         ray.sky = ray.left_by_air * glm::vec3(sky_towards(scene_, glm::dvec3(ray.towards)));

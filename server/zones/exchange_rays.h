@@ -74,6 +74,8 @@ class ExchangeRays {
     [[nodiscard]] const std::vector<float>& areas() const { return areas_; }
     /// Share of the rays that start on each patch; the sum is 1.
     [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
+    /// Density of the rays that start on each patch, 1/m².
+    [[nodiscard]] std::vector<double> rays_per_area() const;
     [[nodiscard]] const std::vector<std::uint32_t>& objects() const { return objects_; }
 
   private:

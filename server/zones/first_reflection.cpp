@@ -1,83 +1,139 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zones/first_reflection.h"
 
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+
+#include "zones/zone_levels.h"
+
 namespace raybundle {
 
+namespace {
+
+constexpr int most_reflections = 64;
+constexpr double least_change = 1e-3;  // of all light, by one more reflection
+
+/// Of each patch: clusters that reach into several zones are divided by them.
+std::vector<std::uint32_t> cells_of(const ZonePartition& partition) {
+    constexpr std::uint32_t none = ~0U;
+    std::vector<std::uint32_t> number(std::size_t{partition.clusters} * partition.count, none);
+    std::vector<std::uint32_t> result;
+    std::uint32_t cells = 0;
+    for (std::size_t i = 0; i < partition.zone.size(); ++i) {
+        std::uint32_t& own =
+            number[std::size_t{partition.cluster[i]} * partition.count + partition.zone[i]];
+        own = own == none ? cells++ : own;
+        result.push_back(own);
+    }
+    return result;
+}
+
+std::size_t number_of(const std::vector<std::uint32_t>& cell) {
+    return cell.empty() ? 0 : *std::max_element(cell.begin(), cell.end()) + std::size_t{1};
+}
+
+}  // namespace
+
+/// A ray from either patch to the other tells what both exchange, and its area follows from the
+/// densities of both (balance heuristic): rays that meet a lamp by chance are noisy, those from it
+/// are not.
 FirstReflection::FirstReflection(const ZonePartition& partition, std::span<const ExchangeRay> rays,
-                                 std::span<const glm::vec3> base_colour)
-    : zones_(partition.count),
-      seen_(std::size_t{partition.clusters} * partition.count, glm::vec3(0.0F)),
-      area_(partition.clusters, 0.0F) {
-    const auto add = [&](std::uint32_t at, std::uint32_t end, float area) {
-        const std::uint32_t cluster = partition.cluster[at];
-        area_[cluster] += area;
-        if (end != ExchangeRay::lost && partition.zone[end] != partition.loose) {
-            seen_[std::size_t{cluster} * zones_ + partition.zone[end]] += area * base_colour[end];
-        }
-    };
+                                 std::span<const glm::vec3> base_colour,
+                                 std::span<const float> areas,
+                                 std::span<const double> rays_per_area)
+    : base_colour_(base_colour.begin(), base_colour.end()),
+      cell_(cells_of(partition)),
+      cell_areas_(number_of(cell_), 0.0),
+      sky_(cell_areas_.size(), glm::dvec3(0.0)) {
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        cell_areas_[cell_[i]] += static_cast<double>(areas[i]);
+    }
     for (const ExchangeRay& ray : rays) {
-        add(ray.from, ray.to, ray.area);
-        if (ray.to != ExchangeRay::lost) {
-            add(ray.to, ray.from, ray.area);
+        if (ray.to == ExchangeRay::lost) {
+            sky_[cell_[ray.from]] +=
+                glm::pi<double>() * static_cast<double>(ray.area) * glm::dvec3(ray.sky);
+        } else if (ray.area > 0.0F) {
+            const double density = 1.0 / static_cast<double>(ray.area) + rays_per_area[ray.to];
+            lines_.push_back({ray.from, ray.to, 1.0 / density});
             matters_ = matters_ || glm::dot(base_colour[ray.from], base_colour[ray.to]) > 0.0F;
         }
     }
 }
 
-std::vector<glm::vec4> FirstReflection::irradiance(const ZonePartition& partition,
-                                                   std::span<const ZoneFlux> zones,
-                                                   std::span<const glm::dvec3> incident,
-                                                   std::span<const float> areas) const {
-    std::vector<glm::vec4> result(areas.size(), glm::vec4(0.0F));
-    if (area_.empty()) {
-        return result;
+void FirstReflection::make_fluxes_irradiance(std::vector<glm::dvec3>& flux) const {
+    for (std::size_t cell = 0; cell < flux.size(); ++cell) {
+        flux[cell] = cell_areas_[cell] > 0.0 ? flux[cell] / cell_areas_[cell] : glm::dvec3(0.0);
     }
-    std::vector<glm::dvec3> of_clusters(area_.size(), glm::dvec3(0.0));
-    for (std::size_t cluster = 0; cluster < area_.size(); ++cluster) {
-        for (unsigned zone = 0; zone < zones_ && area_[cluster] > 0.0F; ++zone) {
-            const glm::vec3 share = seen_[cluster * zones_ + zone] / area_[cluster];
-            if (zones[zone].area > 0.0) {
-                of_clusters[cluster] += glm::dvec3(share) * incident[zone] / zones[zone].area;
-            }
-        }
+}
+
+/// Irradiance of the cells by what emits, and by the sky.
+std::vector<glm::dvec3> FirstReflection::direct(std::span<const glm::vec4> emitted,
+                                                double radiance_unit) const {
+    std::vector<glm::dvec3> result = sky_;
+    for (glm::dvec3& flux : result) {
+        flux /= radiance_unit;
     }
-    std::vector<glm::dvec3> given(zones_, glm::dvec3(0.0));
-    for (std::size_t i = 0; i < areas.size(); ++i) {
-        given[partition.zone[i]] +=
-            static_cast<double>(areas[i]) * of_clusters[partition.cluster[i]];
+    for (const Line& line : lines_) {
+        result[cell_[line.to]] += line.area * glm::dvec3(glm::vec3(emitted[line.from]));
+        result[cell_[line.from]] += line.area * glm::dvec3(glm::vec3(emitted[line.to]));
     }
-    std::vector<glm::dvec3> factor(zones_, glm::dvec3(1.0));
-    for (unsigned zone = 0; zone < zones_; ++zone) {
-        for (int c = 0; c < 3 && !zones[zone].loose; ++c) {
-            const double missing = incident[zone][c] - zones[zone].incident[c];
-            factor[zone][c] =
-                missing > 0.0 && given[zone][c] > 0.0 ? missing / given[zone][c] : 0.0;
-        }
-    }
-    for (std::size_t i = 0; i < areas.size(); ++i) {
-        result[i] = glm::vec4(factor[partition.zone[i]] * of_clusters[partition.cluster[i]], 0.0);
-    }
+    make_fluxes_irradiance(result);
     return result;
 }
 
-std::vector<ZoneFlux> direct_light(std::vector<ZoneFlux> zones,
-                                   std::span<const ZoneExchange> exchange,
-                                   std::span<const ZoneSky> sky) {
-    std::vector<glm::dvec3> sent(zones.size(), glm::dvec3(0.0));
-    for (const ZoneExchange& pair : exchange) {
-        sent[pair.from] += pair.emitted;
+/// Irradiance of the cells by what they reflect of theirs.
+std::vector<glm::dvec3> FirstReflection::reflected_once(
+    std::span<const glm::dvec3> irradiance) const {
+    std::vector<glm::dvec3> result(irradiance.size(), glm::dvec3(0.0));
+    for (const Line& line : lines_) {
+        const std::uint32_t a = cell_[line.from];
+        const std::uint32_t b = cell_[line.to];
+        result[b] += line.area * glm::dvec3(base_colour_[line.from]) * irradiance[a];
+        result[a] += line.area * glm::dvec3(base_colour_[line.to]) * irradiance[b];
     }
-    for (std::size_t t = 0; t < zones.size(); ++t) {
-        zones[t].incident = sky[t].flux;
+    make_fluxes_irradiance(result);
+    return result;
+}
+
+/// Luminance, radiance units m².
+double FirstReflection::flux_of(std::span<const glm::dvec3> irradiance) const {
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < irradiance.size(); ++cell) {
+        sum += cell_areas_[cell] * luminance_of(irradiance[cell]);
     }
-    for (const ZoneExchange& pair : exchange) {
-        for (int c = 0; pair.to < zones.size() && c < 3; ++c) {
-            const double all = sent[pair.from][c];
-            zones[pair.to].incident[c] +=
-                all > 0.0 ? zones[pair.from].emitted[c] * pair.emitted[c] / all : 0.0;
+    return sum;
+}
+
+/// Reflection by reflection (Neumann's series), until one more changes next to nothing. Whatever is
+/// left then belongs to its slowest mode, a geometric series.
+std::vector<glm::vec4> FirstReflection::irradiance(std::span<const glm::vec4> emitted,
+                                                   double radiance_unit) const {
+    std::vector<glm::vec4> result(emitted.size(), glm::vec4(0.0F));
+    if (cell_areas_.empty()) {
+        return result;
+    }
+    std::vector<glm::dvec3> last = direct(emitted, radiance_unit);
+    std::vector<glm::dvec3> sum(last.size(), glm::dvec3(0.0));
+    double light = flux_of(last);
+    double before = light;
+    for (int i = 0; i < most_reflections; ++i) {
+        last = reflected_once(last);
+        const double more = flux_of(last);
+        light += more;
+        const bool ends = i + 1 == most_reflections || more <= least_change * light;
+        const double others = ends && before > more ? more / (before - more) : 0.0;
+        for (std::size_t cell = 0; cell < sum.size(); ++cell) {
+            sum[cell] += (1.0 + others) * last[cell];
         }
+        if (ends) {
+            break;
+        }
+        before = more;
     }
-    return zones;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = glm::vec4(sum[cell_[i]], 0.0);
+    }
+    return result;
 }
 
 }  // namespace raybundle

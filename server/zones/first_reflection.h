@@ -12,38 +12,47 @@
 
 namespace raybundle {
 
-/// What light reflected by the zones' surfaces adds to each patch, known before any bundle has
-/// carried it: surfaces of a zone that see the zone's light send it to where rays from them end.
-/// Each cluster of patches gets what ends on it; all of a zone together get what the zone will
-/// have. A surface that sees nothing but black ones, or nothing but the sky, gets nothing.
+/// What light reflected by surfaces adds to each patch, known before any bundle has carried it: the
+/// radiosity (Goral et al. 1984) of cells of patches, with the exchange between them that rays have
+/// found. A cell is what a cluster of patches has of a zone. A surface that sees nothing but black
+/// ones, or nothing but the sky, gets nothing.
 class FirstReflection {
   public:
     FirstReflection() = default;
-    /// base_colour: of patches, share of the light that they reflect.
+    /// base_colour: of patches, share of the light that they reflect. areas: of patches, m².
+    /// rays_per_area: that start on a patch, 1/m².
     FirstReflection(const ZonePartition& partition, std::span<const ExchangeRay> rays,
-                    std::span<const glm::vec3> base_colour);
+                    std::span<const glm::vec3> base_colour, std::span<const float> areas,
+                    std::span<const double> rays_per_area);
 
-    /// Irradiance of each patch, radiance units; nothing where no rays are known. zones: with
-    /// nothing incident but what lights and the sky send. incident: of each zone in the end,
-    /// radiance units m². areas: of patches, m².
-    [[nodiscard]] std::vector<glm::vec4> irradiance(const ZonePartition& partition,
-                                                    std::span<const ZoneFlux> zones,
-                                                    std::span<const glm::dvec3> incident,
-                                                    std::span<const float> areas) const;
+    /// Irradiance of each patch, radiance units; nothing where no rays are known. emitted: flux per
+    /// area that patches send whatever bundles bring, radiance units. radiance_unit: cd/m².
+    [[nodiscard]] std::vector<glm::vec4> irradiance(std::span<const glm::vec4> emitted,
+                                                    double radiance_unit) const;
 
     /// Whether any two surfaces that see each other reflect light: else nothing visible lacks it.
     [[nodiscard]] bool matters() const { return matters_; }
 
   private:
-    bool matters_ = false;
-    unsigned zones_ = 0;
-    std::vector<glm::vec3> seen_;  // [cluster * zones + zone]: area of rays times reflectance
-    std::vector<float> area_;      // of all rays of a cluster
-};
+    /// A ray between two patches.
+    struct Line {
+        std::uint32_t from = 0, to = 0;  // patches
+        double area = 0.0;  // m²: of either patch, whose light it carries to the other
+    };
 
-/// The same zones, with nothing incident but what lights and the sky send, as rays say.
-std::vector<ZoneFlux> direct_light(std::vector<ZoneFlux> zones,
-                                   std::span<const ZoneExchange> exchange,
-                                   std::span<const ZoneSky> sky);
+    void make_fluxes_irradiance(std::vector<glm::dvec3>& flux) const;
+    [[nodiscard]] std::vector<glm::dvec3> direct(std::span<const glm::vec4> emitted,
+                                                 double radiance_unit) const;
+    [[nodiscard]] std::vector<glm::dvec3> reflected_once(
+        std::span<const glm::dvec3> irradiance) const;
+    [[nodiscard]] double flux_of(std::span<const glm::dvec3> irradiance) const;
+
+    bool matters_ = false;
+    std::vector<Line> lines_;
+    std::vector<glm::vec3> base_colour_;  // of patches
+    std::vector<std::uint32_t> cell_;     // of patches
+    std::vector<double> cell_areas_;      // m²
+    std::vector<glm::dvec3> sky_;         // of cells: flux that comes from it, cd/m² m²
+};
 
 }  // namespace raybundle

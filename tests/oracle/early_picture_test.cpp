@@ -48,6 +48,24 @@ View cove_room() {
     return view;
 }
 
+/// A room without its front, a lamp near it: most of the light is far from what the camera sees.
+View open_room() {
+    View view;
+    SceneBuilder& b = view.builder;
+    const auto wall = b.add_material(glm::vec3(0.7F));
+    const auto lamp = b.add_material(glm::vec3(0.0F), glm::vec3(1000.0F));
+    b.add_quad({0, 0, 0}, {0, 0, 8}, {4, 0, 0}, 10, 10, wall);
+    b.add_quad({0, 3, 0}, {4, 0, 0}, {0, 0, 8}, 10, 10, wall);
+    b.add_quad({0, 0, 0}, {0, 3, 0}, {0, 0, 8}, 8, 12, wall);
+    b.add_quad({4, 0, 0}, {0, 0, 8}, {0, 3, 0}, 12, 8, wall);
+    b.add_quad({0, 0, 8}, {0, 3, 0}, {4, 0, 0}, 8, 10, wall);
+    b.add_quad({1.5F, 2.9F, 1}, {1, 0, 0}, {0, 0, 1}, 4, 4, lamp);
+    view.camera.eye = {2.0F, 1.6F, 3.0F};
+    view.camera.target = {2.0F, 1.4F, 8.0F};
+    view.camera.vertical_fov = 1.2F;
+    return view;
+}
+
 std::vector<double> picture_after(const View& view, std::uint64_t seed, int iterations) {
     SolverSettings settings;
     settings.seed = seed;
@@ -99,7 +117,7 @@ TEST_P(EarlyPicture, IsNowhereBlackAndAsBrightAsItWillBe) {
     EXPECT_NEAR(shown / sum, 1.0, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, EarlyPicture, testing::Values(&lamp_room, &cove_room));
+INSTANTIATE_TEST_SUITE_P(Rooms, EarlyPicture, testing::Values(&lamp_room, &cove_room, &open_room));
 
 }  // namespace
 }  // namespace raybundle::early_picture_test

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 #include <vector>
@@ -244,79 +245,119 @@ TEST(KeptLight, IsBelievedAsFarAsTheLevelsBearItOut) {
 }
 
 /// Two clusters of a zone: one sees its grey surface, the other black ones and the sky.
-TEST(FirstReflection, ReachesWhatSeesSurfacesThatReflect) {
+/// Each patch is a cell of its own, in one zone.
+ZonePartition single_patches(std::uint32_t count) {
     ZonePartition partition;
     partition.count = 1;
-    partition.zone = {0, 0, 0, 0};
-    partition.cluster = {0, 1, 2, 3};
-    partition.clusters = 4;
-    const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.5F), glm::vec3(0.0F),
-                                           glm::vec3(0.5F)};
-    const std::vector<ExchangeRay> rays = {
-        {0, 1, 1.0F, {}}, {3, 2, 1.0F, {}}, {3, ExchangeRay::lost, 1.0F, {}}};
-    const std::vector<float> areas = {1.0F, 3.0F, 1.0F, 1.0F};
-    std::vector<ZoneFlux> zones(1);
-    zones[0].area = 6.0;
-    zones[0].incident = glm::dvec3(10.0);
-    const std::vector<glm::dvec3> incident = {glm::dvec3(18.0)};
-    const FirstReflection reflection(partition, rays, colour);
-    EXPECT_TRUE(reflection.matters());
-    const std::vector<glm::vec4> light = reflection.irradiance(partition, zones, incident, areas);
-    EXPECT_EQ(light[3].g, 0.0F);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        sum += static_cast<double>(light[i].g * areas[i]);
+    partition.zone.assign(count, 0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        partition.cluster.push_back(i);
     }
-    EXPECT_NEAR(sum, 8.0, 1e-5) << "what the zone lacks";
-    EXPECT_FLOAT_EQ(light[0].g, light[1].g);
-    EXPECT_GT(light[2].g, 0.0F) << "black, but lit by what it sees";
+    partition.clusters = count;
+    return partition;
 }
 
-/// What belongs to no zone has no level of its own, but gets what zones send to it.
-TEST(FirstReflection, ComesToWhatBelongsToNoZone) {
-    ZonePartition partition;
+/// Two plates of 1 m² with one ray from each to the other: all that one sends arrives at the other.
+/// The first one emits e. Of light that has been reflected once or more the second one gets
+/// e (r0 r1 + (r0 r1)² + ...), the first one r1 e (1 + r0 r1 + ...).
+TEST(FirstReflection, OfTwoPlatesIsAGeometricSeries) {
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {1, 0, 1.0F, {}}};
+    const std::vector<float> areas = {1.0F, 1.0F};
+    const std::vector<double> density = {1.0, 1.0};
+    const std::vector<glm::vec4> emitted = {glm::vec4(2.0F), glm::vec4(0.0F)};
+    // It ends where one more reflection changes all light by 1e-3. The terms shrink by either
+    // albedo in turn, so that the rest is not quite a geometric series.
+    constexpr float series_ends = 5e-3F;
+    for (const float albedo : {0.2F, 0.7F, 0.99F}) {
+        const std::vector<glm::vec3> colour = {glm::vec3(albedo), glm::vec3(0.5F * albedo)};
+        const FirstReflection reflection(single_patches(2), rays, colour, areas, density);
+        EXPECT_TRUE(reflection.matters());
+        const std::vector<glm::vec4> light = reflection.irradiance(emitted, 1.0);
+        const float both = 0.5F * albedo * albedo;
+        const float of_first = 2.0F * 0.5F * albedo / (1.0F - both);
+        const float of_second = 2.0F * both / (1.0F - both);
+        EXPECT_NEAR(light[0].g, of_first, series_ends * of_first);
+        EXPECT_NEAR(light[1].g, of_second, series_ends * of_second);
+    }
+}
+
+/// The slowest mode of a furnace of albedo 0.99 is far from its end after the reflections that are
+/// followed.
+TEST(FirstReflection, WhatIsLeftOfTheSeriesIsAddedUp) {
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {1, 0, 1.0F, {}}};
+    const std::vector<float> areas = {1.0F, 1.0F};
+    const std::vector<double> density = {1.0, 1.0};
+    const std::vector<glm::vec3> colour(2, glm::vec3(0.99F));
+    const FirstReflection reflection(single_patches(2), rays, colour, areas, density);
+    const std::vector<glm::vec4> light =
+        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
+    EXPECT_NEAR(light[0].g, 99.0F, 0.1F);
+    EXPECT_NEAR(light[1].g, 99.0F, 0.1F);
+}
+
+/// A black surface is lit by what it sees, and what sees black surfaces or the sky alone gets none.
+TEST(FirstReflection, ReachesWhatSeesSurfacesThatReflect) {
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}},
+                                           {1, 2, 1.0F, {}},
+                                           {3, 2, 1.0F, {}},
+                                           {4, ExchangeRay::lost, 1.0F, glm::vec3(5.0F)}};
+    const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.5F), glm::vec3(0.0F),
+                                           glm::vec3(0.5F), glm::vec3(0.5F)};
+    const std::vector<float> areas(5, 1.0F);
+    const FirstReflection reflection(single_patches(5), rays, colour, areas,
+                                     std::vector<double>(5, 1.0));
+    std::vector<glm::vec4> emitted(5, glm::vec4(0.0F));
+    emitted[0] = glm::vec4(1.0F);
+    const std::vector<glm::vec4> light = reflection.irradiance(emitted, 1.0);
+    EXPECT_GT(light[2].g, 0.0F) << "black, but lit by what it sees";
+    EXPECT_EQ(light[3].g, 0.0F) << "sees a black surface";
+    EXPECT_EQ(light[4].g, 0.0F) << "sees the sky";
+}
+
+/// Of the sky's light, which is in cd/m² and comes from all of a hemisphere, too.
+TEST(FirstReflection, IsOfTheSkysLightToo) {
+    const std::vector<ExchangeRay> rays = {{0, ExchangeRay::lost, 1.0F, glm::vec3(10.0F)},
+                                           {1, 0, 1.0F, {}}};
+    const std::vector<float> areas(2, 1.0F);
+    const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.0F)};
+    const FirstReflection reflection(single_patches(2), rays, colour, areas,
+                                     std::vector<double>{0.0, 1.0});
+    const std::vector<glm::vec4> light =
+        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(0.0F)), 5.0);
+    EXPECT_FLOAT_EQ(light[1].g, 0.5F * glm::pi<float>() * 10.0F / 5.0F);
+}
+
+/// Zones do not mix where a cluster reaches into two of them, as behind a thin wall.
+TEST(FirstReflection, AClusterThatReachesIntoTwoZonesIsDivided) {
+    ZonePartition partition = single_patches(3);
     partition.count = 2;
-    partition.zone = {0, 1, 1};
-    partition.loose = 1;
-    partition.cluster = {0, 1, 2};
-    partition.clusters = 3;
-    const std::vector<ExchangeRay> rays = {
-        {1, 0, 1.0F, {}}, {1, ExchangeRay::lost, 3.0F, {}}, {2, ExchangeRay::lost, 1.0F, {}}};
-    const std::vector<float> areas = {2.0F, 1.0F, 1.0F};
-    std::vector<ZoneFlux> zones(2);
-    zones[0].area = 2.0;
-    zones[1].area = 2.0;
-    zones[1].loose = true;
-    const std::vector<glm::dvec3> incident = {glm::dvec3(20.0), glm::dvec3(100.0)};
-    const FirstReflection reflection(partition, rays, std::vector<glm::vec3>(3, glm::vec3(0.5F)));
-    const std::vector<glm::vec4> light = reflection.irradiance(partition, zones, incident, areas);
-    EXPECT_FLOAT_EQ(light[1].g, 0.25F * 0.5F * 10.0F);
+    partition.zone = {0, 0, 1};
+    partition.cluster = {0, 1, 1};
+    partition.clusters = 2;
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {1, 0, 1.0F, {}}};
+    const std::vector<float> areas(3, 1.0F);
+    const FirstReflection reflection(partition, rays, std::vector<glm::vec3>(3, glm::vec3(0.5F)),
+                                     areas, std::vector<double>(3, 1.0));
+    std::vector<glm::vec4> emitted(3, glm::vec4(0.0F));
+    emitted[0] = glm::vec4(1.0F);
+    const std::vector<glm::vec4> light = reflection.irradiance(emitted, 1.0);
+    EXPECT_GT(light[1].g, 0.0F);
     EXPECT_EQ(light[2].g, 0.0F);
-    EXPECT_EQ(light[0].g, 0.0F) << "nothing of a zone is known to come from where none is";
 }
 
 /// A floor below a black screen lacks nothing, and its samples weigh as if there were no
 /// completion.
 TEST(FirstReflection, DoesNotMatterWhereWhatReflectsSeesBlackSurfaces) {
-    ZonePartition partition;
-    partition.count = 1;
-    partition.zone = {0, 0};
-    partition.cluster = {0, 1};
-    partition.clusters = 2;
     const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {0, ExchangeRay::lost, 1.0F, {}}};
     const std::vector<glm::vec3> colour = {glm::vec3(0.5F), glm::vec3(0.0F)};
-    EXPECT_FALSE(FirstReflection(partition, rays, colour).matters());
+    EXPECT_FALSE(FirstReflection(single_patches(2), rays, colour, std::vector<float>(2, 1.0F),
+                                 std::vector<double>(2, 1.0))
+                     .matters());
     EXPECT_FALSE(FirstReflection().matters());
 }
 
 TEST(FirstReflection, IsNothingWhereNoRaysAreKnown) {
-    ZonePartition partition;
-    partition.count = 1;
-    partition.zone = {0};
-    const std::vector<ZoneFlux> zones(1);
-    const std::vector<glm::dvec3> incident = {glm::dvec3(1.0)};
-    const std::vector<float> areas = {1.0F};
-    EXPECT_EQ(FirstReflection().irradiance(partition, zones, incident, areas).at(0),
+    EXPECT_EQ(FirstReflection().irradiance(std::vector<glm::vec4>(1, glm::vec4(1.0F)), 1.0).at(0),
               glm::vec4(0.0F));
 }
 

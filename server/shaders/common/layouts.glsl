@@ -79,7 +79,7 @@
 #define BINDING_ZONES 33              // zones of patches and their levels, see zone_level.glsl
 #define BINDING_KEPT 50               // vec4[]: mean irradiance that was kept over the last change, w = weight
 #define BINDING_SHELTERED 52         // uint[]: see sky_openings.glsl; not in special phases
-#define BINDING_COMPLETION 50         // vec4[]: reflected light that the first group of bundles could not carry to patches
+#define BINDING_COMPLETION 50         // vec4[]: what patches emit, then the reflected light that the first group of bundles lacks
 #define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use

@@ -33,7 +33,8 @@ ZoneBalance::ZoneBalance(const Scene& scene, const PatchMesh& mesh, const GpuSce
       flux_({"solution_zone_flux.comp"}, gpu_scene.defines()),
       flux_sum_({"solution_zone_flux_sum.comp"}),
       exchange_({"solution_zone_exchange.comp"}, gpu_scene.defines()),
-      means_({"solution_zone_means.comp"}) {
+      means_({"solution_zone_means.comp"}),
+      emitted_({"solution_emitted.comp"}, gpu_scene.defines()) {
     static_assert(max_zones == MAX_ZONES);
 }
 
@@ -106,7 +107,8 @@ void ZoneBalance::find_rays() {
     std::copy_if(traced.begin(), traced.end(), std::back_inserter(lost_),
                  [](const ExchangeRay& ray) { return ray.to == ExchangeRay::lost; });
     reflection_ = started_ ? FirstReflection()  // of a start that is over
-                           : FirstReflection(partition_, traced, base_colour_);
+                           : FirstReflection(partition_, traced, base_colour_, rays_.areas(),
+                                             rays_.rays_per_area());
     sent_.assign(partition_.clusters, 0.0);
     for (const ExchangeRay& ray : traced) {
         sent_[partition_.cluster[ray.from]] += static_cast<double>(ray.area);
@@ -295,11 +297,6 @@ void ZoneBalance::balance(const Means& means) {
     }
     const std::vector<ZoneExchange> exchange = read_exchange(sums.subspan(first_pair));
     std::vector<ZoneLevel> levels = levels_.solve(zones, exchange, sky);
-    completion_.clear();
-    if (completing_) {
-        completion_ = reflection_.irradiance(partition_, direct_light(zones, exchange, sky),
-                                             levels_.incident(), rays_.areas());
-    }
     std::vector<KeptLevel> kept(partition_.count);
     if (means.kept != nullptr) {
         std::vector<ZoneMeans> light;
@@ -329,12 +326,20 @@ void ZoneBalance::balance(const Means& means) {
     upload(levels, kept);
 }
 
+/// Flux per area that patches send whatever bundles bring, radiance units.
+std::vector<glm::vec4> ZoneBalance::emitted() {
+    const Buffer buffer("what patches emit", std::size_t{patch_count_} * sizeof(glm::vec4));
+    buffer.bind_storage(BINDING_COMPLETION);
+    emitted_.set("patch_count", patch_count_);
+    emitted_.dispatch(patch_count_);
+    std::vector<glm::vec4> result(patch_count_);
+    buffer.read<glm::vec4>(result);
+    return result;
+}
+
 std::vector<glm::vec4> ZoneBalance::complete_start() {
-    completing_ = true;
-    balance({});
-    completing_ = false;
-    reflection_ = {};
-    return std::exchange(completion_, {});
+    const FirstReflection reflection = std::exchange(reflection_, {});
+    return reflection.irradiance(emitted(), static_cast<double>(gpu_scene_.radiance_unit()));
 }
 
 void ZoneBalance::keep() {

@@ -95,6 +95,7 @@ class ZoneBalance {
     void find_light();
     void sort_patches();
     void sort_rays(std::vector<ExchangeRay> traced);
+    [[nodiscard]] std::vector<glm::vec4> emitted();
     [[nodiscard]] std::vector<glm::mat4> present_places() const;
     [[nodiscard]] std::vector<ZoneFlux> read_fluxes(std::span<const glm::vec4> sums) const;
     [[nodiscard]] std::vector<ZoneExchange> read_exchange(std::span<const glm::vec4> sums) const;
@@ -119,13 +120,11 @@ class ZoneBalance {
     std::vector<ExchangeRay> lost_;  // rays that meet no surface
     std::vector<double> sent_;       // area of all rays, of each cluster
     Stale stale_ = Stale::rays;
-    bool started_ = false;               // some bundle has come in
-    FirstReflection reflection_;         // until complete_start()
-    std::vector<glm::vec4> completion_;  // found by balance() where `completing_`
-    bool completing_ = false;
+    bool started_ = false;        // some bundle has come in
+    FirstReflection reflection_;  // until complete_start()
     Buffer zones_buffer_, order_, blocks_, block_sums_, ray_buffer_, segment_buffer_, sums_;
     std::unique_ptr<Readback> readback_;
-    ShaderProgram flux_, flux_sum_, exchange_, means_;
+    ShaderProgram flux_, flux_sum_, exchange_, means_, emitted_;
 };
 
 }  // namespace raybundle
