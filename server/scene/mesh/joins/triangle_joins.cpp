@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mesh/triangle_joins.h"
+#include "scene/mesh/joins/triangle_joins.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,9 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "scene/disjoint_sets.h"
-#include "scene/mesh/face_set.h"
-#include "scene/mesh/face_sight.h"
+#include "scene/mesh/joins/face_sets.h"
+#include "scene/mesh/joins/face_sight.h"
 #include "scene/mix_bits.h"
 
 namespace raybundle {
@@ -31,46 +30,21 @@ constexpr unsigned grid_bits = 20;
 constexpr std::uint32_t none = 0xffffffffU;
 
 /// Two sets that may join, the lower number first.
-using Link = std::pair<std::uint32_t, std::uint32_t>;
+struct Link {
+    std::uint32_t a = 0, b = 0;
+    double cost = unknown;  // what joining them would cost more; infinite where it may not be
 
-/// A partner, and what joining it would cost more.
-struct Partner {
-    double cost = std::numeric_limits<double>::infinity();
-    std::uint64_t tie = 0;
-    std::uint32_t set = none;
-
-    [[nodiscard]] bool worse_than(double other_cost, std::uint64_t other_tie) const {
-        return other_cost < cost || (other_cost == cost && other_tie < tie);
+    static constexpr double unknown = -1e300;
+    [[nodiscard]] bool operator<(const Link& other) const {
+        return std::tie(a, b) < std::tie(other.a, other.b);
+    }
+    [[nodiscard]] bool operator==(const Link& other) const { return a == other.a && b == other.b; }
+    /// Equal costs, as on a regular mesh, are told apart evenly.
+    [[nodiscard]] std::uint64_t tie() const { return mix_bits(std::uint64_t{a} << 32U | b); }
+    [[nodiscard]] bool better_than(const Link& other) const {
+        return cost < other.cost || (cost == other.cost && tie() < other.tie());
     }
 };
-
-FaceSet set_of(const JoinFace& face, std::uint32_t number) {
-    FaceSet set;
-    const glm::dvec3 across =
-        glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
-    const double size = glm::length(across);
-    set.kind = face.kind;
-    set.largest = number;
-    set.area = 0.5 * size;
-    set.largest_area = set.area;
-    set.axis = size > 0.0 ? across / size : glm::dvec3(0.0);
-    set.normal = set.area * set.axis;
-    const glm::dvec3 colour(face.colour);
-    set.colour = set.area * colour;
-    set.squared_colour = set.area * glm::dot(colour, colour);
-    const glm::dvec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
-    set.place = set.area * middle;
-    set.squared_place = set.area * glm::dot(middle, middle);
-    for (const glm::dvec3& corner : face.corners) {
-        // Of a triangle the mean square is a twelfth of the corners' about the middle.
-        const glm::dvec3 from_middle = corner - middle;
-        set.squared_place += set.area * glm::dot(from_middle, from_middle) / 12.0;
-        set.low = glm::min(set.low, corner);
-        set.high = glm::max(set.high, corner);
-    }
-    set.widest = std::acos(std::clamp(face.widest, -1.0, 1.0));
-    return set;
-}
 
 /// Bits of a coordinate with two zeros after each.
 std::uint64_t spread_bits(std::uint64_t value) {
@@ -83,29 +57,12 @@ std::uint64_t spread_bits(std::uint64_t value) {
 
 class Joining {
   public:
-    Joining(const Scene& scene, std::span<const JoinFace> faces, const JoinSettings& settings)
+    Joining(const Scene& scene, const JoinFaces& faces, const JoinSettings& settings)
         : sight_(scene, faces, lift_share * settings.edge),
           faces_(faces),
           settings_(settings),
+          sets_(faces),
           set_of_face_(faces.size()) {
-        // Places are counted from the middle, so that squares keep their digits.
-        glm::dvec3 low(1e300);
-        glm::dvec3 high(-1e300);
-        for (const JoinFace& face : faces) {
-            for (const glm::dvec3& corner : face.corners) {
-                low = glm::min(low, corner);
-                high = glm::max(high, corner);
-            }
-        }
-        origin_ = 0.5 * (low + high);
-        sets_.reserve(faces.size());
-        for (std::uint32_t i = 0; i < faces.size(); ++i) {
-            JoinFace shifted = faces[i];
-            for (glm::dvec3& corner : shifted.corners) {
-                corner -= origin_;
-            }
-            sets_.push_back(set_of(shifted, i));
-        }
         std::iota(set_of_face_.begin(), set_of_face_.end(), 0U);
     }
 
@@ -140,9 +97,10 @@ class Joining {
         std::vector<Edge> all;
         all.reserve(3 * faces_.size());
         for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+            const std::array<std::uint32_t, 3> points = faces_.points_of(i);
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = faces_[i].points[k];
-                const std::uint32_t b = faces_[i].points[(k + 1) % 3];
+                const std::uint32_t a = points[k];
+                const std::uint32_t b = points[(k + 1) % 3];
                 all.push_back({std::min(a, b), std::max(a, b), i});
             }
         }
@@ -154,25 +112,28 @@ class Joining {
             const Edge& a = all[i];
             const Edge& b = all[i + 1];
             if (a.low == b.low && a.high == b.high && a.face != b.face &&
-                sets_[a.face].kind == sets_[b.face].kind) {
-                found.emplace_back(a.face, b.face);
+                faces_.kind_of(a.face) == faces_.kind_of(b.face)) {
+                found.push_back({a.face, b.face});
             }
         }
-        std::vector<char> clear(found.size());
-        tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-            clear[i] = sight_.across(found[i].first, found[i].second) ? 1 : 0;
-        });
-        return kept(found, clear);
+        std::vector<Edge>().swap(all);
+        keep(found, [this](const Link& link) { return sight_.across(link.a, link.b); });
+        return found;
     }
 
-    static std::vector<Link> kept(const std::vector<Link>& links, const std::vector<char>& which) {
-        std::vector<Link> result;
+    /// Takes away the links that are not as asked for; asked on all cores.
+    template <typename Ask>
+    static void keep(std::vector<Link>& links, const Ask& ask) {
+        std::vector<char> which(links.size());
+        tbb::parallel_for(std::size_t{0}, links.size(),
+                          [&](std::size_t i) { which[i] = ask(links[i]) ? 1 : 0; });
+        std::size_t kept = 0;
         for (std::size_t i = 0; i < links.size(); ++i) {
             if (which[i] != 0) {
-                result.push_back(links[i]);
+                links[kept++] = links[i];
             }
         }
-        return result;
+        links.resize(kept);
     }
 
     /// The axis that a set faces most, and its sign.
@@ -182,15 +143,11 @@ class Joining {
         return 2U * static_cast<std::uint32_t>(axis) + (set.axis[axis] < 0.0 ? 1U : 0U);
     }
 
-    [[nodiscard]] std::uint32_t sides_of(const FaceSet& set) const {
-        return faces_[set.largest].two_sided ? 2 : 1;
-    }
-
     /// How many more sides there are than so many.
     [[nodiscard]] std::size_t above(std::size_t limit) const {
         std::size_t sides = 0;
-        for (const FaceSet& set : sets_) {
-            sides += sides_of(set);
+        for (std::uint32_t set = 0; set < sets_.size(); ++set) {
+            sides += sets_.sides_of(set);
         }
         return sides - std::min(sides, limit);
     }
@@ -201,24 +158,26 @@ class Joining {
         std::uint32_t set;
     };
 
-    /// All sets, those of each group along a curve through all places. group: of a set.
+    /// All sets, those of each group along a curve through all places. group: of a set, by its
+    /// number and its sums.
     template <typename Group>
     [[nodiscard]] std::vector<Item> along_curve(const Group& group) const {
         glm::dvec3 low(1e300);
-        double extent = 0.0;
-        for (const FaceSet& set : sets_) {
+        glm::dvec3 high(-1e300);
+        for (std::uint32_t i = 0; i < sets_.size(); ++i) {
+            const FaceSet set = sets_.at(i);
             low = glm::min(low, set.low);
+            high = glm::max(high, set.high);
         }
-        for (const FaceSet& set : sets_) {
-            const glm::dvec3 e = set.high - low;
-            extent = std::max({extent, e.x, e.y, e.z});
-        }
+        const glm::dvec3 e = high - low;
+        const double extent = std::max({e.x, e.y, e.z});
         std::vector<Item> items;
         items.reserve(sets_.size());
         const double cells = static_cast<double>((1U << grid_bits) - 1U) / std::max(extent, 1e-30);
         for (std::uint32_t i = 0; i < sets_.size(); ++i) {
-            const glm::dvec3 at = (0.5 * (sets_[i].low + sets_[i].high) - low) * cells;
-            items.push_back({group(sets_[i]),
+            const FaceSet set = sets_.at(i);
+            const glm::dvec3 at = (0.5 * (set.low + set.high) - low) * cells;
+            items.push_back({group(i, set),
                              spread_bits(static_cast<std::uint64_t>(at.x)) |
                                  spread_bits(static_cast<std::uint64_t>(at.y)) << 1U |
                                  spread_bits(static_cast<std::uint64_t>(at.z)) << 2U,
@@ -233,8 +192,8 @@ class Joining {
     /// Joins neighbours of one rough kind, and of one facing if that counts, in pairs, the smallest
     /// first, as far as there are too many. False where there are none.
     bool join_neighbours(bool facing) {
-        const std::vector<Item> items = along_curve([&](const FaceSet& set) {
-            return 8U * std::uint64_t{faces_[set.largest].rough_kind} +
+        const std::vector<Item> items = along_curve([&](std::uint32_t number, const FaceSet& set) {
+            return 8U * std::uint64_t{faces_.kind(sets_.kind(number)).rough} +
                    (facing ? facing_of(set) : 0U);
         });
         struct Pair {
@@ -244,21 +203,21 @@ class Joining {
         std::vector<Pair> pairs;
         for (std::size_t i = 0; i + 1 < items.size(); ++i) {
             if (items[i].group == items[i + 1].group) {
-                pairs.push_back({sets_[items[i].set].area + sets_[items[i + 1].set].area, i});
+                pairs.push_back({sets_.at(items[i].set).area + sets_.at(items[i + 1].set).area, i});
                 ++i;
             }
         }
         std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
             return std::tie(a.area, a.first) < std::tie(b.area, b.first);
         });
-        std::vector<Partner> partners(sets_.size());
+        std::vector<std::uint32_t> partners(sets_.size(), none);
         std::size_t left = above(settings_.most_sides);
         for (const Pair& pair : pairs) {
             const std::uint32_t a = items[pair.first].set;
             const std::uint32_t b = items[pair.first + 1].set;
-            partners[a].set = b;
-            partners[b].set = a;
-            left -= std::min<std::size_t>(left, sides_of(sets_[a]));
+            partners[a] = b;
+            partners[b] = a;
+            left -= std::min<std::size_t>(left, sets_.sides_of(a));
             if (left == 0) {
                 break;
             }
@@ -269,117 +228,147 @@ class Joining {
     /// Links sets of one kind that face alike and follow each other along a curve through all
     /// places, and that see each other.
     void link_near() {
-        const std::vector<Item> items = along_curve(
-            [](const FaceSet& set) { return 8U * std::uint64_t{set.kind} + facing_of(set); });
+        const std::vector<Item> items = along_curve([&](std::uint32_t number, const FaceSet& set) {
+            return 8U * std::uint64_t{sets_.kind(number)} + facing_of(set);
+        });
         std::vector<Link> found;
         constexpr std::size_t ahead = 4;
         for (std::size_t i = 0; i < items.size(); ++i) {
             for (std::size_t k = i + 1; k < std::min(items.size(), i + 1 + ahead); ++k) {
                 if (items[k].group == items[i].group) {
-                    found.emplace_back(std::min(items[i].set, items[k].set),
-                                       std::max(items[i].set, items[k].set));
+                    found.push_back({std::min(items[i].set, items[k].set),
+                                     std::max(items[i].set, items[k].set)});
                 }
             }
         }
-        std::vector<char> clear(found.size());
-        tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-            const std::uint32_t a = sets_[found[i].first].largest;
-            const std::uint32_t b = sets_[found[i].second].largest;
-            clear[i] = sight_.between(a, b) ? 1 : 0;
+        keep(found, [this](const Link& link) {
+            return sight_.between(sets_.largest(link.a), sets_.largest(link.b));
         });
-        const std::vector<Link> seen = kept(found, clear);
-        links_.insert(links_.end(), seen.begin(), seen.end());
-        tidy();
+        links_.insert(links_.end(), found.begin(), found.end());
+        std::sort(links_.begin(), links_.end());
+        drop_doubles(links_);
     }
 
-    /// Sorts links and leaves out doubles.
-    void tidy() {
-        std::sort(links_.begin(), links_.end());
-        links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
+    /// Of sorted links.
+    static void drop_doubles(std::vector<Link>& links) {
+        links.erase(std::unique(links.begin(), links.end()), links.end());
     }
 
     /// Whether a set may be, where sets cost at most as much as patches `size` times as large.
     [[nodiscard]] bool allowed(const FaceSet& set, double size) const {
+        const double widest = faces_.kind(faces_.kind_of(set.largest)).widest;
         const double most_cost =
             square_variance * size * size * settings_.patch_area * settings_.patch_area;
         const double most_extent = largest_extent * settings_.edge;
-        return set.angle <= set.widest && set.cost(settings_.edge) <= most_cost &&
+        return set.angle <= widest && set.cost(settings_.edge) <= most_cost &&
                set.squared_extent() <= size * most_extent * most_extent;
     }
 
     /// Joins, over and over, sets that are each other's best partners.
     void join_all(double size) {
+        if (size != size_of_costs_) {
+            size_of_costs_ = size;
+            for (Link& link : links_) {
+                link.cost = Link::unknown;
+            }
+        }
         for (int round = 0; round < most_rounds && join_best(size); ++round) {
         }
     }
 
     bool join_best(double size) {
-        std::vector<double> costs(links_.size());
         tbb::parallel_for(std::size_t{0}, links_.size(), [&](std::size_t i) {
-            const FaceSet& a = sets_[links_[i].first];
-            const FaceSet& b = sets_[links_[i].second];
+            Link& link = links_[i];
+            if (link.cost != Link::unknown) {
+                return;  // neither set has changed
+            }
+            const FaceSet a = sets_.at(link.a);
+            const FaceSet b = sets_.at(link.b);
             const FaceSet both = joined(a, b);
-            costs[i] = allowed(both, size) ? both.cost(settings_.edge) - a.cost(settings_.edge) -
-                                                 b.cost(settings_.edge)
-                                           : std::numeric_limits<double>::infinity();
+            link.cost = allowed(both, size) ? both.cost(settings_.edge) - a.cost(settings_.edge) -
+                                                  b.cost(settings_.edge)
+                                            : std::numeric_limits<double>::infinity();
         });
-        std::vector<Partner> best(sets_.size());
-        for (std::size_t i = 0; i < links_.size(); ++i) {
-            if (costs[i] == std::numeric_limits<double>::infinity()) {
-                continue;
+        std::vector<std::uint32_t> best(sets_.size(), none);  // a link, then a partner
+        const auto offer = [&](std::uint32_t set, std::uint32_t link) {
+            if (best[set] == none || links_[link].better_than(links_[best[set]])) {
+                best[set] = link;
             }
-            const auto [a, b] = links_[i];
-            // Equal costs, as on a regular mesh, are told apart evenly.
-            const std::uint64_t tie = mix_bits(std::uint64_t{a} << 32U | b);
-            if (best[a].worse_than(costs[i], tie)) {
-                best[a] = {costs[i], tie, b};
+        };
+        for (std::uint32_t i = 0; i < links_.size(); ++i) {
+            if (links_[i].cost != std::numeric_limits<double>::infinity()) {
+                offer(links_[i].a, i);
+                offer(links_[i].b, i);
             }
-            if (best[b].worse_than(costs[i], tie)) {
-                best[b] = {costs[i], tie, a};
+        }
+        for (std::uint32_t set = 0; set < best.size(); ++set) {
+            if (best[set] != none) {
+                const Link& link = links_[best[set]];
+                best[set] = link.a == set ? link.b : link.a;
             }
         }
         return join_mutual(best);
     }
 
     /// Joins what is each other's partner. False where nothing is.
-    bool join_mutual(const std::vector<Partner>& best) {
+    bool join_mutual(const std::vector<std::uint32_t>& partner) {
         std::vector<std::uint32_t> next(sets_.size(), none);  // number of each set from now on
-        std::vector<FaceSet> sets;
-        sets.reserve(sets_.size());
-        bool any = false;
+        std::vector<bool> changed(sets_.size(), false);
+        std::uint32_t count = 0;
         for (std::uint32_t a = 0; a < sets_.size(); ++a) {
-            const std::uint32_t b = best[a].set;
-            const bool mutual = b != none && best[b].set == a;
+            const std::uint32_t b = partner[a];
+            const bool mutual = b != none && partner[b] == a;
             if (mutual && b < a) {
-                continue;  // it went with that one
+                next[a] = next[b];
+                continue;
             }
-            next[a] = static_cast<std::uint32_t>(sets.size());
-            sets.push_back(mutual ? joined(sets_[a], sets_[b]) : sets_[a]);
+            next[a] = count++;
             if (mutual) {
-                next[b] = next[a];
-                any = true;
+                sets_.join(a, b);
+                changed[a] = true;
+                changed[b] = true;
             }
         }
-        if (any) {
-            adopt(std::move(sets), next);
+        if (count == sets_.size()) {
+            return false;
         }
-        return any;
-    }
-
-    void adopt(std::vector<FaceSet> sets, const std::vector<std::uint32_t>& next) {
-        sets_ = std::move(sets);
+        sets_.compact(next);
         for (std::uint32_t& set : set_of_face_) {
             set = next[set];
         }
-        std::vector<Link> links;
-        links.reserve(links_.size());
-        for (const auto& [a, b] : links_) {
-            if (next[a] != next[b]) {
-                links.emplace_back(std::min(next[a], next[b]), std::max(next[a], next[b]));
+        renumber_links(next, changed);
+        return true;
+    }
+
+    /// Those between sets that have not changed stay in order, as these do.
+    void renumber_links(const std::vector<std::uint32_t>& next, const std::vector<bool>& changed) {
+        std::vector<Link> fresh;
+        std::size_t kept = 0;
+        for (const Link& link : links_) {
+            const std::uint32_t a = std::min(next[link.a], next[link.b]);
+            const std::uint32_t b = std::max(next[link.a], next[link.b]);
+            if (a == b) {
+                continue;
+            }
+            if (changed[link.a] || changed[link.b]) {
+                fresh.push_back({a, b});
+            } else {
+                links_[kept++] = {a, b, link.cost};
             }
         }
-        links_ = std::move(links);
-        tidy();
+        links_.resize(kept);
+        std::sort(fresh.begin(), fresh.end());
+        drop_doubles(fresh);
+        // From behind, into the room that they need.
+        links_.resize(kept + fresh.size());
+        for (std::size_t at = links_.size(); !fresh.empty();) {
+            const bool old = kept > 0 && fresh.back() < links_[kept - 1];
+            links_[--at] = old ? links_[kept - 1] : fresh.back();
+            kept -= old ? 1 : 0;
+            if (!old) {
+                fresh.pop_back();
+            }
+        }
     }
 
     /// Sets in the order of their first faces.
@@ -398,17 +387,17 @@ class Joining {
     }
 
     FaceSight sight_;
-    std::span<const JoinFace> faces_;
+    const JoinFaces& faces_;
     JoinSettings settings_;
-    glm::dvec3 origin_{0.0};
-    std::vector<FaceSet> sets_;
+    FaceSets sets_;
     std::vector<std::uint32_t> set_of_face_;
-    std::vector<Link> links_;
+    std::vector<Link> links_;  // sorted
+    double size_of_costs_ = 0.0;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> join_faces(const Scene& scene, std::span<const JoinFace> faces,
+std::vector<std::uint32_t> join_faces(const Scene& scene, const JoinFaces& faces,
                                       const JoinSettings& settings) {
     return Joining(scene, faces, settings).run();
 }
