@@ -13,6 +13,7 @@
 #include "scene/light/environment.h"
 #include "scene/material/specular_surface.h"
 #include "scene/mesh/triangle_irradiance.h"
+#include "scene/walk/embree_triangles.h"
 
 namespace raybundle {
 namespace {
@@ -89,17 +90,7 @@ struct NearField::Hierarchy {
 
     void attach(const Scene& source) const {
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* const points = static_cast<glm::vec3*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    sizeof(glm::vec3), 3 * triangles.size()));
-        auto* const indices = static_cast<glm::uvec3*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    sizeof(glm::uvec3), triangles.size()));
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            const auto corners = world_corners(source, source.triangles[triangles[i]]);
-            std::copy(corners.begin(), corners.end(), points + 3 * i);
-            indices[i] = static_cast<unsigned>(3 * i) + glm::uvec3(0, 1, 2);
-        }
+        set_triangles(geometry, source, triangles);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene.get(), geometry);
         rtcReleaseGeometry(geometry);
