@@ -134,15 +134,15 @@ class MeshBuilder {
         refinement_.reset();
         triangle_of_node_ = {};
         add_back_sides();
-        join();
-        add_notices();
         if (!cut_) {
             mesh_.coverage = {};
         }
+        shrink();
+        join();
+        add_notices();
         if (mesh_.triangles.empty()) {
             throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
         }
-        shrink();
         return std::move(mesh_);
     }
 

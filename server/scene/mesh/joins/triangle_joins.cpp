@@ -27,6 +27,7 @@ constexpr double smallest_size = 0x1p-10;
 constexpr double smallest_near = 0x1p-3;
 constexpr int most_levels = 12;  // each of sets twice as large
 constexpr unsigned grid_bits = 20;
+constexpr std::size_t most_apart = 262144;  // links to be sorted apart from the others
 constexpr std::uint32_t none = 0xffffffffU;
 
 /// Two sets that may join, the lower number first.
@@ -231,20 +232,24 @@ class Joining {
         const std::vector<Item> items = along_curve([&](std::uint32_t number, const FaceSet& set) {
             return 8U * std::uint64_t{sets_.kind(number)} + facing_of(set);
         });
-        std::vector<Link> found;
         constexpr std::size_t ahead = 4;
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            for (std::size_t k = i + 1; k < std::min(items.size(), i + 1 + ahead); ++k) {
-                if (items[k].group == items[i].group) {
-                    found.push_back({std::min(items[i].set, items[k].set),
-                                     std::max(items[i].set, items[k].set)});
+        constexpr std::size_t at_once = 65536;  // so that those that are in the way take no room
+        std::vector<Link> found;
+        for (std::size_t begin = 0; begin < items.size(); begin += at_once) {
+            found.clear();
+            for (std::size_t i = begin; i < std::min(items.size(), begin + at_once); ++i) {
+                for (std::size_t k = i + 1; k < std::min(items.size(), i + 1 + ahead); ++k) {
+                    if (items[k].group == items[i].group) {
+                        found.push_back({std::min(items[i].set, items[k].set),
+                                         std::max(items[i].set, items[k].set)});
+                    }
                 }
             }
+            keep(found, [this](const Link& link) {
+                return sight_.between(sets_.largest(link.a), sets_.largest(link.b));
+            });
+            links_.insert(links_.end(), found.begin(), found.end());
         }
-        keep(found, [this](const Link& link) {
-            return sight_.between(sets_.largest(link.a), sets_.largest(link.b));
-        });
-        links_.insert(links_.end(), found.begin(), found.end());
         std::sort(links_.begin(), links_.end());
         drop_doubles(links_);
     }
@@ -340,23 +345,40 @@ class Joining {
         return true;
     }
 
-    /// Those between sets that have not changed stay in order, as these do.
+    /// Those between sets that have not changed stay in order, as these do, and come first; the
+    /// others are sorted and merged into them.
     void renumber_links(const std::vector<std::uint32_t>& next, const std::vector<bool>& changed) {
         std::vector<Link> fresh;
         std::size_t kept = 0;
-        for (const Link& link : links_) {
-            const std::uint32_t a = std::min(next[link.a], next[link.b]);
-            const std::uint32_t b = std::max(next[link.a], next[link.b]);
-            if (a == b) {
+        bool in_place = false;
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            Link link = links_[i];
+            const bool stays = !changed[link.a] && !changed[link.b];
+            link = {std::min(next[link.a], next[link.b]), std::max(next[link.a], next[link.b]),
+                    stays ? link.cost : Link::unknown};
+            if (link.a == link.b) {
                 continue;
             }
-            if (changed[link.a] || changed[link.b]) {
-                fresh.push_back({a, b});
-            } else {
-                links_[kept++] = {a, b, link.cost};
+            if (stays || in_place) {
+                links_[kept++] = link;
+                continue;
+            }
+            fresh.push_back(link);
+            // Room for many would be as much as all links take: they are sorted where they are.
+            if (fresh.size() > most_apart) {
+                in_place = true;
+                std::copy(fresh.begin(), fresh.end(),
+                          links_.begin() + static_cast<std::ptrdiff_t>(kept));
+                kept += fresh.size();
+                fresh = {};
             }
         }
         links_.resize(kept);
+        if (in_place) {
+            std::sort(links_.begin(), links_.end());
+            drop_doubles(links_);
+            return;
+        }
         std::sort(fresh.begin(), fresh.end());
         drop_doubles(fresh);
         // From behind, into the room that they need.
