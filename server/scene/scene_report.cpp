@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
+#include <vector>
 
 namespace raybundle {
 namespace {
@@ -60,13 +60,18 @@ std::optional<std::string> unit_hint(const Bounds& bounds) {
 
 SceneReport make_scene_report(const Scene& scene, const PatchMesh& mesh) {
     SceneReport report;
-    std::unordered_set<std::uint32_t> referenced;
-    for (const Triangle& triangle : scene.triangles) {
-        referenced.insert(std::begin(triangle.vertex), std::end(triangle.vertex));
-        report.area += triangle_area(
-            scene, triangle, glm::dmat4(scene.objects[triangle.object].world_from_object()));
+    std::vector<bool> referenced(scene.vertices.size(), false);
+    std::vector<glm::dmat4> world;
+    for (const Object& object : scene.objects) {
+        world.emplace_back(object.world_from_object());
     }
-    report.referenced_vertices = referenced.size();
+    for (const Triangle& triangle : scene.triangles) {
+        for (const std::uint32_t vertex : triangle.vertex) {
+            report.referenced_vertices += referenced[vertex] ? 0 : 1;
+            referenced[vertex] = true;
+        }
+        report.area += triangle_area(scene, triangle, world[triangle.object]);
+    }
     for (const Material& material : scene.materials) {
         report.textured_materials += material.base_colour_texture.texture >= 0 ? 1 : 0;
         report.double_sided_materials += material.double_sided ? 1 : 0;

@@ -85,7 +85,6 @@ ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
                            std::uint64_t seed)
     : scene_(scene),
       positions_(mesh.positions),
-      triangles_(mesh.triangles),
       vertex_object_(mesh.vertex_object),
       triangle_material_(mesh.triangle_material),
       back_side_(mesh.back_side),
@@ -101,53 +100,47 @@ ExchangeRays::ExchangeRays(const Scene& scene, const PatchMesh& mesh,
         is_glass_.push_back(is_glass(scene.materials[i]));
         glass_.push_back(is_glass_.back() ? bundle_glass(scene, i) : BundleGlass{});
     }
+    build(mesh.triangles);
     areas_.resize(mesh.patch_count());
     for (std::uint32_t patch = 0; patch < areas_.size(); ++patch) {
         objects_.push_back(vertex_object_[triangles_[mesh.triangle_of(patch)].x]);
     }
-    build();
     place(world_from_object, diameter);
     choose_densities(mesh);
 }
 
 ExchangeRays::~ExchangeRays() = default;
 
-void ExchangeRays::build() {
+void ExchangeRays::build(std::span<const glm::uvec3> triangles) {
     rtcSetSceneFlags(rays_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC |
                                       RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     geometry_ = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    vertices_ = static_cast<glm::vec3*>(
+    auto* const vertices = static_cast<glm::vec3*>(
         rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(glm::vec3), 3 * triangles_.size()));
-    auto* indices = static_cast<glm::uvec3*>(
+                                sizeof(glm::vec3), positions_.size()));
+    auto* const indices = static_cast<glm::uvec3*>(
         rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(glm::uvec3), triangles_.size()));
-    if (vertices_ == nullptr || indices == nullptr) {
+                                sizeof(glm::uvec3), triangles.size()));
+    if (vertices == nullptr || indices == nullptr) {
         throw std::runtime_error("rays between surfaces: out of memory");
     }
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-        indices[i] = 3 * i + glm::uvec3(0, 1, 2);
-    }
+    std::copy(triangles.begin(), triangles.end(), indices);
+    vertices_ = {vertices, positions_.size()};
+    triangles_ = {indices, triangles.size()};
     rtcAttachGeometry(rays_.get(), geometry_);
     rtcReleaseGeometry(geometry_);
 }
 
 ExchangeRays::Corners ExchangeRays::corners_of(std::size_t triangle) const {
     const glm::uvec3& t = triangles_[triangle];
-    const glm::mat4& world = world_from_object_[vertex_object_[t.x]];
-    const auto corner = [&](std::uint32_t vertex) {
-        return glm::vec3(world * glm::vec4(positions_[vertex], 1.0F));
-    };
-    return {corner(t.x), corner(t.y), corner(t.z)};
+    return {vertices_[t.x], vertices_[t.y], vertices_[t.z]};
 }
 
 void ExchangeRays::place(std::span<const glm::mat4> world_from_object, float diameter) {
     world_from_object_.assign(world_from_object.begin(), world_from_object.end());
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        const Corners at = corners_of(i);
-        vertices_[3 * i] = at.a;
-        vertices_[3 * i + 1] = at.b;
-        vertices_[3 * i + 2] = at.c;
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        const glm::mat4& world = world_from_object_[vertex_object_[i]];
+        vertices_[i] = glm::vec3(world * glm::vec4(positions_[i], 1.0F));
     }
     diameter_ = diameter;
     lift_ = lift_share * diameter;

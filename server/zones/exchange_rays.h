@@ -97,11 +97,10 @@ class ExchangeRays {
     [[nodiscard]] std::uint32_t front_beside(const RTCRayHit& back) const;
     [[nodiscard]] double left_by_air(const RTCRayHit& hit, bool met) const;
     static void reject_backs(const RTCFilterFunctionNArguments* arguments);
-    void build();
+    void build(std::span<const glm::uvec3> triangles);
 
     const Scene& scene_;
     std::vector<glm::vec3> positions_;  // object space
-    std::vector<glm::uvec3> triangles_;
     std::vector<std::uint32_t> vertex_object_, triangle_material_, back_side_, side_triangle_;
     PatchSets sets_;  // sides of every patch
     std::vector<float> coverage_;
@@ -119,7 +118,8 @@ class ExchangeRays {
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;
     std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> rays_;
     RTCGeometryTy* geometry_ = nullptr;
-    glm::vec3* vertices_ = nullptr;  // of the geometry, three a triangle
+    std::span<glm::vec3> vertices_;          // of the geometry, world space
+    std::span<const glm::uvec3> triangles_;  // likewise, their vertices
 };
 
 }  // namespace raybundle

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 
 #include "scene/triangle_corners.h"
 #include "zones/exchange_rays.h"
@@ -14,13 +15,19 @@ namespace raybundle {
 
 namespace {
 
+struct Triangles {
+    std::span<const glm::vec3> vertices;
+    std::span<const glm::uvec3> triangles;
+};
+
 bool look_at_triangle(RTCPointQueryFunctionArguments* arguments) {
-    const auto* corners =
-        static_cast<const glm::vec3*>(arguments->userPtr) + 3 * std::size_t{arguments->primID};
+    const auto& [vertices, triangles] = *static_cast<const Triangles*>(arguments->userPtr);
+    const glm::uvec3& corners = triangles[arguments->primID];
     RTCPointQuery& query = *arguments->query;
     const glm::vec3 point(query.x, query.y, query.z);
-    const float distance =
-        glm::distance(point, nearest_point({corners[0], corners[1], corners[2]}, point));
+    const float distance = glm::distance(
+        point,
+        nearest_point({vertices[corners.x], vertices[corners.y], vertices[corners.z]}, point));
     if (distance >= query.radius) {
         return false;
     }
@@ -53,6 +60,7 @@ std::optional<glm::vec3> ExchangeRays::last_narrow_place(const ExchangeRay& ray)
     constexpr int max_steps = 128;
     constexpr float shortest_step = 0.02F;  // of the way from the origin
     constexpr float narrow = 0.8F;          // of the room before
+    Triangles surfaces{vertices_, triangles_};
     float way = 64.0F * lift_;
     float bound = 1e30F;  // no surface is farther
     float widest = 0.0F;
@@ -64,7 +72,7 @@ std::optional<glm::vec3> ExchangeRays::last_narrow_place(const ExchangeRay& ray)
         RTCPointQuery query{point.x, point.y, point.z, 0.0F, bound};
         RTCPointQueryContext context;
         rtcInitPointQueryContext(&context);
-        rtcPointQuery(rays_.get(), &query, &context, look_at_triangle, vertices_);
+        rtcPointQuery(rays_.get(), &query, &context, look_at_triangle, &surfaces);
         const float clear = query.radius;
         if (clear > widest) {
             found = narrowest < narrow * widest ? at : found;

@@ -7,16 +7,16 @@ namespace raybundle {
 
 namespace {
 
-bool is_leaf(const EdgeRefinement::Node& node) {
-    return node.first_child == EdgeRefinement::Node::no_children;
+bool is_leaf(const BisectionNode& node) {
+    return node.first_child == BisectionNode::no_children;
 }
 
 }  // namespace
 
 // Bisection halves areas, so that the depth, and with it the recursion, is bounded by the patch
 // limit: every level of it doubles the triangles.
-FacetNode pack_facet(const std::vector<EdgeRefinement::Node>& nodes, std::uint32_t root,
-                     const std::vector<std::uint32_t>& triangle_of_node,
+FacetNode pack_facet(std::span<const BisectionNode> nodes, std::uint32_t root,
+                     std::span<const std::uint32_t> triangle_of_node,
                      std::vector<FacetNode>& tree) {
     if (is_leaf(nodes[root])) {
         return FacetNode::leaf(triangle_of_node[root]);
@@ -26,7 +26,7 @@ FacetNode pack_facet(const std::vector<EdgeRefinement::Node>& nodes, std::uint32
     heap[0] = root;
     FacetNode packed{0, static_cast<std::uint32_t>(tree.size())};
     for (std::uint32_t i = 0; i < FacetNode::bisections; ++i) {
-        const EdgeRefinement::Node& node = nodes[heap[i]];
+        const BisectionNode& node = nodes[heap[i]];
         const std::uint32_t edge = is_leaf(node) ? FacetNode::stop : node.split_edge;
         packed.code |= edge << (2 * i);
         heap[2 * i + 1] = is_leaf(node) ? heap[i] : node.first_child;

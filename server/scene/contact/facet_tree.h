@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "scene/mesh/edge_refinement.h"
+#include "scene/mesh/bisection_node.h"
 
 namespace raybundle {
 
@@ -13,7 +14,7 @@ namespace raybundle {
 /// is triangle_at() in shaders/scene/facets.glsl.
 ///
 /// An inner node has bits 2i, 2i+1 of `code` for its bisections i = 0 (root), 1, 2 (its children),
-/// 3..6 (theirs): the edge that is split (see EdgeRefinement::Node), or `stop` where that triangle
+/// 3..6 (theirs): the edge that is split (see BisectionNode), or `stop` where that triangle
 /// is whole. A walk leaves it at one of eight exits: facet_tree[first + exit], the bits of the exit
 /// being the choices, most significant first, 0 after a stop. A leaf has bit 31 of `code`, and
 /// `first` is the triangle.
@@ -31,8 +32,7 @@ struct FacetNode {
 
 /// Packs the bisections below `root` into `tree` and returns the facet's own node.
 /// triangle_of_node: triangle of every leaf of `nodes`.
-FacetNode pack_facet(const std::vector<EdgeRefinement::Node>& nodes, std::uint32_t root,
-                     const std::vector<std::uint32_t>& triangle_of_node,
-                     std::vector<FacetNode>& tree);
+FacetNode pack_facet(std::span<const BisectionNode> nodes, std::uint32_t root,
+                     std::span<const std::uint32_t> triangle_of_node, std::vector<FacetNode>& tree);
 
 }  // namespace raybundle

@@ -13,6 +13,7 @@
 #include "scene/light/environment.h"
 #include "scene/material/specular_surface.h"
 #include "scene/mesh/triangle_irradiance.h"
+#include "scene/walk/embree_triangles.h"
 
 namespace raybundle {
 namespace {
@@ -25,15 +26,26 @@ constexpr std::size_t most_lamps = 24;   // the strongest
 constexpr int rays = 16;                 // over a hemisphere
 constexpr double offset_share = 1e-6;    // of the scene's extent
 
-/// Ray i of so many over the hemisphere about a unit normal, their density as the cosine.
+/// Of so many rays over the hemisphere, their density as the cosine: cosine and sine of the angle
+/// about the normal, and the squared sine of that from it.
+std::array<glm::dvec3, rays> make_hemisphere() {
+    std::array<glm::dvec3, rays> directions{};
+    for (int i = 0; i < rays; ++i) {
+        const double sine_squared = (i + 0.5) / rays;
+        const double angle = 2.0 * pi * std::fmod(i * golden, 1.0);
+        directions[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle), sine_squared};
+    }
+    return directions;
+}
+
+/// Ray i of them about a unit normal.
 glm::dvec3 hemisphere_ray(const glm::dvec3& normal, int i) {
+    static const std::array<glm::dvec3, rays> directions = make_hemisphere();
     const glm::dvec3 axis = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 tangent = glm::normalize(glm::cross(axis, normal));
-    const double sine_squared = (i + 0.5) / rays;
-    const double angle = 2.0 * pi * std::fmod(i * golden, 1.0);
-    return std::sqrt(sine_squared) *
-               (std::cos(angle) * tangent + std::sin(angle) * glm::cross(normal, tangent)) +
-           std::sqrt(1.0 - sine_squared) * normal;
+    const glm::dvec3& ray = directions[static_cast<std::size_t>(i)];
+    return std::sqrt(ray.z) * (ray.x * tangent + ray.y * glm::cross(normal, tangent)) +
+           std::sqrt(1.0 - ray.z) * normal;
 }
 
 RTCRay ray_from(const glm::dvec3& origin, const glm::dvec3& direction, double far) {
@@ -89,17 +101,7 @@ struct NearField::Hierarchy {
 
     void attach(const Scene& source) const {
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* const points = static_cast<glm::vec3*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    sizeof(glm::vec3), 3 * triangles.size()));
-        auto* const indices = static_cast<glm::uvec3*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    sizeof(glm::uvec3), triangles.size()));
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            const auto corners = world_corners(source, source.triangles[triangles[i]]);
-            std::copy(corners.begin(), corners.end(), points + 3 * i);
-            indices[i] = static_cast<unsigned>(3 * i) + glm::uvec3(0, 1, 2);
-        }
+        set_triangles(geometry, source, triangles);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene.get(), geometry);
         rtcReleaseGeometry(geometry);
@@ -298,8 +300,8 @@ double NearField::from_sky(const Place& place, bool shadows) const {
     return sum;
 }
 
-double NearField::illuminance(const Place& place, bool shadows) const {
-    return from_emitters(place, shadows) + from_punctual(place, shadows) + from_sky(place, shadows);
+double NearField::illuminance(const Place& place) const {
+    return from_emitters(place, true) + from_punctual(place, true) + from_sky(place, true);
 }
 
 /// Share of the light that a Lambert surface sends which others reflect that are so close.
@@ -327,10 +329,12 @@ double NearField::misplaced_on_side(const Corners& corners, const glm::dvec3& no
     // The face may reach into a slot whose light or depth its middle does not see.
     constexpr int count = 4;
     std::array<Place, count> places;
-    double brightest = 0.0;  // lx, without shadows
+    const double sky = from_sky({middle, normal}, false);  // the same everywhere on the face
+    double brightest = 0.0;                                // lx, without shadows
     for (std::size_t k = 0; k < count; ++k) {
         places[k] = {k < 3 ? glm::mix(middle, corners[k], 0.75) : middle, normal};
-        brightest = std::max(brightest, illuminance(places[k], false));
+        brightest = std::max(
+            brightest, from_emitters(places[k], false) + from_punctual(places[k], false) + sky);
     }
     // A standard deviation is at most half of the largest value.
     if (reflecting_area * brightest < least) {

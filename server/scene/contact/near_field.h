@@ -71,7 +71,7 @@ class NearField {
     [[nodiscard]] double from_punctual(const Place& place, bool shadows) const;
     [[nodiscard]] double from_sky(const Place& place, bool shadows) const;
     /// Direct illuminance, lx.
-    [[nodiscard]] double illuminance(const Place& place, bool shadows = true) const;
+    [[nodiscard]] double illuminance(const Place& place) const;
     [[nodiscard]] double reflected_within(const Place& place, double distance) const;
     [[nodiscard]] double misplaced_on_side(const Corners& corners, const glm::dvec3& normal,
                                            double area, double least) const;

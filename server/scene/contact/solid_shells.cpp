@@ -5,14 +5,16 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <iterator>
 #include <numeric>
 #include <span>
-#include <unordered_map>
+#include <tuple>
 #include <vector>
 
 #include "scene/contact/box_tree.h"
 #include "scene/contact/point_index.h"
 #include "scene/contact/world_triangle.h"
+#include "scene/disjoint_sets.h"
 #include "scene/material/specular_surface.h"
 
 namespace raybundle {
@@ -32,37 +34,15 @@ struct Shell {
     bool double_sided = false;
 };
 
-class Groups {
-  public:
-    explicit Groups(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t of(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    /// The one with the lower number names both.
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = of(a);
-        b = of(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
 bool is_opaque(const Material& material) {
     return material.alpha_mode == AlphaMode::opaque && !is_glass(material) && !transmits(material);
 }
 
-/// How often an edge is gone along, each way.
+/// A triangle's edge, and whether it goes from the point with the lower number to the other.
 struct EdgeUse {
-    std::uint32_t first_triangle = 0;
-    std::array<std::uint32_t, 2> ways{};
+    std::uint64_t edge = 0;  // numbers of its points, the lower first
+    std::uint32_t triangle = 0;
+    bool upwards = false;
 };
 
 class ShellSearch {
@@ -217,21 +197,12 @@ class ShellSearch {
     /// Joins triangles at their edges, and notes those that are not in a closed surface.
     void find_edges() {
         PointIndex points;
-        std::unordered_map<std::uint64_t, EdgeUse> edges;
-        edges.reserve(scene_.triangles.size() * 3 / 2);
+        std::vector<EdgeUse> uses;  // of one object
         std::uint32_t object = 0;
-        const auto finish_object = [&] {
-            for (const auto& [key, use] : edges) {
-                if (use.ways != std::array<std::uint32_t, 2>{1, 1}) {
-                    open_.push_back(use.first_triangle);
-                }
-            }
-            edges.clear();
-        };
         for (const std::uint32_t t : by_object()) {
             const Triangle& triangle = scene_.triangles[t];
             if (triangle.object != object) {
-                finish_object();
+                join_at_edges(uses);
                 object = triangle.object;
                 points = PointIndex();
             }
@@ -241,13 +212,29 @@ class ShellSearch {
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % 3]);
-                const auto [it, inserted] =
-                    edges.try_emplace(std::uint64_t{low} << 32U | high, EdgeUse{t, {}});
-                ++it->second.ways[low == ids[k] ? 0 : 1];
-                groups_.join(t, it->second.first_triangle);
+                uses.push_back({std::uint64_t{low} << 32U | high, t, low == ids[k]});
             }
         }
-        finish_object();
+        join_at_edges(uses);
+    }
+
+    void join_at_edges(std::vector<EdgeUse>& uses) {
+        std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+            return std::tie(a.edge, a.triangle, a.upwards) <
+                   std::tie(b.edge, b.triangle, b.upwards);
+        });
+        for (auto first = uses.begin(); first != uses.end();) {
+            const auto end = std::find_if(
+                first, uses.end(), [&](const EdgeUse& use) { return use.edge != first->edge; });
+            for (auto use = first; use != end; ++use) {
+                groups_.join(use->triangle, first->triangle);
+            }
+            if (end - first != 2 || first->upwards == std::next(first)->upwards) {
+                open_.push_back(first->triangle);
+            }
+            first = end;
+        }
+        uses.clear();
     }
 
     [[nodiscard]] std::vector<std::uint32_t> by_object() const {
@@ -263,7 +250,7 @@ class ShellSearch {
         constexpr std::uint32_t none = 0xffffffffU;
         std::vector<std::uint32_t> shell_of(scene_.triangles.size(), none);
         for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
-            std::uint32_t& number = shell_of[groups_.of(t)];
+            std::uint32_t& number = shell_of[groups_.find(t)];
             if (number == none) {
                 number = static_cast<std::uint32_t>(shells_.size());
                 shells_.emplace_back();
@@ -279,7 +266,7 @@ class ShellSearch {
             }
         }
         for (const std::uint32_t t : open_) {
-            shells_[shell_of[groups_.of(t)]].closed = false;
+            shells_[shell_of[groups_.find(t)]].closed = false;
         }
     }
 
@@ -379,7 +366,7 @@ class ShellSearch {
     }
 
     const Scene& scene_;
-    Groups groups_;
+    DisjointSets groups_;
     std::vector<std::uint32_t> placed_;  // lights that are somewhere
     BoxTree lamp_places_;                // of these
     std::vector<Shell> shells_;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <map>
-#include <numeric>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 
 #include "scene/gltf/gltf_loader.h"
@@ -24,62 +24,122 @@ constexpr double widest_of_metals = 0.866;
 constexpr double widest_of_others = 0.17;
 constexpr float metal = 0.5F;  // metalness from which on a surface is one
 
-struct CornerHash {
-    std::size_t operator()(const EdgeRefinement::Corner& c) const {
+/// Welds corners that are equal in place and shading to vertices of a mesh, numbered in the order
+/// of their first use. A hash table of nothing but vertex numbers, open addressing.
+class VertexWeld {
+  public:
+    VertexWeld(const EdgeRefinement& refinement, PatchMesh& mesh)
+        : refinement_(refinement),
+          mesh_(mesh),
+          slots_(std::bit_ceil(refinement.points().size() * 3 / 2 + 2), none) {}
+
+    std::uint32_t vertex_of(const EdgeRefinement::Corner& corner, std::uint32_t object) {
+        if (4 * (points_.size() + 1) > 3 * slots_.size()) {
+            grow();
+        }
+        const EdgeRefinement::Shading shading = refinement_.shading(corner.shading);
+        std::uint32_t& slot = slot_of(corner.point, shading);
+        if (slot == none) {
+            slot = static_cast<std::uint32_t>(points_.size());
+            points_.push_back(corner.point);
+            mesh_.positions.push_back(refinement_.points()[corner.point]);
+            mesh_.normals.push_back(shading.normal);
+            mesh_.uvs.push_back(shading.uv);
+            mesh_.vertex_object.push_back(object);
+            add_colour(shading.colour);
+        }
+        return slot;
+    }
+
+    /// Point of each vertex; takes them out.
+    std::vector<std::uint32_t> take_points() { return std::move(points_); }
+
+  private:
+    static constexpr std::uint32_t none = 0xffffffffU;
+
+    static std::uint64_t hash(std::uint32_t point, const EdgeRefinement::Shading& c) {
         const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
         std::uint64_t hash = mix_bits(bits(c.normal.x) << 32U | bits(c.normal.y));
         hash = mix_bits(hash ^ (bits(c.uv.x) << 32U | bits(c.uv.y)));
         hash = mix_bits(hash ^ (bits(c.colour.x) << 32U | (bits(c.colour.y) ^ bits(c.colour.z))));
-        return mix_bits(hash ^ (bits(c.normal.z) << 32U | c.point));
+        return mix_bits(hash ^ (bits(c.normal.z) << 32U | point));
     }
-};
+    [[nodiscard]] EdgeRefinement::Shading shading_of(std::uint32_t vertex) const {
+        return {mesh_.normals[vertex], mesh_.uvs[vertex],
+                mesh_.colours.empty() ? glm::vec3(1.0F) : mesh_.colours[vertex]};
+    }
+    std::uint32_t& slot_of(std::uint32_t point, const EdgeRefinement::Shading& shading) {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = hash(point, shading) & mask;
+        while (slots_[at] != none &&
+               (points_[slots_[at]] != point || shading_of(slots_[at]) != shading)) {
+            at = (at + 1) & mask;
+        }
+        return slots_[at];
+    }
+    void grow() {
+        slots_.assign(2 * slots_.size(), none);
+        for (std::uint32_t vertex = 0; vertex < points_.size(); ++vertex) {
+            slot_of(points_[vertex], shading_of(vertex)) = vertex;
+        }
+    }
+    /// No colours are kept as long as all are white.
+    void add_colour(const glm::vec3& colour) {
+        if (mesh_.colours.empty() && colour == glm::vec3(1.0F)) {
+            return;
+        }
+        mesh_.colours.resize(points_.size() - 1, glm::vec3(1.0F));
+        mesh_.colours.push_back(colour);
+    }
 
-struct CornerEqual {
-    bool operator()(const EdgeRefinement::Corner& a, const EdgeRefinement::Corner& b) const {
-        return a.point == b.point && a.normal == b.normal && a.uv == b.uv && a.colour == b.colour;
-    }
+    const EdgeRefinement& refinement_;
+    PatchMesh& mesh_;
+    std::vector<std::uint32_t> slots_;   // a power of two
+    std::vector<std::uint32_t> points_;  // by vertex
 };
 
 /// Fills a PatchMesh from refined triangles: welds corners to vertices, adds patches.
 class MeshBuilder {
   public:
-    MeshBuilder(Scene& scene, const EdgeRefinement& refinement, const JoinSettings& join)
+    MeshBuilder(Scene& scene, EdgeRefinement refinement, const JoinSettings& join)
         : scene_(scene),
-          refinement_(refinement),
+          refinement_(std::move(refinement)),
           join_(join),
           painter_(scene),
-          triangle_of_node_(refinement.nodes().size(), PatchMesh::no_patch) {
-        vertices_.reserve(refinement.points().size() * 2);
+          triangle_of_node_(refinement_->nodes().size(), PatchMesh::no_patch),
+          faces_(scene, mesh_) {
+        weld_.emplace(*refinement_, mesh_);
     }
 
     PatchMesh build() {
-        for (const EdgeRefinement::RefinedTriangle& triangle : refinement_.triangles()) {
-            const PatchColour colour = painter_.colour_of(triangle);
+        reserve();
+        for (const EdgeRefinement::RefinedTriangle& triangle : refinement_->triangles()) {
+            const PatchColour colour = colour_of(triangle);
             if (colour.coverage > 0.0F) {
                 triangle_of_node_[triangle.node] =
                     static_cast<std::uint32_t>(mesh_.triangles.size());
                 if (triangle.small) {
-                    small_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
-                    faces_.push_back(face_of(triangle, colour));
+                    faces_.add(static_cast<std::uint32_t>(mesh_.triangles.size()),
+                               kind_of(triangle, colour));
                 }
                 add_triangle(triangle, colour);
             } else {
                 ++invisible_;
             }
         }
+        refinement_->drop_triangles();
         add_facets();
+        faces_.set_points(weld_->take_points());
+        weld_.reset();
+        refinement_.reset();
+        triangle_of_node_ = {};
         add_back_sides();
+        if (!cut_) {
+            mesh_.coverage = {};
+        }
+        shrink();
         join();
         add_notices();
-        if (!cut_) {
-            mesh_.coverage.clear();
-        }
-        if (!coloured_) {
-            mesh_.colours.clear();
-        }
-        if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_reflectance_grid)) {
-            mesh_.metallic_roughness.clear();
-        }
         if (mesh_.triangles.empty()) {
             throw SceneError(scene_.path, "", "everything in the scene is cut away by alpha MASK");
         }
@@ -87,28 +147,69 @@ class MeshBuilder {
     }
 
   private:
-    void add_triangle(const EdgeRefinement::RefinedTriangle& triangle, const PatchColour& colour) {
-        glm::uvec3 corners;
-        for (int k = 0; k < 3; ++k) {
-            corners[k] = vertex_of(triangle.corners[static_cast<std::size_t>(k)], triangle.object);
+    /// For as many triangles and sides as there may be.
+    void reserve() {
+        const std::size_t triangles = refinement_->triangles().size();
+        const std::size_t sides = refinement_->patch_count();
+        mesh_.triangles.reserve(triangles);
+        mesh_.triangle_material.reserve(triangles);
+        two_sided_.reserve(triangles);
+        mesh_.side_triangle.reserve(sides);
+        mesh_.base_colour.reserve(sides);
+        mesh_.emission.reserve(sides);
+        mesh_.coverage.reserve(sides);
+        if (std::any_of(scene_.materials.begin(), scene_.materials.end(), has_reflectance_grid)) {
+            varied_ = true;
+            mesh_.metallic_roughness.reserve(triangles);
         }
+        const std::size_t facets = refinement_->unrefined().size();
+        mesh_.facets.reserve(facets);
+        mesh_.facet_material.reserve(facets);
+        mesh_.facet_roots.reserve(facets);
+    }
+
+    /// Of vertices, whose number is not known before, and facets.
+    void shrink() {
+        mesh_.positions.shrink_to_fit();
+        mesh_.normals.shrink_to_fit();
+        mesh_.uvs.shrink_to_fit();
+        mesh_.colours.shrink_to_fit();
+        mesh_.vertex_object.shrink_to_fit();
+        mesh_.facet_tree.shrink_to_fit();
+    }
+
+    PatchColour colour_of(const EdgeRefinement::RefinedTriangle& triangle) {
+        const auto& [a, b, c] = triangle.corners;
+        return painter_.colour_of(triangle.material,
+                                  {refinement_->shading(a.shading), refinement_->shading(b.shading),
+                                   refinement_->shading(c.shading)});
+    }
+
+    void add_triangle(const EdgeRefinement::RefinedTriangle& triangle, const PatchColour& colour) {
         mesh_.side_triangle.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
-        mesh_.triangles.push_back(corners);
+        mesh_.triangles.push_back(vertices_of(triangle));
         mesh_.triangle_material.push_back(triangle.material);
         two_sided_.push_back(triangle.two_sided);
         mesh_.base_colour.push_back(colour.base_colour);
         mesh_.emission.push_back(colour.emission);
         mesh_.coverage.push_back(colour.coverage);
-        mesh_.metallic_roughness.push_back(colour.metallic_roughness);
+        if (varied_) {
+            mesh_.metallic_roughness.push_back(colour.metallic_roughness);
+        }
         cut_ = cut_ || colour.coverage < 1.0F;
     }
 
-    JoinFace face_of(const EdgeRefinement::RefinedTriangle& triangle, const PatchColour& colour) {
-        JoinFace face;
-        face.corners = refinement_.world_corners(triangle);
-        for (std::size_t k = 0; k < 3; ++k) {
-            face.points[k] = triangle.corners[k].point;
+    glm::uvec3 vertices_of(const EdgeRefinement::RefinedTriangle& triangle) {
+        glm::uvec3 vertices;
+        for (int k = 0; k < 3; ++k) {
+            vertices[k] =
+                weld_->vertex_of(triangle.corners[static_cast<std::size_t>(k)], triangle.object);
         }
+        return vertices;
+    }
+
+    std::uint32_t kind_of(const EdgeRefinement::RefinedTriangle& triangle,
+                          const PatchColour& colour) {
         const glm::vec3& light = colour.emission;
         const Kind kind{triangle.object,
                         triangle.material,
@@ -116,16 +217,23 @@ class MeshBuilder {
                         std::bit_cast<std::uint32_t>(light.r),
                         std::bit_cast<std::uint32_t>(light.g),
                         std::bit_cast<std::uint32_t>(light.b)};
-        const auto number_of = [this](const Kind& of) {
-            return kinds_.try_emplace(of, static_cast<std::uint32_t>(kinds_.size())).first->second;
-        };
-        face.kind = number_of(kind);
-        face.rough_kind = number_of({kind[0], kind[1], kind[2], 0U, 0U, 0U});
-        face.colour = colour.base_colour;
-        face.widest = scene_.materials[triangle.material].metallic >= metal ? widest_of_metals
-                                                                            : widest_of_others;
-        face.two_sided = triangle.two_sided;
-        return face;
+        const auto known = kinds_.find(kind);
+        if (known != kinds_.end()) {
+            return known->second;
+        }
+        const auto number = static_cast<std::uint32_t>(kinds_.size());
+        kinds_.emplace(kind, number);
+        const Kind without{kind[0], kind[1], kind[2], 0U, 0U, 0U};
+        const auto [rough, inserted] =
+            kinds_.try_emplace(without, static_cast<std::uint32_t>(kinds_.size()));
+        const float metallic = scene_.materials[triangle.material].metallic;
+        const double widest = metallic >= metal ? widest_of_metals : widest_of_others;
+        JoinKind join_kind{rough->second, std::acos(widest), triangle.two_sided};
+        faces_.add_kind(join_kind);
+        if (inserted) {
+            faces_.add_kind(join_kind);
+        }
+        return number;
     }
 
     /// Joins small triangles, and makes patches of what is together.
@@ -140,46 +248,27 @@ class MeshBuilder {
             settings.wanted_sides -= std::min(settings.wanted_sides - 1, others);
         }
         const std::vector<std::uint32_t> sets = join_faces(scene_, faces_, settings);
-        mesh_.patch_sets = make_patch_sets(mesh_, small_, sets);
+        mesh_.patch_sets = make_patch_sets(mesh_, faces_.triangles(), sets);
     }
 
     [[nodiscard]] std::size_t sides_of_faces() const {
-        return static_cast<std::size_t>(std::accumulate(faces_.begin(), faces_.end(),
-                                                        std::size_t{0},
-                                                        [](std::size_t sum, const JoinFace& face) {
-                                                            return sum + (face.two_sided ? 2U : 1U);
-                                                        }));
-    }
-
-    std::uint32_t vertex_of(const EdgeRefinement::Corner& corner, std::uint32_t object) {
-        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
-        const auto [it, inserted] = vertices_.try_emplace(corner, next);
-        if (inserted) {
-            mesh_.positions.push_back(refinement_.points()[corner.point]);
-            mesh_.normals.push_back(corner.normal);
-            mesh_.uvs.push_back(corner.uv);
-            mesh_.colours.push_back(corner.colour);
-            coloured_ = coloured_ || corner.colour != glm::vec3(1.0F);
-            mesh_.vertex_object.push_back(object);
+        std::size_t sides = 0;
+        for (std::uint32_t face = 0; face < faces_.size(); ++face) {
+            sides += faces_.sides_of(face);
         }
-        return it->second;
+        return sides;
     }
 
     /// The scene's triangles; in the place of one that alpha MASK has cut holes into, what is left.
     void add_facets() {
-        for (const EdgeRefinement::RefinedTriangle& whole : refinement_.unrefined()) {
+        for (const EdgeRefinement::RefinedTriangle& whole : refinement_->unrefined()) {
             const std::vector<std::uint32_t> pieces = triangles_below(whole.node);
             const bool complete =
                 std::find(pieces.begin(), pieces.end(), PatchMesh::no_patch) == pieces.end();
             if (complete) {
-                glm::uvec3 corners;
-                for (int k = 0; k < 3; ++k) {
-                    corners[k] =
-                        vertex_of(whole.corners[static_cast<std::size_t>(k)], whole.object);
-                }
-                mesh_.facets.push_back(corners);
+                mesh_.facets.push_back(vertices_of(whole));
                 mesh_.facet_material.push_back(whole.material);
-                mesh_.facet_roots.push_back(pack_facet(refinement_.nodes(), whole.node,
+                mesh_.facet_roots.push_back(pack_facet(refinement_->nodes(), whole.node,
                                                        triangle_of_node_, mesh_.facet_tree));
                 continue;
             }
@@ -200,7 +289,7 @@ class MeshBuilder {
         while (!pending.empty()) {
             const std::uint32_t at = pending.back();
             pending.pop_back();
-            const EdgeRefinement::Node& node = refinement_.nodes()[at];
+            const EdgeRefinement::Node& node = refinement_->nodes()[at];
             if (node.first_child == EdgeRefinement::Node::no_children) {
                 triangles.push_back(triangle_of_node_[at]);
             } else {
@@ -237,26 +326,25 @@ class MeshBuilder {
     }
 
     Scene& scene_;
-    const EdgeRefinement& refinement_;
+    std::optional<EdgeRefinement> refinement_;
     const JoinSettings& join_;
     PatchPainter painter_;
     std::vector<std::uint32_t> triangle_of_node_;  // no_patch: cut away, or split
     PatchMesh mesh_;
+    std::optional<VertexWeld> weld_;
     std::vector<bool> two_sided_;  // by the mesh's triangle
-    bool coloured_ = false;        // some vertex is not white
     bool cut_ = false;             // alpha MASK has left less than the whole of some patch
-    std::unordered_map<EdgeRefinement::Corner, std::uint32_t, CornerHash, CornerEqual> vertices_;
+    bool varied_ = false;          // metalness and roughness are kept by triangle
     std::size_t invisible_ = 0;
-    std::vector<JoinFace> faces_;               // small triangles
-    std::vector<std::uint32_t> small_;          // their numbers in the mesh
+    JoinFaces faces_;                           // small triangles
     using Kind = std::array<std::uint32_t, 6>;  // object, material, sides, emission (bits)
     std::map<Kind, std::uint32_t> kinds_;
 };
 
 }  // namespace
 
-PatchMesh build_mesh(Scene& scene, const EdgeRefinement& refinement, const JoinSettings& join) {
-    return MeshBuilder(scene, refinement, join).build();
+PatchMesh build_mesh(Scene& scene, EdgeRefinement refinement, const JoinSettings& join) {
+    return MeshBuilder(scene, std::move(refinement), join).build();
 }
 
 }  // namespace raybundle

@@ -82,10 +82,9 @@ struct TessellationSettings {
 
 /// Splits longest edges until none is longer than the target edge (in world space, at the objects'
 /// initial transforms), and further where direct light changes beside other surfaces, without
-/// T-junctions inside a mesh; joins what is smaller (scene/mesh/triangle_joins.h); welds; averages
-/// textures over patches.
-/// Appends to scene.notices what it did to odd input. Deterministic. Throws SceneError if too
-/// large.
+/// T-junctions inside a mesh; joins what is smaller (scene/mesh/joins/triangle_joins.h); welds;
+/// averages textures over patches. Appends to scene.notices what it did to odd input.
+/// Deterministic. Throws SceneError if too large.
 PatchMesh tessellate(Scene& scene, const TessellationSettings& settings = {});
 
 }  // namespace raybundle

@@ -22,22 +22,21 @@ class PatchPainter {
           constant_(scene.materials.size()),
           clamped_(scene.materials.size(), false) {}
 
-    PatchColour colour_of(const EdgeRefinement::RefinedTriangle& triangle) {
-        const Material& material = scene_.materials[triangle.material];
-        const std::array<glm::vec2, 3> uv = {triangle.corners[0].uv, triangle.corners[1].uv,
-                                             triangle.corners[2].uv};
-        const glm::vec3 factor =
-            (triangle.corners[0].colour + triangle.corners[1].colour + triangle.corners[2].colour) /
-            3.0F;
+    /// Of a triangle with these corners.
+    PatchColour colour_of(std::uint32_t number,
+                          const std::array<EdgeRefinement::Shading, 3>& corners) {
+        const Material& material = scene_.materials[number];
+        const std::array<glm::vec2, 3> uv = {corners[0].uv, corners[1].uv, corners[2].uv};
+        const glm::vec3 factor = (corners[0].colour + corners[1].colour + corners[2].colour) / 3.0F;
         if (varies_by_texture(material) || factor != glm::vec3(1.0F)) {
             const PatchColour colour = patch_colour(scene_, material, uv, factor);
-            clamped_[triangle.material] = clamped_[triangle.material] || colour.was_clamped;
+            clamped_[number] = clamped_[number] || colour.was_clamped;
             return colour;
         }
-        std::optional<PatchColour>& known = constant_[triangle.material];
+        std::optional<PatchColour>& known = constant_[number];
         if (!known) {
             known = patch_colour(scene_, material, uv);
-            clamped_[triangle.material] = known->was_clamped;
+            clamped_[number] = known->was_clamped;
         }
         return *known;
     }

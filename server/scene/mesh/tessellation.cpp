@@ -9,7 +9,7 @@
 #include "scene/contact/near_field.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/mesh/edge_refinement.h"
-#include "scene/mesh/join_plan.h"
+#include "scene/mesh/joins/join_plan.h"
 #include "scene/mesh/mesh_builder.h"
 #include "scene/mesh/patch_mesh.h"
 
@@ -43,20 +43,21 @@ double edge_for(const JoinPlan& plan, double goal) {
 /// Finds the target edge whose patch count comes closest to the goal, by a bracketed search that
 /// takes the number of added patches as proportional to edge^-2. Where triangles are joined no
 /// patches are there from the beginning.
-Refined refine_to_count(const EdgeRefinement& unrefined, const JoinPlan& plan, bool join,
+Refined refine_to_count(EdgeRefinement unrefined, const JoinPlan& plan, bool join,
                         std::size_t goal_count) {
-    const auto base = join ? 0.0 : static_cast<double>(unrefined.patch_count());
+    const std::size_t own = unrefined.patch_count();
+    const auto base = join ? 0.0 : static_cast<double>(own);
     const auto goal = static_cast<double>(goal_count);
     const std::size_t give_up = goal_count + goal_count / 2;
-    const std::size_t most = join ? give_up + 8 * unrefined.patch_count() : give_up;
+    const std::size_t most = join ? give_up + 8 * own : give_up;
     double too_fine = 0.0;
     double too_coarse = 1e30;
     double edge = edge_for(plan, goal);
-    Refined best{unrefined, edge};
-    double best_error =
-        join ? 1e30 : std::abs(std::log(static_cast<double>(unrefined.patch_count()) / goal));
+    Refined best{std::move(unrefined), edge};
+    EdgeRefinement attempt = best.refinement;
+    double best_error = join ? 1e30 : std::abs(std::log(base / goal));
     for (int step = 0; step < max_search_steps && best_error > close_enough; ++step) {
-        EdgeRefinement attempt = unrefined;
+        attempt.restart();
         if (join) {
             plan.mark_small(attempt, edge);
         }
@@ -66,7 +67,8 @@ Refined refine_to_count(const EdgeRefinement& unrefined, const JoinPlan& plan, b
         (count > goal ? too_fine : too_coarse) = edge;
         if (finished && std::abs(std::log(count / goal)) < best_error) {
             best_error = std::abs(std::log(count / goal));
-            best = {std::move(attempt), edge};
+            std::swap(best.refinement, attempt);
+            best.edge = edge;
         }
         edge *= std::sqrt(std::clamp((count - base) / std::max(goal - base, 1.0), 0.1, 10.0));
         if (edge <= too_fine || edge >= too_coarse) {
@@ -178,7 +180,7 @@ Refined refine(const Scene& scene, const TessellationSettings& settings) {
     const std::size_t patches = goal();
     Refined refined{std::move(refinement), edge};
     if (!(settings.patch_size > 0.0F)) {
-        refined = refine_to_count(refined.refinement, plan, join, patches);
+        refined = refine_to_count(std::move(refined.refinement), plan, join, patches);
     } else if (!refined.refinement.refine(edge, settings.max_patches)) {
         throw SceneError(scene.path, "",
                          fmt::format("patch size {} m gives more than {} patches",
@@ -204,8 +206,9 @@ JoinSettings join_settings(const TessellationSettings& settings, const Refined& 
 }  // namespace
 
 PatchMesh tessellate(Scene& scene, const TessellationSettings& settings) {
-    const Refined refined = refine(scene, settings);
-    return build_mesh(scene, refined.refinement, join_settings(settings, refined));
+    Refined refined = refine(scene, settings);
+    const JoinSettings joined = join_settings(settings, refined);
+    return build_mesh(scene, std::move(refined.refinement), joined);
 }
 
 }  // namespace raybundle

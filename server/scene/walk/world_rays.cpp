@@ -3,7 +3,9 @@
 
 #include <embree3/rtcore.h>
 
-#include <new>
+#include <numeric>
+
+#include "scene/walk/embree_triangles.h"
 
 namespace raybundle {
 namespace {
@@ -31,28 +33,14 @@ struct WorldRays::Tree {
 };
 
 WorldRays::WorldRays(const Scene& scene) : scene_(scene), tree_(std::make_unique<Tree>()) {
-    std::vector<glm::mat4> world;
-    for (const Object& object : scene.objects) {
-        world.push_back(object.world_from_object());
-    }
     RTCGeometry geometry = rtcNewGeometry(tree_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const points = static_cast<glm::vec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(glm::vec3), 3 * scene.triangles.size()));
-    auto* const indices = static_cast<glm::uvec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(glm::uvec3), scene.triangles.size()));
-    if (points == nullptr || indices == nullptr) {
+    std::vector<std::uint32_t> all(scene.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    try {
+        set_triangles(geometry, scene, all);
+    } catch (...) {
         rtcReleaseGeometry(geometry);
-        throw std::bad_alloc();
-    }
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const Triangle& triangle = scene.triangles[i];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::vec3& position = scene.vertices[triangle.vertex[k]].position;
-            points[3 * i + k] = glm::vec3(world[triangle.object] * glm::vec4(position, 1.0F));
-        }
-        indices[i] = static_cast<unsigned>(3 * i) + glm::uvec3(0, 1, 2);
+        throw;
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(tree_->scene.get(), geometry);

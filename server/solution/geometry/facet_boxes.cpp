@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "gpu/egl_context.h"
 
@@ -186,6 +188,11 @@ FacetBoxes::FacetBoxes(std::span<const glm::vec3> positions, std::span<const glm
         }
     }
     const std::vector<TreeNode> top = build_tree(device.get(), object_boxes);
+    const std::size_t all = std::accumulate(
+        trees.begin(), trees.end(), top.size(),
+        [](std::size_t sum, const ObjectTree& tree) { return sum + tree.nodes.size(); });
+    nodes_.reserve(all);
+    object_space_.reserve(all);
     std::vector<std::uint32_t> place_of;  // of the nodes of `top`, and the end
     for (const TreeNode& node : top) {
         place_of.push_back(count());
@@ -195,7 +202,7 @@ FacetBoxes::FacetBoxes(std::span<const glm::vec3> positions, std::span<const glm
             object_space_.emplace_back();
             continue;
         }
-        const ObjectTree& tree = trees[node.item];
+        const ObjectTree tree = std::move(trees[node.item]);
         const std::uint32_t first = count();
         for (const TreeNode& part : tree.nodes) {
             const bool inner = part.item == NO_HIT;

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <span>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/mesh/joins/join_faces.h"
 
 namespace raybundle {
-
-/// A triangle that may share its light with others.
-struct JoinFace {
-    std::array<glm::dvec3, 3> corners{};    ///< world, m, counter-clockwise from the front
-    std::array<std::uint32_t, 3> points{};  ///< numbers of the corners: equal where faces touch
-    std::uint32_t kind = 0;  ///< only faces of one kind join: object, material, sides, emission
-    std::uint32_t rough_kind = 0;  ///< the same without emission, where there are too many sets
-    glm::vec3 colour{0.0F};        ///< base colour
-    double widest = 1.0;           ///< least cosine between its normal and that of a set it is in
-    bool two_sided = false;
-};
 
 /// Sides are those of sets: two of two-sided ones.
 struct JoinSettings {
@@ -45,7 +31,7 @@ struct JoinSettings {
 ///
 /// Returns the set of each face, numbered in the order of the first faces. Deterministic; the time
 /// grows like n log n. Throws std::bad_alloc where there is no memory for rays.
-std::vector<std::uint32_t> join_faces(const Scene& scene, std::span<const JoinFace> faces,
+std::vector<std::uint32_t> join_faces(const Scene& scene, const JoinFaces& faces,
                                       const JoinSettings& settings);
 
 }  // namespace raybundle

@@ -3,9 +3,8 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
 
-#include "scene/mesh/triangle_joins.h"
+#include "scene/mesh/joins/triangle_joins.h"
 #include "scene/walk/world_rays.h"
 
 namespace raybundle {
@@ -15,7 +14,7 @@ namespace raybundle {
 class FaceSight {
   public:
     /// lift: what is lower hides nothing, m. Throws std::bad_alloc.
-    FaceSight(const Scene& scene, std::span<const JoinFace> faces, double lift)
+    FaceSight(const Scene& scene, const JoinFaces& faces, double lift)
         : rays_(scene), faces_(faces), lift_(lift) {}
 
     /// Across the edge that both have in common; two-sided faces on both of their sides.
@@ -31,7 +30,7 @@ class FaceSight {
     [[nodiscard]] bool middle_seen(const JoinFace& face, const JoinFace& from, double side) const;
 
     WorldRays rays_;
-    std::span<const JoinFace> faces_;
+    const JoinFaces& faces_;
     double lift_;
 };
 

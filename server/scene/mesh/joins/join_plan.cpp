@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mesh/join_plan.h"
+#include "scene/mesh/joins/join_plan.h"
 
 #include <algorithm>
 
@@ -18,6 +18,7 @@ JoinPlan::JoinPlan(const Scene& scene) {
     for (const Object& object : scene.objects) {
         world.emplace_back(object.world_from_object());
     }
+    area_.reserve(scene.triangles.size());
     for (const Triangle& triangle : scene.triangles) {
         glm::dvec3 p[3];
         for (int k = 0; k < 3; ++k) {

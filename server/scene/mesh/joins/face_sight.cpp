@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mesh/face_sight.h"
+#include "scene/mesh/joins/face_sight.h"
 
 #include <algorithm>
 #include <array>
@@ -83,8 +83,9 @@ bool FaceSight::across(const JoinFace& a, const JoinFace& b, double side) const 
 }
 
 bool FaceSight::across(std::uint32_t a, std::uint32_t b) const {
-    return across(faces_[a], faces_[b], 1.0) &&
-           (!faces_[a].two_sided || across(faces_[a], faces_[b], -1.0));
+    const JoinFace face_a = faces_.at(a);
+    const JoinFace face_b = faces_.at(b);
+    return across(face_a, face_b, 1.0) && (!face_a.two_sided || across(face_a, face_b, -1.0));
 }
 
 /// From near all corners of a face.
@@ -97,10 +98,12 @@ bool FaceSight::middle_seen(const JoinFace& face, const JoinFace& from, double s
 }
 
 bool FaceSight::between(std::uint32_t a, std::uint32_t b) const {
+    const JoinFace face_a = faces_.at(a);
+    const JoinFace face_b = faces_.at(b);
     const auto seen = [&](double side) {
-        return middle_seen(faces_[a], faces_[b], side) && middle_seen(faces_[b], faces_[a], side);
+        return middle_seen(face_a, face_b, side) && middle_seen(face_b, face_a, side);
     };
-    return seen(1.0) && (!faces_[a].two_sided || seen(-1.0));
+    return seen(1.0) && (!face_a.two_sided || seen(-1.0));
 }
 
 }  // namespace raybundle

@@ -11,7 +11,6 @@ namespace raybundle {
 
 /// Faces that share their light, and sums over them.
 struct FaceSet {
-    std::uint32_t kind = 0;
     std::uint32_t largest = 0;  // face
     double largest_area = -1.0;
     double area = 0.0;
@@ -20,7 +19,6 @@ struct FaceSet {
     glm::dvec3 low{1e300}, high{-1e300};
     glm::dvec3 axis{0.0};  // unit: of a cone that holds all normals
     double angle = 0.0;    // half of its opening, radians
-    double widest = 0.0;   // largest such angle
 
     /// Area times squared distance from the means. length: that a full turn of the normal, and the
     /// whole of the colours, are worth, m.
@@ -55,7 +53,6 @@ inline FaceSet joined(const FaceSet& a, const FaceSet& b) {
     c.squared_colour = a.squared_colour + b.squared_colour;
     c.low = glm::min(a.low, b.low);
     c.high = glm::max(a.high, b.high);
-    c.widest = std::min(a.widest, b.widest);
     const double length = glm::length(c.normal);
     c.axis = length > 0.0 ? c.normal / length : c.axis;
     const auto opening = [&c](const FaceSet& part) {
