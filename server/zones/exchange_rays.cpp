@@ -266,8 +266,8 @@ std::vector<double> ExchangeRays::rays_per_area() const {
     std::vector<double> result(areas_.size(), 0.0);
     for (std::size_t i = 0; i < areas_.size(); ++i) {
         if (areas_[i] > 0.0F) {
-            result[i] = shares_[i] * static_cast<double>(starts_.size()) /
-                        static_cast<double>(areas_[i]);
+            result[i] =
+                shares_[i] * static_cast<double>(starts_.size()) / static_cast<double>(areas_[i]);
         }
     }
     return result;
