@@ -78,25 +78,40 @@ SceneBuilder room_of(SingleRays kind) {
     return b;
 }
 
-class LightOfSingleRays : public testing::TestWithParam<SingleRays> {
-  protected:
-    LightOfSingleRays() : room(room_of(GetParam())) { room.iterate(few_iterations); }
-
-    GrowingRoom room;
-};
+class LightOfSingleRays : public testing::TestWithParam<SingleRays> {};
 
 TEST_P(LightOfSingleRays, StaysWhileTheSceneGrows) {
+    GrowingRoom room(room_of(GetParam()));
+    room.iterate(few_iterations);
     const auto before = room.light();
     const std::size_t fronts = room.b.mesh.front_patch_count();
-    const std::uint32_t copy = room.grow(box, {2.5F, 0.0F, 0.5F});
+    room.grow(box, {2.5F, 0.0F, 0.5F});
     const auto grown = room.light();
     for (std::size_t i = 0; i < fronts; ++i) {
         ASSERT_NEAR(grown[i].g, before[i].g, 1e-3F * before[i].g + 1e-6F) << i;
     }
-    room.remove_object(copy, false);
-    GrowingRoom fresh(room.b, 77);
-    fresh.iterate(few_iterations);
-    EXPECT_NEAR(compared(room.light(), fresh.light()).first, 1.0, 0.04);
+}
+
+/// 64 iterations after a copy has come, levels of eight rooms scattered with a standard deviation
+/// of 3 % at most (right after it 3.9 % with the mirror, 6 % with air), those of solves of 1024
+/// iterations with 1 %: three of those of the mean of four beside one such.
+TEST_P(LightOfSingleRays, IsThatOfAFreshSolveOnceACopyHasCome) {
+    double sum = 0.0;
+    std::vector<glm::vec4> truth;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        GrowingRoom room(room_of(GetParam()), seed);
+        room.iterate(few_iterations);
+        const std::uint32_t copy = room.grow(box, {2.5F, 0.0F, 0.5F});
+        room.remove_object(copy, false);
+        room.iterate(64);
+        if (truth.empty()) {
+            GrowingRoom fresh(room.b, 77);
+            fresh.iterate(1024);
+            truth = fresh.light();
+        }
+        sum += compared(room.light(), truth).first;
+    }
+    EXPECT_NEAR(sum / 4.0, 1.0, 0.054);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, LightOfSingleRays,

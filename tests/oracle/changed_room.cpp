@@ -51,16 +51,17 @@ void Solved::change(const LightEdit& edit) {
     }
 }
 
-void expect_fresh(Solved& changed, std::uint64_t iterations, const char* what) {
+void expect_fresh(Solved& changed, std::uint64_t iterations, const char* what,
+                  const LevelBounds& bounds) {
     Solved fresh(changed.b, 77);
     fresh.iterate(iterations);
     const auto [level, difference] =
         compared(changed.solver.store().read_irradiance(), fresh.solver.store().read_irradiance());
-    EXPECT_NEAR(level, 1.0, 0.012) << what;
+    EXPECT_NEAR(level, 1.0, bounds.solution) << what;
     EXPECT_LT(difference, 0.05) << what;
     const auto [shown, apart] =
         compared(changed.image.read_radiance(), fresh.image.read_radiance());
-    EXPECT_NEAR(shown, 1.0, 0.015) << what;
+    EXPECT_NEAR(shown, 1.0, bounds.picture) << what;
     EXPECT_LT(apart, 0.08) << what;
 }
 

@@ -47,7 +47,15 @@ std::pair<double, double> compared(const std::vector<Vector>& found,
     return {sum / exact, std::sqrt(square / size)};
 }
 
+/// Largest relative difference of the levels of a changed and a fresh solve, and of those of their
+/// pictures.
+struct LevelBounds {
+    double solution = 0.012;
+    double picture = 0.015;
+};
+
 /// The solution and the picture are those of a fresh solve of the scene as it is now.
-void expect_fresh(Solved& changed, std::uint64_t iterations, const char* what);
+void expect_fresh(Solved& changed, std::uint64_t iterations, const char* what,
+                  const LevelBounds& bounds = {});
 
 }  // namespace raybundle

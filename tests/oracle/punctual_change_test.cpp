@@ -73,6 +73,9 @@ class PunctualChange : public testing::TestWithParam<Case> {};
 TEST_P(PunctualChange, EndsWhereAFreshSolveOfTheChangedSceneDoes) {
     // What glossy surfaces send settles more slowly, in a fresh solve, too.
     const std::uint64_t iterations = GetParam().glossy ? 1024 : 512;
+    // There the levels of 16 solves scattered with a standard deviation of 0.6 %: three of those of
+    // the difference of two.
+    const LevelBounds bounds = GetParam().glossy ? LevelBounds{0.025, 0.025} : LevelBounds{};
     Solved room(room_with(GetParam().kind, GetParam().glossy));
     room.iterate(200);
     LightEdit edit;
@@ -80,7 +83,7 @@ TEST_P(PunctualChange, EndsWhereAFreshSolveOfTheChangedSceneDoes) {
     edit.on = false;
     room.change(edit);
     room.iterate(iterations);
-    expect_fresh(room, iterations, "off");
+    expect_fresh(room, iterations, "off", bounds);
     edit = {};
     edit.light = 2;
     edit.on = true;
@@ -89,7 +92,7 @@ TEST_P(PunctualChange, EndsWhereAFreshSolveOfTheChangedSceneDoes) {
     edit.colour = glm::vec3(1.0F, 0.4F, 0.2F);
     room.change(edit);
     room.iterate(iterations);
-    expect_fresh(room, iterations, "on again, at a tenth, red");
+    expect_fresh(room, iterations, "on again, at a tenth, red", bounds);
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
