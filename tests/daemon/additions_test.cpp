@@ -330,7 +330,7 @@ TEST_F(Additions, OfAFieldThatWasBegunOnlyTheRestIsAdded) {
 
 // Glare of luminaires that are added, in a space without surfaces, against CIE 117's formula.
 
-/// Two black triangles of a metre, which give the scene its size: 10 m from the origin to each side.
+/// Two black triangles of a metre, 10 m from the origin to each side: they give the scene its size.
 const std::string specks =
     "data:application/octet-stream;base64,AAAgwQAAIMEAACDBAAAQwQAAIMEAACDBAAAgwQAAIME"
     "AABDBAAAgQQAAIEEAACBBAAAgQQAAIEEAADBBAAAwQQAAIEEAACBB";
