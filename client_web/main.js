@@ -81,7 +81,7 @@ const gizmo = new Gizmo(app);
 const grabbing = new Grabbing(app);
 const measuring = new Measuring(app, marks, display);
 const gridPanel = new GridPanel(app, measuring, display);
-const workPlane = new WorkPlanePanel(app, measuring);
+const workPlane = new WorkPlanePanel(app, measuring, collisions);
 const zones = new ZonesPanel(app, measuring, workPlane);
 new OutlinesLayer(app, workPlane, zones);
 new LightArrowsLayer(app, measuring, workPlane, zones);
@@ -114,7 +114,7 @@ new SceneSaving(app);
 new SceneFiles(app, () => ({changes: changes.entries.length || (app.scene?.epoch ?? 0), pins: pins.pins.size, forgets: saving.forgets}));
 new SnapshotPanel(app);
 const things = new Things(app, history);
-const luminaires = new Luminaires(app, things);
+const luminaires = new Luminaires(app, things, collisions);
 const fade = new Fade();
 const lightPanel = new LightPanel(app, history, {things, luminaires, fade}, () => {
     setPanel(true);

@@ -4,6 +4,7 @@
 
 import {byId} from '../ui/elements.js';
 import {ServerError} from '../net/protocol.js';
+import {lowestFloor} from '../scene/floors.js';
 import {add, length, sub, vec3} from '../ui/vector.js';
 import {WalkGrid, Walker} from './walk_grid.js';
 
@@ -88,6 +89,23 @@ export class Collisions {
      */
     floorUnder(eye) {
         return this.#grid?.under(eye) ?? this.app.scene?.bounds.min.y ?? 0;
+    }
+
+    /**
+     * Height of the floor of a storey, metres: of its slabs; where no object is one, of what is below an eye that is there.
+     *
+     * @param {string} storey  empty: of the whole scene
+     * @param {Vec3} [eye]
+     */
+    floorOf(storey, eye = this.app.view.eye) {
+        const {scene} = this.app;
+        if (!scene) {
+            return 0;
+        }
+        const {min, max} = scene.storeys.get(storey) ?? scene.bounds;
+        const floor = lowestFloor(storey ? scene.objects.filter((object) => object.storey === storey) : scene.objects, {min, max});
+        const inside = eye.x > min.x && eye.x < max.x && eye.y > min.y && eye.y < max.y && eye.z > min.z && eye.z < max.z;
+        return floor ?? (inside ? Math.max(this.floorUnder(eye), min.y) : min.y);
     }
 
     /**

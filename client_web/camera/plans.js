@@ -146,7 +146,10 @@ export class Plans {
         }
         const through = () => centre((app.selected ?? scene).bounds);
         const rows = [...scene.storeys.entries()].map(([name, bounds]) =>
-            listRow(`Plan of ${name}`, () => this.#open((aspect) => planOf(bounds, aspect))),
+            listRow(`Plan of ${name}`, () => {
+                const floor = this.collisions.floorOf(name, (this.#before ?? app.view).eye);
+                this.#open((aspect) => planOf(bounds, aspect, floor));
+            }),
         );
         const plan = () => {
             const floor = this.#floor();

@@ -28,6 +28,15 @@ export const areaOver = ({min, max}, floor, height) => ({
 });
 
 /**
+ * Corners of a level outline above places on a floor.
+ *
+ * @param {readonly Vec3[]} corners
+ * @param {number} floor  metres
+ * @param {number} height  above it, metres
+ */
+export const outlineOver = (corners, floor, height) => corners.map(({x, z}) => vec3(x, floor + height, z));
+
+/**
  * A number with its 95 % interval.
  *
  * @param {number | undefined} value
@@ -59,18 +68,34 @@ export function valueText(quantity, unit) {
         : (value) => `${threeDigits(inUnit(value, unit))} ${unit}`;
 }
 
+/** @param {number} inside  points in solids */
+const leftOut = (inside) => (inside === 1 ? ' 1 lies in a solid and is left out.' : inside > 0 ? ` ${inside} lie in solids and are left out.` : '');
+
+/**
+ * Of light that has been reflected something comes everywhere in a building: what is black is mostly outside.
+ *
+ * @param {number} dark  points
+ */
+const inTheDark = (dark) =>
+    dark > 0 ? ` ${dark} ${dark === 1 ? 'is' : 'are'} dark and counted: if ${dark === 1 ? 'it lies' : 'they lie'} outside of the rooms, measure within points on the floor.` : '';
+
 /**
  * What the numbers stand for.
  *
  * @param {Measured} result
  */
-export function planeState({points, columns, rows, spacing, factor, maintained, direct, relativeError}) {
-    const inside = points.filter((point) => point.inside).length;
-    const parts = [`${columns} × ${rows} points`];
+export function planeState({points, columns, rows, spacing, factor, maintained, direct, relativeError, quantity, mean}) {
+    const count = points.length === columns * rows ? `${columns} × ${rows}` : String(points.length);
+    const parts = [`${count} points`];
     if (spacing) {
         parts.push(`at most ${spacing.toFixed(2)} m apart, as EN 12464-1 asks for`);
     }
-    const left = inside > 0 ? ` ${inside} lie in solids and are left out.` : '';
+    if (points.length > 0) {
+        parts.push(`at y = ${points[0].position.y.toFixed(2)} m`);
+    }
+    const lit = !direct && quantity !== 'UGR' && mean !== undefined && mean > 0;
+    const left = leftOut(points.filter((point) => point.inside).length) +
+        inTheDark(lit ? points.filter(({inside, value}) => !inside && value === 0).length : 0);
     const own = maintained ? ' Maintained, by the factor of each lamp.' : '';
     const kept = factor === 1 ? own : ` Maintained: times ${factor}.`;
     const error = relativeError === undefined || relativeError > 1

@@ -4,9 +4,11 @@
 
 import {ServerError} from '../net/protocol.js';
 import {byId, fileName, saveFile, showValue} from '../ui/elements.js';
+import {floorBelow} from '../scene/floors.js';
 import {sentence} from '../ui/status.js';
-import {areaOver, planeCsv, planeState, valueText, withInterval} from './work_plane.js';
+import {areaOver, outlineOver, planeCsv, planeState, valueText, withInterval} from './work_plane.js';
 import {svgElement} from '../ui/svg.js';
+import {boundsOf} from '../ui/vector.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -20,6 +22,8 @@ const MARGIN = 0.5;
 const NEAR = 0.02;
 /** Of more points the picture shows dots, not numbers. */
 const MOST_NUMBERS = 150;
+/** Corners of an outline. */
+const LEAST_CORNERS = 3;
 
 export class WorkPlanePanel {
     /** @type {Measured | null} */
@@ -31,10 +35,12 @@ export class WorkPlanePanel {
     /**
      * @param {RaybundleApp} app
      * @param {Measuring} measuring
+     * @param {import('../camera/collisions.js').Collisions} collisions
      */
-    constructor(app, measuring) {
+    constructor(app, measuring, collisions) {
         this.app = app;
         this.measuring = measuring;
+        this.collisions = collisions;
         this.#button.addEventListener('click', () => this.measure());
         byId('clear-plane', HTMLElement).addEventListener('click', () => this.#clear());
         byId('plane-csv', HTMLElement).addEventListener('click', () => this.#save());
@@ -45,6 +51,7 @@ export class WorkPlanePanel {
         app.on('selection', () => this.#list());
         app.on('message', ({measured}) => measured && this.#arrived(measured));
         measuring.addEventListener('unit', () => this.#show());
+        measuring.addEventListener('points', () => this.#list());
         this.group = app.overlay.group('plane-points');
         app.overlay.add(({place}) => this.#draw(place));
     }
@@ -54,13 +61,17 @@ export class WorkPlanePanel {
         return this.#result;
     }
 
-    /** Where a plane may lie: over the selected object, a storey, or all there is. */
+    /** Where a plane may lie: over the selected object, within points on the floor, over a storey, or all there is. */
     #list() {
         const {scene, selected} = this.app;
         const before = this.#over.value;
         const options = [new Option('the whole scene', 'scene')];
         for (const storey of scene?.storeys.keys() ?? []) {
             options.push(new Option(storey, `storey ${storey}`));
+        }
+        const {points} = this.measuring;
+        if (points.length >= LEAST_CORNERS) {
+            options.push(new Option(`within points ${points.map(({number}) => number).join(', ')}`, 'points'));
         }
         if (selected) {
             options.unshift(new Option(`${selected.name} (selected)`, 'selected'));
@@ -69,21 +80,42 @@ export class WorkPlanePanel {
         this.#over.value = options.some(({value}) => value === before) && before !== 'scene' ? before : options[0].value;
     }
 
+    /**
+     * Where the plane lies that the fields describe, and the height that it is above.
+     *
+     * @param {import('../scene/scene_model.js').SceneModel} scene
+     */
+    #place(scene) {
+        const over = this.#over.value;
+        const {selected} = this.app;
+        const corners = this.measuring.points.map(({position}) => position);
+        if (over === 'points' && corners.length >= LEAST_CORNERS) {
+            const bounds = boundsOf(corners);
+            return {bounds, corners, margin: 0, floor: floorBelow(scene.objects, bounds) ?? bounds.min.y};
+        }
+        if (over === 'selected' && selected) {
+            const {bounds} = selected;
+            return {bounds, margin: 0, floor: floorBelow(scene.objects, bounds) ?? bounds.min.y};
+        }
+        const name = over.replace(/^storey /, '');
+        const storey = scene.storeys.get(name);
+        const bounds = storey ?? scene.bounds;
+        const margin = Math.min(MARGIN, 0.2 * (bounds.max.x - bounds.min.x), 0.2 * (bounds.max.z - bounds.min.z));
+        return {bounds, margin, floor: this.collisions.floorOf(storey ? name : '')};
+    }
+
     /** What the fields ask for; null: the height is no number. */
     request() {
-        const {scene, selected} = this.app;
-        const over = this.#over.value;
+        const {scene} = this.app;
         const height = byId('plane-height', HTMLInputElement).valueAsNumber;
         if (!scene || !Number.isFinite(height)) {
             return null;
         }
-        const storey = scene.storeys.get(over.replace(/^storey /, ''));
-        const bounds = over === 'selected' && selected ? selected.bounds : (storey ?? scene.bounds);
-        const margin = over === 'selected' ? 0 : Math.min(MARGIN, 0.2 * (bounds.max.x - bounds.min.x), 0.2 * (bounds.max.z - bounds.min.z));
+        const {bounds, corners, margin, floor} = this.#place(scene);
         const quantity = byId('plane-quantity', HTMLSelectElement).value;
         return {
             quantity,
-            area: areaOver(bounds, bounds.min.y, height),
+            ...(corners ? {outline: outlineOver(corners, floor, height)} : {area: areaOver(bounds, floor, height)}),
             grid: 'EN12464',
             margin,
             relativeError: 0.05,

@@ -26,7 +26,8 @@ import {decodesVideo, isOnThisMachine} from './video_stream.js';
 const SILENCE_LIMIT_MS = 20000;
 /** Before the welcome, since a server may compile its shaders first. */
 const WELCOME_LIMIT_MS = 120000;
-const PREPARING = 'The server is preparing the scene';
+/** Why the server has not answered yet although it is there. */
+export const PREPARING = 'The server is preparing the scene.';
 /** Requests that change the scene. Pins, viewpoints, zones, requirements and names of lighting scenes are none of it. */
 const CHANGES = [
     'moveObject', 'setLight', 'setMaterial', 'setGroup', 'setDaylight', 'applyLightingScene',
@@ -117,7 +118,7 @@ export class RaybundleClient extends EventTarget {
         this.#socket = socket;
         this.#lastHeard = performance.now();
         socket.onopen = () => {
-            this.#become(this.state, `${PREPARING}.`);
+            this.#become(this.state, PREPARING);
             this.#greet();
         };
         socket.onmessage = (event) => this.#receive(event.data);

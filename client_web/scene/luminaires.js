@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Luminaires: photometric files of the server, uploads, and fields of luminaires that are added.
 
-import {byId, fieldNote} from '../ui/elements.js';
+import {ceilingAbove} from './floors.js';
+import {byId, fieldNews, fieldNote} from '../ui/elements.js';
 import {threeDigits} from '../ui/units.js';
+import {add, length, scale, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
+ * @typedef {import('../net/scene_types.js').Vec3} Vec3
  * @typedef {import('./things.js').Things} Things
  * @typedef {{name: string, flux?: number, power?: number, size?: {length: number, width: number, height: number},
  *     problems: string[]}} PhotometricFile
@@ -13,8 +16,10 @@ import {threeDigits} from '../ui/units.js';
 
 /** From one luminaire to the next of a field as long as nobody says otherwise, metres. */
 const SPACING = 2;
-/** Below the top of the scene, so that no ceiling is above it, metres. */
+/** Below the ceiling, or the top of the scene, metres. */
 const BELOW_CEILING = 0.1;
+/** Before who adds it, so that he sees it, metres. */
+const AHEAD = 1.5;
 
 /**
  * What a file is known by.
@@ -42,9 +47,31 @@ export function luminaireRequest({photometry, position, columns, rows, spacing, 
     };
 }
 
+/**
+ * Where a luminaire is likely to be wanted: below the ceiling of the room that somebody is in, a little ahead; seen from
+ * outside, below the top of the scene's middle.
+ *
+ * @param {import('./scene_model.js').SceneModel} scene
+ * @param {import('../net/scene_types.js').View} view
+ * @param {(from: Vec3, to: Vec3) => Vec3} reached  how far one comes before a wall is in the way
+ * @returns {Vec3}
+ */
+export function likelyPlace({bounds: {min, max}, objects}, {eye, target}, reached) {
+    const inside = eye.x > min.x && eye.x < max.x && eye.y > min.y && eye.y < max.y && eye.z > min.z && eye.z < max.z;
+    if (!inside) {
+        return vec3((min.x + max.x) / 2, max.y - BELOW_CEILING, (min.z + max.z) / 2);
+    }
+    const ahead = vec3(target.x - eye.x, 0, target.z - eye.z);
+    const distance = length(ahead);
+    const {x, z} = distance > 0 ? reached(eye, add(eye, scale(ahead, AHEAD / distance))) : eye;
+    return vec3(x, (ceilingAbove(objects, vec3(x, eye.y, z)) ?? max.y) - BELOW_CEILING, z);
+}
+
 export class Luminaires extends EventTarget {
     /** Of the server's folder. @type {PhotometricFile[]} */
     files = [];
+    /** Somebody has said where the next one shall be. */
+    #placed = false;
     #section = byId('add-luminaire', HTMLDetailsElement);
     #form = byId('luminaire-form', HTMLFormElement);
     #file = byId('luminaire-file', HTMLSelectElement);
@@ -54,12 +81,18 @@ export class Luminaires extends EventTarget {
     /**
      * @param {RaybundleApp} app
      * @param {Things} things
+     * @param {import('../camera/collisions.js').Collisions} collisions
      */
-    constructor(app, things) {
+    constructor(app, things, collisions) {
         super();
         this.app = app;
         this.things = things;
+        this.collisions = collisions;
         app.on('welcome', () => this.#welcomed());
+        this.#form.addEventListener('input', ({target}) => {
+            this.#placed ||= ['x', 'y', 'z'].some((name) => this.#number(name) === target);
+        });
+        this.#section.addEventListener('toggle', () => this.#propose());
         this.#form.addEventListener('submit', (event) => {
             event.preventDefault();
             this.#add();
@@ -77,16 +110,24 @@ export class Luminaires extends EventTarget {
     async #welcomed() {
         const may = this.app.mayEdit && this.app.client.welcome?.canOpenScenes === true;
         this.#section.hidden = !may;
-        const {scene} = this.app;
-        if (!may || !scene) {
+        if (!may) {
             return;
         }
-        const {min, max} = scene.bounds;
-        this.#number('x').value = ((min.x + max.x) / 2).toFixed(2);
-        this.#number('y').value = (max.y - BELOW_CEILING).toFixed(2);
-        this.#number('z').value = ((min.z + max.z) / 2).toFixed(2);
+        this.#placed = false;
+        this.#propose();
         this.#number('spacing').value = String(SPACING);
         await this.#load();
+    }
+
+    /** A place for the next one, unless somebody has entered one. */
+    #propose() {
+        const {scene, view} = this.app;
+        if (scene && !this.#placed) {
+            const place = likelyPlace(scene, view, (from, to) => this.collisions.grid?.reached(from, to) ?? from);
+            for (const [name, value] of Object.entries(place)) {
+                this.#number(name).value = value.toFixed(2);
+            }
+        }
     }
 
     /** @param {string} name */
@@ -125,15 +166,14 @@ export class Luminaires extends EventTarget {
             fieldNote(this.#note, 'Enter numbers. Nothing has been added.');
             return;
         }
-        fieldNote(this.#note, '');
         const photometry = this.#file.value;
         const group = this.#number('group').value.trim();
         const request = luminaireRequest({photometry, position: {x, y, z}, columns, rows, spacing, group});
         const count = columns * rows;
         const name = count > 1 ? `${count} × ${photometry}` : photometry;
-        if (await this.things.addLuminaires(request, name)) {
-            fieldNote(this.#note, `Added ${name}.`);
-        }
+        fieldNews(this.#note, `Adding ${name} …`);
+        const added = await this.things.addLuminaires(request, name);
+        fieldNews(this.#note, added ? `Added ${name}.` : '');
     }
 
     /** @param {File} file */
@@ -142,11 +182,11 @@ export class Luminaires extends EventTarget {
             fieldNote(this.#note, `${file.name} is neither an .ies nor an .ldt file.`);
             return;
         }
-        fieldNote(this.#note, `Sending ${file.name}.`);
+        fieldNews(this.#note, `Sending ${file.name} …`);
         try {
             const address = new URL(`photometry/${encodeURIComponent(file.name)}`, location.href);
             const answer = await fetch(address, {method: 'PUT', headers: this.app.client.httpHeaders, body: file});
-            fieldNote(this.#note, (await answer.text()).trim());
+            (answer.ok ? fieldNews : fieldNote)(this.#note, (await answer.text()).trim());
             await this.#load(answer.ok ? file.name : undefined);
         } catch {
             fieldNote(this.#note, `Could not send ${file.name}.`);

@@ -155,6 +155,7 @@ export class LiveField {
 export function fieldNote(line, text, input = null, action = null) {
     line.textContent = text;
     line.hidden = text === '';
+    line.classList.remove('news');
     if (action) {
         const button = smallButton(action.label, action.label, () => {
             fieldNote(line, '');
@@ -163,6 +164,17 @@ export function fieldNote(line, text, input = null, action = null) {
         line.append(' ', button);
     }
     input?.addEventListener('input', () => fieldNote(line, ''), {once: true});
+}
+
+/**
+ * The same line where it says that something is done, or being done: nothing is wrong.
+ *
+ * @param {HTMLElement} line
+ * @param {string} text
+ */
+export function fieldNews(line, text) {
+    fieldNote(line, text);
+    line.classList.add('news');
 }
 
 /**

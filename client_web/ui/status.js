@@ -2,6 +2,7 @@
 // The state of the connection, what is being waited for, and passing notices.
 
 import {byId, returnFocus, showValue} from './elements.js';
+import {PREPARING} from '../net/raybundle_client.js';
 import {OpeningCard} from '../scene/opening.js';
 
 /**
@@ -36,7 +37,7 @@ const MOST_EMPTY = 2;
  * @param {string} opening  scene for which connections are closed and come back; empty: none
  * @returns {{title: string, retry: string, asksForToken: boolean}}  `retry` names the button
  */
-export function bannerOf({state, code}, hasPicture, opening = '') {
+export function bannerOf({state, code, reason}, hasPicture, opening = '') {
     const asksForToken = state === 'refused' && code === 'UNAUTHENTICATED';
     if (asksForToken) {
         return {title: 'This server asks for an access token', retry: '', asksForToken};
@@ -45,7 +46,8 @@ export function bannerOf({state, code}, hasPicture, opening = '') {
         const title = 'This page and the server speak different versions';
         return {title, retry: 'Load the page again', asksForToken};
     }
-    const away = hasPicture ? 'The connection to the server is lost' : 'Waiting for the server';
+    const there = reason === PREPARING;  // as after one has set a name: the connection is new, not lost
+    const away = hasPicture && !there ? 'The connection to the server is lost' : 'Waiting for the server';
     const lost = opening ? `Opening ${opening}` : away;
     const titles = {
         idle: 'Disconnected',
@@ -54,7 +56,7 @@ export function bannerOf({state, code}, hasPicture, opening = '') {
         reconnecting: code === 'RESOURCE_EXHAUSTED' ? 'The server is full' : lost,
         refused: 'The server has refused the connection',
     };
-    const soon = state === 'connecting' || state === 'connected' || (opening !== '' && code === '');
+    const soon = state === 'connecting' || state === 'connected' || there || (opening !== '' && code === '');
     const retry = soon ? '' : 'Try again now';
     return {title: titles[state], retry, asksForToken};
 }

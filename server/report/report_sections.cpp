@@ -21,32 +21,15 @@ bool is_lamp(const v1::Light& light) {
            light.kind() != v1::Light::DIRECTIONAL;
 }
 
-/// Share of its full light that a lamp sends now.
+/// Share of the light that its file gives a lamp which it sends now: dimmed by its dimmer or by its
+/// intensity, which flux and power follow.
 double share_of(const v1::Light& light) {
     const double dim = light.has_dim() ? static_cast<double>(light.dim()) : 1.0;
-    return light.on() ? dim : 0.0;
-}
-
-std::string daylight_text(const v1::SetDaylight& day, const ReportWords& w) {
-    if (day.sky().empty() || day.sky() == "none") {
-        return w.of("no sky", "kein Himmel");
-    }
-    if (day.sky() == "loaded") {
-        return w.of("as the scene's file has it", "wie in der Datei der Szene");
-    }
-    std::string text = escaped(day.sky());
-    if (!day.time().empty()) {
-        text += ", " + escaped(day.time());
-    }
-    if (day.has_place()) {
-        text += fmt::format(", {:.2f}° N, {:.2f}° {}", day.place().latitude(),
-                            day.place().longitude(), w.of("E", "O"));
-    }
-    if (day.has_sun_elevation()) {
-        text +=
-            fmt::format(", {} {:.1f}°", w.of("sun's elevation", "Sonnenhöhe"), day.sun_elevation());
-    }
-    return text;
+    const double set =
+        light.loaded_intensity() > 0.0F
+            ? static_cast<double>(light.intensity()) / static_cast<double>(light.loaded_intensity())
+            : 1.0;
+    return light.on() ? dim * set : 0.0;
 }
 
 }  // namespace
@@ -98,16 +81,19 @@ std::string project_section(const ReportData& data, const ReportWords& w) {
 }
 
 std::string luminaire_section(const ReportData& data, const ReportWords& w) {
-    using Type = std::tuple<std::string, std::string, float, float, std::string, float, float>;
-    std::map<Type, std::pair<int, double>> types;  // number of them, and share of the light
+    // The last one: a material that glows, on however many lamps.
+    using Type =
+        std::tuple<std::string, std::string, float, float, std::string, float, double, bool>;
+    std::map<Type, int> types;  // number of them
     double flux = 0.0;
+    bool glowing = false;
     for (const v1::Light& light : data.scene.lights()) {
         if (is_lamp(light)) {
-            auto& [count, share] =
-                types[{light.name(), light.group(), light.flux(), light.watts(),
-                       w.colour_rendering(light), light.maintenance_factor(), light.dim()}];
-            ++count;
-            share += share_of(light);
+            const bool material = light.kind() == v1::Light::AREA;
+            ++types[{light.name(), light.group(), light.flux(), light.watts(),
+                     w.colour_rendering(light), light.maintenance_factor(), share_of(light),
+                     material}];
+            glowing = glowing || material;
             flux += share_of(light) * static_cast<double>(light.flux());
         }
     }
@@ -116,13 +102,13 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
     }
     std::vector<std::vector<std::string>> rows;
     for (const auto& [type, number] : types) {
-        const auto& [name, group, lumens, watts, rendering, factor, dim] = type;
-        rows.push_back({escaped(name), std::to_string(number.first),
+        const auto& [name, group, lumens, watts, rendering, factor, share, material] = type;
+        rows.push_back({escaped(name), material ? "–" : std::to_string(number),
                         lumens > 0.0F ? fmt::format("{:.0f}", lumens) : "–",
                         watts > 0.0F ? fmt::format("{:.1f}", watts) : "–",
                         rendering.empty() ? "–" : rendering, fmt::format("{:.2f}", factor),
                         group.empty() ? "–" : escaped(group),
-                        fmt::format("{:.0f} %", 100.0 * number.second / number.first)});
+                        fmt::format("{:.0f} %", 100.0 * share)});
     }
     std::string html =
         heading(w, "Luminaires", "Leuchten") +
@@ -148,6 +134,15 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
             area);
     }
     html += ".</p>\n";
+    if (glowing) {
+        html += std::string("<p class=\"quiet\">") +
+                w.of(
+                    "Lamps that are a glowing material have no number: lm is that of all surfaces "
+                    "of the material.",
+                    "Leuchten aus leuchtendem Material haben keine Anzahl: lm gilt für alle "
+                    "Flächen des Materials.") +
+                "</p>\n";
+    }
     if (power.stated && power.unknown > 0) {
         html +=
             fmt::format("<p class=\"quiet\">{} {}.</p>\n",
@@ -183,91 +178,6 @@ std::string pin_section(const ReportData& data, const ReportWords& w) {
                        w.of("Assigned to", "Zuständig"), w.of("Light there", "Licht dort"),
                        w.of("By", "Von")},
                       rows);
-}
-
-/// A blank and the name of the entry with that number; empty: there is none (any more).
-template <typename Entries>
-std::string named(const Entries& entries, std::uint32_t id) {
-    const auto found = std::find_if(entries.begin(), entries.end(),
-                                    [id](const auto& entry) { return entry.id() == id; });
-    return found == entries.end() ? "" : " " + escaped(found->name());
-}
-
-std::uint32_t object_of(const v1::SceneChanged& change) {
-    return change.has_move_object()     ? change.move_object().object()
-           : change.has_remove_object() ? change.remove_object().object()
-                                        : 0;
-}
-
-/// A colon and the name of the object that a change is about.
-std::string named_object(const v1::SceneChanged& change, const ReportData& data) {
-    const auto found = data.objects.find(object_of(change));
-    return found == data.objects.end() || found->second.empty() ? ""
-                                                                : ": " + escaped(found->second);
-}
-
-/// How long a light takes for it.
-std::string fade_text(const v1::SetLight& set, const ReportWords& w) {
-    return set.fade_seconds() > 0.0F
-               ? fmt::format("{}{:.1f} s", w.of(", over ", ", in "), set.fade_seconds())
-               : "";
-}
-
-/// What a change has done, in words.
-std::string change_text(const v1::SceneChanged& change, const ReportData& data,
-                        const ReportWords& w) {
-    const v1::Scene& scene = data.scene;
-    switch (change.change_case()) {
-        case v1::SceneChanged::kMoveObject:
-            return w.of("object moved", "Objekt bewegt") + named_object(change, data);
-        case v1::SceneChanged::kSetLight:
-            return w.of("light", "Licht") + named(scene.lights(), change.set_light().light()) +
-                   fade_text(change.set_light(), w);
-        case v1::SceneChanged::kSetMaterial:
-            return w.of("material", "Material") +
-                   named(scene.materials(), change.set_material().material());
-        case v1::SceneChanged::kSetDaylight:
-            return w.of("daylight: ", "Tageslicht: ") + daylight_text(change.set_daylight(), w);
-        case v1::SceneChanged::kAddObject:
-            return (change.add_object().removed()
-                        ? w.of("object removed: ", "Objekt entfernt: ")
-                        : w.of("object added: ", "Objekt hinzugefügt: ")) +
-                   escaped(change.add_object().name());
-        case v1::SceneChanged::kRemoveObject:
-            return w.of("object removed", "Objekt entfernt") + named_object(change, data);
-        case v1::SceneChanged::kAddLuminaire:
-            return change.add_luminaire().removed()
-                       ? w.of("luminaire removed", "Leuchte entfernt")
-                       : w.of("luminaire added: ", "Leuchte hinzugefügt: ") +
-                             escaped(change.add_luminaire().name());
-        case v1::SceneChanged::kRemoveLight:
-            return w.of("luminaire removed", "Leuchte entfernt");
-        case v1::SceneChanged::CHANGE_NOT_SET:
-            break;
-    }
-    return w.of("change", "Änderung");
-}
-
-std::string change_section(const ReportData& data, const ReportWords& w) {
-    std::vector<std::vector<std::string>> rows;
-    for (const v1::SceneChanged& change : data.changes.changes()) {
-        if (change.at_ms() < w.options().since_ms) {
-            continue;
-        }
-        const std::string what = change_text(change, data, w);
-        rows.push_back({std::to_string(change.epoch()), ReportWords::time(change.at_ms()),
-                        change.by_name().empty() ? "–" : escaped(change.by_name()), what});
-    }
-    if (rows.empty()) {
-        return "";
-    }
-    std::string title = heading(w, "Changes", "Änderungen");
-    if (w.options().since_ms > 0.0) {
-        title += std::string("<p class=\"quiet\">") + w.of("Since ", "Seit ") +
-                 ReportWords::time(w.options().since_ms) + ".</p>\n";
-    }
-    return title +
-           html_table({"#", w.of("When", "Wann"), w.of("By", "Von"), w.of("What", "Was")}, rows);
 }
 
 std::string method_section(const ReportData& data, const ReportWords& w) {

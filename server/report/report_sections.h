@@ -16,6 +16,9 @@ std::string pin_section(const ReportData& data, const ReportWords& words);
 std::string change_section(const ReportData& data, const ReportWords& words);
 std::string method_section(const ReportData& data, const ReportWords& words);
 
+/// Sky and sun, as they have been set.
+std::string daylight_text(const v1::SetDaylight& day, const ReportWords& words);
+
 /// Number of the object that a change moves or removes; 0: it does neither.
 std::uint32_t object_of(const v1::SceneChanged& change);
 

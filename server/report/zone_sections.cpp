@@ -82,6 +82,25 @@ std::string grid_text(const ReportZone& zone, const ReportWords& w) {
     return text;
 }
 
+/// Of reflected light something comes everywhere in a building: what is black is mostly outside.
+std::string dark_text(const v1::Measured& found, const ReportWords& w) {
+    const auto q = found.quantity();
+    if (found.direct() || q == v1::Measure::UGR || q == v1::Measure::DGP ||
+        !(found.mean() > 0.0F)) {
+        return "";
+    }
+    const auto dark = std::count_if(
+        found.points().begin(), found.points().end(), [](const v1::Measured::Point& point) {
+            return point.has_value() && !point.inside() && point.value() == 0.0F;
+        });
+    return dark == 0 ? ""
+                     : fmt::format(" {} {}", dark,
+                                   w.of("of the points are dark and counted: they may lie outside "
+                                        "of the rooms.",
+                                        "der Punkte sind dunkel und mitgezählt: Sie liegen "
+                                        "vielleicht außerhalb der Räume."));
+}
+
 /// The place that glares most, and what glares there.
 std::string glare_text(const v1::Measured& found, const ReportWords& w) {
     const v1::Measured::Point* worst = nullptr;
@@ -163,6 +182,7 @@ std::string zone_section(const ReportZone& zone, const ReportWords& w) {
     if (found.direct()) {
         html += std::string(" ") + w.of("Direct light only.", "Nur direktes Licht.");
     }
+    html += dark_text(found, w);
     html += "</p>\n";
     html += zone_plan(zone, w) + "</div>\n";
     if (found.has_mean()) {

@@ -28,6 +28,10 @@ constexpr std::array<std::string_view, 62> structure_words = {
     "fassade", "gelände", "fenster",          "mur",         "murs",        "dalle",   "toit",
     "plafond", "sol",     "escalier",         "pared",       "muro",        "suelo",   "techo",
     "losa",    "parete",  "pavimento",        "soffitto",    "muur",        "vloer"};
+/// Compounds end so, too: "Trennwand", "Außenwände".
+constexpr std::array<std::string_view, 5> structure_endings = {"wand", "wände", "waende",
+                                                               "partition", "partitions"};
+constexpr std::array<std::string_view, 2> no_structure = {"leinwand", "gewand"};
 
 constexpr std::array<std::string_view, 41> thing_words = {
     "lamp",    "lamps",   "light",     "lights",  "lighting", "luminaire", "sconce",
@@ -107,6 +111,13 @@ bool is_door(const std::string& word) {
     return among(word, door_words) ||
            (!among(word, no_doors) &&
             std::any_of(door_endings.begin(), door_endings.end(),
+                        [&](std::string_view ending) { return word.ends_with(ending); }));
+}
+
+bool is_structure(const std::string& word) {
+    return among(word, structure_words) ||
+           (!among(word, no_structure) &&
+            std::any_of(structure_endings.begin(), structure_endings.end(),
                         [&](std::string_view ending) { return word.ends_with(ending); }));
 }
 
@@ -204,7 +215,7 @@ ObjectKind kind_of_names(std::span<const std::string> names) {
         if (names_door(words)) {
             return ObjectKind::door;
         }
-        if (any([](const std::string& word) { return among(word, structure_words); })) {
+        if (any(is_structure)) {
             kind = ObjectKind::structure;
         }
     }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "scene/significant.h"
+
 namespace raybundle {
 namespace {
 
@@ -45,9 +47,9 @@ std::optional<std::string> unit_hint(const Bounds& bounds) {
             }
         }
         return fmt::format(
-            "the scene is {:.4g} m large and {:.4g} m high: if it was drawn in another unit, try "
-            "{}",
-            size, extent.y, units);
+            "the scene is {} m large and {} m high: if it was drawn in another unit, try {}",
+            significant(static_cast<double>(size), 4),
+            significant(static_cast<double>(extent.y), 4), units);
     }
     if (size < smallest_plausible && size > 0.0F) {
         return fmt::format(

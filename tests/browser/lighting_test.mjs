@@ -173,4 +173,39 @@ describe('a work plane', () => {
         await page.waitForSelector('#plane-result', {state: 'hidden'});
         assert.deepEqual(faults, []);
     });
+
+    it('lies above floors, not above the undersides of slabs, and within points that are clicked', async () => {
+        const bounds = {min: {x: 0, y: -0.2, z: 0}, max: {x: 4, y: 3, z: 5}};
+        const slab = {id: 1, name: 'Floor', kind: 'STRUCTURE', movable: false, bounds: {...bounds, max: {x: 4, y: 0, z: 5}}, transform: {}};
+        const corners = [{x: 1, y: 0, z: 1}, {x: 3, y: 0, z: 1}, {x: 1, y: 0, z: 4}];
+        let clicks = 0;
+        const {page, sent, faults} = await openPage((request, send) => {
+            const {hello, measure, probe} = request;
+            const hit = {hit: true, object: 1, material: 1, illuminance: 100, luminance: 10, relativeError: 0.1, epoch: 0};
+            send(hello ? {welcome: {...WELCOME, scene: {...WELCOME.scene, bounds, objects: [slab]}}}
+                : measure ? {measured: measured(500)}
+                : probe ? {probeResult: {...hit, position: corners[clicks]}} : {ok: {}});
+        });
+        await page.waitForFunction(() => window.raybundle.client.state === 'connected');
+        await page.click('#tab-measure');
+        const measuredPlane = async () => {
+            const before = sent.length;
+            await page.click('#measure-plane');
+            await page.waitForFunction(() => !document.getElementById('measure-plane').disabled);
+            return sent.slice(before).find(({measure}) => measure).measure;
+        };
+        assert.equal((await measuredPlane()).area.origin.y, 0.75);
+        assert.match(await page.textContent('#plane-state'), /at y = 0\.75 m/);
+        await page.click('[data-tool="measure"]');
+        for (; clicks < corners.length; ++clicks) {
+            await page.click('#picture', {position: {x: 200 + 100 * clicks, y: 300}});
+            await page.waitForFunction((count) => document.querySelectorAll('#points tbody tr').length > count, clicks);
+        }
+        await page.selectOption('#plane-over', 'points');
+        const {outline, area, margin} = await measuredPlane();
+        assert.deepEqual(outline, corners.map(({x, z}) => ({x, y: 0.75, z})));
+        assert.equal(area, undefined);
+        assert.equal(margin, 0);
+        assert.deepEqual(faults, []);
+    });
 });

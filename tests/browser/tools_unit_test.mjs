@@ -17,9 +17,12 @@ import {stateOf} from '../../client_web/measure/grid_panel.js';
 import {History, subjectOf} from '../../client_web/scene/history.js';
 import {layOutStrip} from '../../client_web/measure/legend.js';
 import {partsOf, timeAt, zoneOf} from '../../client_web/scene/day_time.js';
+import {PREPARING} from '../../client_web/net/raybundle_client.js';
+import {ceilingAbove, floorBelow, lowestFloor} from '../../client_web/scene/floors.js';
+import {likelyPlace} from '../../client_web/scene/luminaires.js';
 import {sunText} from '../../client_web/scene/daylight_panel.js';
 import {groupState, groupsOf} from '../../client_web/lights/light_groups.js';
-import {areaOver, planeCsv, planeState, valueText, withInterval} from '../../client_web/measure/work_plane.js';
+import {areaOver, outlineOver, planeCsv, planeState, valueText, withInterval} from '../../client_web/measure/work_plane.js';
 import {checkText, verdictSign, zoneValues} from '../../client_web/measure/zones.js';
 import {aimAt, aimOf, anglesOf} from '../../client_web/lights/light_place.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/lights/light_values.js';
@@ -115,6 +118,11 @@ describe('a scene that somebody opens', () => {
         assert.doesNotMatch(adviceOf(silent, true, 'a.glb'), /not answered/);
         assert.equal(bannerOf(away, true, 'a.glb').retry, '', 'nothing is gained by trying again');
         assert.match(bannerOf(away, true).title, /lost/);
+    });
+
+    it('loses no connection where a new one waits for the server', () => {
+        const named = {state: /** @type {const} */ ('reconnecting'), code: '', reason: PREPARING, retryAt: 0};
+        assert.deepEqual(bannerOf(named, true), {title: 'Waiting for the server', retry: '', asksForToken: false});
     });
 });
 
@@ -889,11 +897,59 @@ describe('work plane', () => {
         const result = {measurement: 1, quantity: 'HORIZONTAL', epoch: 0, settled: 1, columns: 2, rows: 1, factor: 0.8,
             points: [point(false), point(true)]};
         assert.equal(planeState(result),
-            '2 × 1 points. 1 lie in solids and are left out. Maintained: times 0.8. The values are still uncertain.');
+            '2 × 1 points, at y = 1.00 m. 1 lies in a solid and is left out. Maintained: times 0.8. The values are still uncertain.');
         assert.match(planeState({...result, relativeError: 0.031}), /Values are known within 3\.10 % of the mean\.$/);
         assert.match(planeState({...result, relativeError: 1e-9}), /The values are exact\.$/);
         assert.match(planeState({...result, direct: true}), /left out\. Direct light only\. Maintained/);
+        const dark = {...result, mean: 3, points: [point(false), {...point(false), value: 0}]};
+        assert.match(planeState(dark), /m\. 1 is dark and counted: if it lies outside of the rooms/);
+        assert.doesNotMatch(planeState({...dark, direct: true}), /is dark/);
+        assert.match(planeState({...result, columns: 2, rows: 2}), /^2 points, /, 'an outline leaves some of its box out');
         assert.equal(planeCsv(result, 'lx').split('\n')[2], '0.0000,1.0000,0.5000,,,,in a solid');
+    });
+});
+
+describe('floors', () => {
+    const box = (/** @type {number[]} */ [x0, y0, z0, x1, y1, z1]) => ({min: vec3(x0, y0, z0), max: vec3(x1, y1, z1)});
+    const part = (/** @type {string} */ name, /** @type {number[]} */ at, kind = 'STRUCTURE') =>
+        new PlacedObject({id: 1, name, movable: true, kind, bounds: box(at), transform: {}});
+    const storey = [
+        part('slab', [0, -0.3, 0, 8, 0, 6]), part('wall', [0, 0, 0, 8, 2.7, 0.2]), part('ceiling', [0, 2.7, 0, 8, 3, 6]),
+        part('sill', [0, 0.9, 0, 0.4, 0.95, 6]), part('table', [1, 0, 1, 5, 0.74, 5], 'THING'),
+    ];
+    const bounds = box([0, -0.3, 0, 8, 3, 6]);
+
+    it('are the tops of slabs, not their undersides, nor tables, sills and ceilings', () => {
+        assert.equal(lowestFloor(storey, bounds), 0);
+        assert.equal(lowestFloor(storey.slice(1), bounds), null, 'a ceiling is none');
+    });
+
+    it('are made of several slabs, as round a stair', () => {
+        const parts = [part('a', [-0.2, 2.7, 1.2, 8.2, 3, 6.2]), part('b', [-0.2, 2.7, 0, 1, 3, 1.2]), part('roof', [0, 5.7, 0, 8, 6, 6])];
+        assert.equal(lowestFloor(parts, box([-0.2, 2.7, 0, 8.2, 6, 6.2])), 3);
+    });
+
+    it('below a thing are where it stands, and of a slab its own top', () => {
+        assert.equal(floorBelow(storey, box([1, 0, 1, 5, 0.74, 5])), 0);
+        assert.equal(floorBelow(storey, box([1, 0.71, 1, 5, 0.74, 5])), 0, 'of a table top as of the table');
+        assert.equal(floorBelow(storey, storey[0].bounds), 0);
+        assert.equal(floorBelow([...storey, part('gallery', [0, 3.1, 0, 8, 3.3, 6])], box([1, 3.3, 1, 2, 4, 2])), 3.3);
+        assert.equal(floorBelow([part('lamp', [0, 0, 0, 1, 1, 1], 'THING')], box([0, 0, 0, 1, 1, 1])), null);
+    });
+
+    it('and ceilings are where luminaires are wanted: ahead, in the room that one is in', () => {
+        assert.equal(ceilingAbove(storey, vec3(2, 1.6, 2)), 2.7);
+        assert.equal(ceilingAbove(storey, vec3(9, 1.6, 2)), null);
+        const scene = /** @type {any} */ ({bounds, objects: storey});
+        const view = {...VIEW, eye: vec3(2, 1.6, 2), target: vec3(5, 1.6, 6)};
+        const {x, y, z} = likelyPlace(scene, view, (_, to) => to);
+        [[x, 2.9], [y, 2.6], [z, 3.2]].forEach(([value, right]) => close(value, right, 1e-9));
+        assert.deepEqual(likelyPlace(scene, {...view, eye: vec3(9, 9, 9)}, (_, to) => to), vec3(4, 2.9, 3), 'from outside: the middle');
+    });
+
+    it('carry outlines at a height above them', () => {
+        assert.deepEqual(outlineOver([vec3(0, 0.02, 0), vec3(1, 0, 0), vec3(1, -0.01, 1)], 0, 0.75),
+            [vec3(0, 0.75, 0), vec3(1, 0.75, 0), vec3(1, 0.75, 1)]);
     });
 });
 

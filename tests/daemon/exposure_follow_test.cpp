@@ -16,5 +16,26 @@ TEST(ExposureFollow, TakesAsLongHoweverManyFramesThereAre) {
     EXPECT_GT(exposure_follow(2.0), 0.99F) << "a slow server's next picture is right";
 }
 
+/// A page that comes back says at once how it wants to see, when its own picture has just begun:
+/// that frame is no white one.
+TEST(ShownExposure, OfAPictureThatHasJustBegunIsTheLastOne) {
+    ShownExposure shown;
+    EXPECT_EQ(shown.next(-5.5F, 0.1), -5.5F);
+    shown.set(0.0F);
+    EXPECT_EQ(shown.next(std::nullopt, 0.1), -5.5F);
+    EXPECT_FALSE(shown.ev());
+    EXPECT_EQ(shown.next(-7.0F, 0.01), -7.0F) << "what was set is there at once";
+    shown.set(1.0F);
+    EXPECT_EQ(shown.next(std::nullopt, 0.1), -6.0F);
+    EXPECT_EQ(shown.last(), -6.0F);
+}
+
+TEST(ShownExposure, FollowsOnceItIsShown) {
+    ShownExposure shown;
+    EXPECT_EQ(shown.next(std::nullopt, 0.1), 0.0F);
+    EXPECT_EQ(shown.next(-4.0F, 0.01), -4.0F);
+    EXPECT_NEAR(shown.next(-5.0F, 0.05), -4.15F, 1e-5F);
+}
+
 }  // namespace
 }  // namespace raybundle

@@ -159,6 +159,53 @@ TEST(Report, AddsUpPower) {
     EXPECT_EQ(json["changes"].size(), 1U);
 }
 
+/// Light that is dimmed by its intensity, as the page's fields do it, is dimmed.
+TEST(Report, KnowsLampsThatAreSetToLess) {
+    ReportData data = data_of();
+    v1::Light& lamp = *data.scene.mutable_lights(0);
+    lamp.clear_dim();
+    lamp.set_loaded_intensity(4000.0F);
+    lamp.set_intensity(1000.0F);
+    EXPECT_NEAR(power_of(data).watts, 9.0, 1e-6);
+    const std::string html = report_html(data, {});
+    EXPECT_NE(html.find("<td>25 %</td>"), std::string::npos);
+    EXPECT_NE(html.find("as they are switched: 1000 lm, 9 W"), std::string::npos);
+    EXPECT_EQ(html.find("glowing material"), std::string::npos);
+    lamp.set_kind(v1::Light::AREA);
+    EXPECT_NE(report_html(data, {}).find("glowing material"), std::string::npos);
+}
+
+TEST(Report, SaysWhichPointsAreDark) {
+    ReportData data = data_of();
+    EXPECT_EQ(report_html(data, {}).find("dark and counted"), std::string::npos);
+    data.zones[0].found.mutable_points(2)->set_value(0.0F);
+    data.zones[0].found.mutable_points(3)->set_value(0.0F);
+    EXPECT_NE(report_html(data, {}).find("2 of the points are dark"), std::string::npos);
+    data.zones[0].found.set_direct(true);
+    EXPECT_EQ(report_html(data, {}).find("dark and counted"), std::string::npos);
+}
+
+TEST(Report, ChangesSayWhoAndFromWhatToWhat) {
+    ReportData data = data_of();
+    data.scene.mutable_lights(0)->set_loaded_intensity(4000.0F);
+    v1::SceneChanged& dimmed = *data.changes.add_changes();
+    dimmed.set_by(6);
+    dimmed.mutable_set_light()->set_light(1);
+    dimmed.mutable_set_light()->set_intensity(2000.0F);
+    dimmed.mutable_light_before()->set_intensity(4000.0F);
+    v1::SceneChanged& painted = *data.changes.add_changes();
+    painted.set_by_name("Ada");
+    data.scene.add_materials()->set_id(2);
+    data.scene.mutable_materials(0)->set_name("wall");
+    painted.mutable_set_material()->set_material(2);
+    *painted.mutable_set_material()->mutable_base_colour() = vec3(0.5, 0.5, 0.5);
+    *painted.mutable_material_before()->mutable_base_colour() = vec3(0.7, 0.7, 0.7);
+    const std::string html = report_html(data, {});
+    EXPECT_NE(html.find("<td>Viewer 6</td><td>light panel: 100 → 50 %</td>"), std::string::npos);
+    EXPECT_NE(html.find("<td>Ada</td><td>material wall: reflectance 70 → 50 %</td>"),
+              std::string::npos);
+}
+
 /// A file without a power: a dash and words, no 0; half of the lamps with one: its sum, and a note.
 TEST(Report, LeavesOutPowerThatNoFileStates) {
     ReportData data = data_of();

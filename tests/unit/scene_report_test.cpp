@@ -38,6 +38,8 @@ TEST(SceneReport, HintsAtWrongUnits) {
     const auto box = [](const glm::vec3& size) { return Bounds{glm::vec3(0.0F), size}; };
     EXPECT_FALSE(unit_hint(box({999.0F, 60.0F, 999.0F}))) << "a site";
     EXPECT_NE(unit_hint(cube(1600.0F))->find("--unit"), std::string::npos);
+    EXPECT_EQ(unit_hint(box({12'240.0F, 3200.0F, 9240.0F}))->find("the scene is 12240 m large"),
+              0U);
     EXPECT_NE(unit_hint(cube(9000.0F))->find("--unit cm"), std::string::npos);
     EXPECT_NE(unit_hint(cube(90'000.0F))->find("--unit mm"), std::string::npos);
     EXPECT_NE(unit_hint(cube(9e6F))->find("--unit mm"), std::string::npos);

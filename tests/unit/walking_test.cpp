@@ -186,14 +186,15 @@ TEST(ObjectKinds, AreToldByNames) {
           "puerta", "door of the hall", "Single-Flush:0915 x 2134mm Door"}) {
         EXPECT_EQ(kind(door), ObjectKind::door) << door;
     }
-    for (const char* part : {"Basic Wall:Interior - 138mm:309", "IfcWallStandardCase", "Slab.002",
-                             "wall left of the door", "Wand neben der Tür", "Geschossdecke Decke",
-                             "roof", "Wand", "IfcStairFlight"}) {
+    for (const char* part :
+         {"Basic Wall:Interior - 138mm:309", "IfcWallStandardCase", "Slab.002",
+          "wall left of the door", "Wand neben der Tür", "Geschossdecke Decke", "roof", "Wand",
+          "IfcStairFlight", "Partition office left", "Trennwand 3", "IfcWall/Außenwände"}) {
         EXPECT_EQ(kind(part), ObjectKind::structure) << part;
     }
     for (const char* thing :
          {"floor lamp", "Wall clock", "ceiling light 2", "indoor plant", "outdoor chair", "Doris",
-          "sofa", "lintel above door", "Walter", "portable"}) {
+          "sofa", "lintel above door", "Walter", "portable", "Leinwand"}) {
         EXPECT_EQ(kind(thing), ObjectKind::thing) << thing;
     }
 }

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "session/viewers/exposure_follow.h"
+#include <optional>
 
 namespace raybundle {
 
@@ -27,6 +26,8 @@ void ViewerDisplay::set(const v1::SetDisplay& message) {
                     ? DisplayMode::false_illuminance
                     : DisplayMode::photo;
     }
+    const float offset = exposure_offset_;
+    const bool automatic = auto_exposure_;
     if (message.has_exposure()) {
         exposure_offset_ = message.exposure();
     }
@@ -45,28 +46,26 @@ void ViewerDisplay::set(const v1::SetDisplay& message) {
     if (message.has_linear_scale()) {
         linear_scale_ = message.linear_scale();
     }
-    shown_exposure_.reset();
+    shown_.set(automatic == auto_exposure_ ? exposure_offset_ - offset : 0.0F);
 }
 
 PictureLook ViewerDisplay::look(const ViewerImage* image) const {
     const float automatic = auto_exposure_ && image != nullptr ? image->automatic_exposure() : 0.0F;
-    const float exposure = shown_exposure_.value_or(automatic + exposure_offset_);
-    const bool unknown = auto_exposure_ && image == nullptr && !shown_exposure_;
+    const bool known = !auto_exposure_ || (image != nullptr && image->brightness_known());
+    const std::optional<float> shown = known ? shown_.ev() : shown_.last();
+    const float exposure = shown.value_or(automatic + exposure_offset_);
+    const bool unknown = auto_exposure_ && image == nullptr && !shown;
     return {mode_, exposure, colour_scale(exposure), unknown};
 }
 
 float ViewerDisplay::next_exposure(const ViewerImage& image, const ImageStatistics& statistics,
                                    double since_frame_s) {
-    if (auto_exposure_ && shown_exposure_ && !image.brightness_known()) {
-        return *shown_exposure_;  // of another size, or of other shaders: as bright as the last one
+    if (auto_exposure_ && !image.brightness_known()) {
+        return shown_.next(std::nullopt, since_frame_s);
     }
     const float automatic =
         auto_exposure_ ? image.automatic_exposure(statistics.darker_than()) : 0.0F;
-    const float wanted = automatic + exposure_offset_;
-    const float follow = shown_exposure_ ? exposure_follow(since_frame_s) : 1.0F;
-    const float before = shown_exposure_.value_or(wanted);
-    shown_exposure_ = before + (wanted - before) * follow;
-    return *shown_exposure_;
+    return shown_.next(automatic + exposure_offset_, since_frame_s);
 }
 
 ColourScale ViewerDisplay::colour_scale(float exposure) const {

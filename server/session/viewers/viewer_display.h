@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "raybundle.pb.h"
+#include "session/viewers/exposure_follow.h"
 #include "view/viewer_image.h"
 
 namespace raybundle {
@@ -31,7 +30,7 @@ class ViewerDisplay {
     bool isolines_ = false;
     float scale_unit_ = 1.0F;  // lx or cd/m²
     bool linear_scale_ = false;
-    std::optional<float> shown_exposure_;
+    ShownExposure shown_;
 };
 
 }  // namespace raybundle
