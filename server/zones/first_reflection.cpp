@@ -12,6 +12,7 @@ namespace {
 
 constexpr int most_reflections = 64;
 constexpr double least_change = 1e-3;  // of all light, by one more reflection
+constexpr double many_rays = 16.0;     // so many of equal weight tell an area to a quarter
 
 /// Of each patch: clusters that reach into several zones are divided by them.
 std::vector<std::uint32_t> cells_of(const ZonePartition& partition) {
@@ -56,6 +57,27 @@ FirstReflection::FirstReflection(const ZonePartition& partition, std::span<const
             const double density = 1.0 / static_cast<double>(ray.area) + rays_per_area[ray.to];
             lines_.push_back({ray.from, ray.to, 1.0 / density});
             matters_ = matters_ || glm::dot(base_colour[ray.from], base_colour[ray.to]) > 0.0F;
+        }
+    }
+    bound_exchange();
+}
+
+/// A cell that few rays meet may seem to receive more than its area can. Two such cells that see
+/// each other would send light to and fro without an end, so that their areas are those of their
+/// rays where these are larger. Of cells with many rays the excess is small and chance: to bound it
+/// would darken all.
+void FirstReflection::bound_exchange() {
+    std::vector<double> seen(cell_areas_.size(), 0.0);
+    std::vector<double> squares(cell_areas_.size(), 0.0);
+    for (const Line& line : lines_) {
+        for (const std::uint32_t patch : {line.from, line.to}) {
+            seen[cell_[patch]] += line.area;
+            squares[cell_[patch]] += line.area * line.area;
+        }
+    }
+    for (std::size_t cell = 0; cell < seen.size(); ++cell) {
+        if (seen[cell] * seen[cell] < many_rays * squares[cell]) {
+            cell_areas_[cell] = std::max(cell_areas_[cell], seen[cell]);
         }
     }
 }

@@ -40,6 +40,7 @@ class FirstReflection {
         double area = 0.0;  // m²: of either patch, whose light it carries to the other
     };
 
+    void bound_exchange();
     void make_fluxes_irradiance(std::vector<glm::dvec3>& flux) const;
     [[nodiscard]] std::vector<glm::dvec3> direct(std::span<const glm::vec4> emitted,
                                                  double radiance_unit) const;
@@ -51,7 +52,7 @@ class FirstReflection {
     std::vector<Line> lines_;
     std::vector<glm::vec3> base_colour_;  // of patches
     std::vector<std::uint32_t> cell_;     // of patches
-    std::vector<double> cell_areas_;      // m²
+    std::vector<double> cell_areas_;      // m², see bound_exchange()
     std::vector<glm::dvec3> sky_;         // of cells: flux that comes from it, cd/m² m²
 };
 

@@ -244,7 +244,6 @@ TEST(KeptLight, IsBelievedAsFarAsTheLevelsBearItOut) {
     EXPECT_EQ(wrong.doubt(), 1.0);  // nothing is known of the new light yet
 }
 
-/// Two clusters of a zone: one sees its grey surface, the other black ones and the sky.
 /// Each patch is a cell of its own, in one zone.
 ZonePartition single_patches(std::uint32_t count) {
     ZonePartition partition;
@@ -293,6 +292,34 @@ TEST(FirstReflection, WhatIsLeftOfTheSeriesIsAddedUp) {
         reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
     EXPECT_NEAR(light[0].g, 99.0F, 0.1F);
     EXPECT_NEAR(light[1].g, 99.0F, 0.1F);
+}
+
+/// Few rays may tell of more light than a surface has room for. Here they have three times its
+/// area, and what both plates sent each other would double with each reflection.
+TEST(FirstReflection, IsBoundedWhereFewRaysSayTooMuch) {
+    const std::vector<ExchangeRay> rays = {{0, 1, 3.0F, {}}, {1, 0, 3.0F, {}}};
+    const std::vector<float> areas = {1.0F, 1.0F};
+    const std::vector<double> density(2, 1.0 / 3.0);
+    const std::vector<glm::vec3> colour(2, glm::vec3(0.8F));
+    const FirstReflection reflection(single_patches(2), rays, colour, areas, density);
+    const std::vector<glm::vec4> light =
+        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
+    EXPECT_NEAR(light[0].g, 4.0F, 0.02F);
+    EXPECT_NEAR(light[1].g, 4.0F, 0.02F);
+}
+
+/// What belongs to no zone gets its light, too.
+TEST(FirstReflection, ReachesWhatBelongsToNoZone) {
+    ZonePartition partition = single_patches(3);
+    partition.count = 2;
+    partition.zone = {0, 0, 1};
+    partition.loose = 1;
+    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {1, 2, 1.0F, {}}};
+    const FirstReflection reflection(partition, rays, std::vector<glm::vec3>(3, glm::vec3(0.5F)),
+                                     std::vector<float>(3, 1.0F), std::vector<double>(3, 1.0));
+    std::vector<glm::vec4> emitted(3, glm::vec4(0.0F));
+    emitted[0] = glm::vec4(1.0F);
+    EXPECT_GT(reflection.irradiance(emitted, 1.0)[2].g, 0.0F);
 }
 
 /// A black surface is lit by what it sees, and what sees black surfaces or the sky alone gets none.
