@@ -45,13 +45,18 @@ TEST(ColourRendering, IsReadAsFilesWriteIt) {
                           {"CRI 92", 92, 92},
                           {"830", 80, 89},
                           {"940/93", 90, 100},
+                          {"4000K Ra 80", 80, 80},
+                          {"3000 K / CRI > 90", 90, 100},
+                          {"35W/840", 80, 89},
+                          {"58 W, 80", 80, 80},
                           {"100", 100, 100}}) {
         const auto known = read_colour_rendering(c.text);
         ASSERT_TRUE(known) << c.text;
         EXPECT_EQ(known->least, c.least) << c.text;
         EXPECT_EQ(known->most, c.most) << c.text;
     }
-    for (const char* const silent : {"", "-", "0", "1", "n/a", "warm white", "4000", "-1"}) {
+    for (const char* const silent :
+         {"", "-", "0", "1", "n/a", "warm white", "4000", "-1", "36 W", "4000 K"}) {
         EXPECT_FALSE(read_colour_rendering(silent)) << silent;
     }
     EXPECT_EQ(keyword_colour_rendering("[_CRI] 92")->least, 92.0F);
@@ -272,6 +277,10 @@ TEST(Eulumdat, TextStandsWhereTheLightDoesNotDependOnIt) {
     EXPECT_EQ(profile.flux(), flux);
     ASSERT_EQ(profile.data().notes.size(), 1U);
     EXPECT_EQ(profile.data().notes[0], "the power is not a number: \"2X36W\"");
+    const IesProfile latin = parse_eulumdat("f", with_line(32, "f\xFCr 36 W"));
+    ASSERT_EQ(latin.data().notes.size(), 1U);
+    EXPECT_EQ(latin.data().notes[0], "the power is not a number: \"F?R36W\"")
+        << "answers are UTF-8";
     for (const std::size_t line : {13U, 15U, 22U, 23U, 32U, 33U, 42U}) {
         const IesProfile dashed = parse_eulumdat("f", with_line(line, "-"));
         EXPECT_EQ(dashed.flux(), flux) << line;

@@ -54,6 +54,33 @@ std::vector<StatedNumber> stated_numbers(const std::string& text) {
     return found;
 }
 
+/// Whether a number stands behind the name of what it is, maybe with a sign between.
+bool is_named(const std::string& text, const StatedNumber& number) {
+    const std::size_t last = text.find_last_not_of(">=:(\xE2\x89\xA5", number.begin - 1);
+    const std::string_view before = number.begin == 0 || last == std::string::npos
+                                        ? std::string_view()
+                                        : std::string_view(text).substr(0, last + 1);
+    return before.ends_with("RA") || before.ends_with("CRI");
+}
+
+/// Whether it is a colour temperature, a power, a voltage or a flux.
+bool has_other_unit(const std::string& text, const StatedNumber& number) {
+    const std::string_view behind = std::string_view(text).substr(number.end);
+    return behind.starts_with("K") || behind.starts_with("W") || behind.starts_with("V") ||
+           behind.starts_with("LM");
+}
+
+/// Of the numbers that may be Ra the one that is named so, else the first; their end: none.
+std::vector<StatedNumber>::const_iterator likely(const std::vector<StatedNumber>& numbers,
+                                                 const std::string& text) {
+    const auto named = std::find_if(numbers.begin(), numbers.end(),
+                                    [&](const auto& one) { return is_named(text, one); });
+    return named != numbers.end()
+               ? named
+               : std::find_if(numbers.begin(), numbers.end(),
+                              [&](const auto& one) { return !has_other_unit(text, one); });
+}
+
 /// A light colour as lamps have it: 8 of 840 stands for Ra of 80 to 89, and 40 for 4000 K.
 std::optional<ColourRendering> of_light_colour(float value) {
     const int tens = static_cast<int>(value / 100.0F);
@@ -81,10 +108,11 @@ std::optional<ColourRendering> read_colour_rendering(std::string_view line) {
         }
     }
     const std::vector<StatedNumber> numbers = stated_numbers(text);
-    if (numbers.empty()) {
+    const auto place = likely(numbers, text);
+    if (place == numbers.end()) {
         return group;
     }
-    const StatedNumber& first = numbers.front();
+    const StatedNumber& first = *place;
     if (const auto colour = of_light_colour(first.value)) {
         return group ? group : colour;
     }
@@ -92,9 +120,10 @@ std::optional<ColourRendering> read_colour_rendering(std::string_view line) {
     if (first.value < 20.0F || first.value > 100.0F) {
         return group;
     }
-    if (numbers.size() > 1 && numbers[1].value > first.value && numbers[1].value <= 100.0F &&
-        text.substr(first.end, numbers[1].begin - first.end) == "-") {
-        return ColourRendering{first.value, numbers[1].value};
+    const auto next = place + 1;
+    if (next != numbers.end() && next->value > first.value && next->value <= 100.0F &&
+        text.substr(first.end, next->begin - first.end) == "-") {
+        return ColourRendering{first.value, next->value};
     }
     const bool limit = text.substr(0, first.begin).find('>') != std::string::npos ||
                        text.substr(0, first.begin).find("\xE2\x89\xA5") != std::string::npos ||

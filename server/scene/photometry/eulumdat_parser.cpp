@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene/other_file.h"
 #include "scene/photometry/ies_profile.h"
 #include "scene/photometry/ies_text.h"
 #include "scene/photometry/photometric_values.h"
@@ -75,7 +76,8 @@ class LineReader {
         const std::string digits = compact(text(what));
         const std::optional<double> value = legible(digits);
         if (!value && digits.find_first_not_of('-') != std::string::npos) {
-            notes.push_back(fmt::format("{} is not a number: \"{}\"", what, digits.substr(0, 40)));
+            notes.push_back(fmt::format("{} is not a number: \"{}\"", what,
+                                        plain_message(digits.substr(0, 40))));
         }
         return value;
     }

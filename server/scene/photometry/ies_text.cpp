@@ -38,7 +38,10 @@ bool is_space(std::string_view bytes, std::size_t i) {
     const auto c = static_cast<std::uint8_t>(bytes[i]);
     const bool first_of_two =
         c == 0xC2 && i + 1 < bytes.size() && static_cast<std::uint8_t>(bytes[i + 1]) == no_break;
-    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || c == no_break || first_of_two;
+    // Behind another byte above ASCII it is a part of a letter of UTF-8, as of "à".
+    const auto before = static_cast<std::uint8_t>(i > 0 ? bytes[i - 1] : '\0');
+    const bool alone = c == no_break && (before < 0x80 || before == 0xC2);
+    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || alone || first_of_two;
 }
 
 }  // namespace
