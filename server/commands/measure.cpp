@@ -53,7 +53,7 @@ Requirement parse_requirement(const std::string& text, Quantity quantity) {
     }
     if (second != std::string::npos) {
         if (!has_luminaires(quantity)) {
-            throw UsageError("--require: Ra is of HORIZONTAL and NORMAL");
+            throw UsageError("--require: only HORIZONTAL and NORMAL take Ra");
         }
         requirement.colour_rendering = parse_number("--require", rest.substr(second + 1));
         if (*requirement.colour_rendering > 100.0) {
@@ -214,9 +214,10 @@ MeasureTask task_of(const Options& options) {
 /// Whether more samples would not decide anything.
 bool decided(const MeasureTask& task, const Measurement& points) {
     const std::vector<Check> checks = task.checks(points);
-    return std::none_of(checks.begin(), checks.end(), [](const Check& one) {
-        return one.by_measurement && one.verdict == Verdict::unknown;
-    });
+    return verdict_of(checks) == Verdict::missed ||
+           std::none_of(checks.begin(), checks.end(), [](const Check& one) {
+               return one.by_measurement && one.verdict == Verdict::unknown;
+           });
 }
 
 /// Goes on until the error is met and what is required is known, or time is over. Returns seconds.

@@ -47,7 +47,7 @@ std::string listed(std::span<const std::string> names) {
     std::string text;
     for (std::size_t i = 0; i < std::min(counted.size(), most); ++i) {
         const auto& [name, count] = counted[i];
-        text += (text.empty() ? "" : ", ") + (name.empty() ? "a lamp without a name" : name) +
+        text += (text.empty() ? "" : ", ") + name +
                 (count > 1 ? fmt::format(" ({} of them)", count) : "");
     }
     return text + (counted.size() > most ? fmt::format(" and {} more", counted.size() - most) : "");
@@ -59,13 +59,14 @@ Check check_colour_rendering(double least, std::span<const ZoneLuminaire> lumina
     std::vector<std::string> silent;
     std::vector<std::string> vague;
     for (const ZoneLuminaire& luminaire : luminaires) {
+        const std::string name = luminaire.name.empty() ? "a lamp without a name" : luminaire.name;
         const std::optional<ColourRendering>& known = luminaire.colour_rendering;
         if (!known) {
-            silent.push_back(luminaire.name);
+            silent.push_back(name);
         } else if (static_cast<double>(known->most) < least) {
-            short_of.push_back(luminaire.name + " has Ra " + text_of(known));
+            short_of.push_back(name + " has Ra " + text_of(known));
         } else if (static_cast<double>(known->least) < least) {
-            vague.push_back(luminaire.name + " has Ra " + text_of(known));
+            vague.push_back(name + " has Ra " + text_of(known));
         }
     }
     const auto add = [&check](const std::vector<std::string>& names, const char* before) {

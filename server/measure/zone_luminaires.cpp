@@ -128,15 +128,21 @@ class LampLight {
     std::map<int, std::uint32_t> light_of_material_;
 };
 
+/// Where light comes in at a point, as where it is measured.
+glm::dvec3 place_of(const MeasuredScene& scene, const CalculationPoint& point, Quantity quantity) {
+    return in_front_of_surface(scene.rays, scene.rays.from_world(point.position),
+                               Receiver(quantity, point.direction).axis());
+}
+
 /// Evenly among the points, those in solids left out.
 std::vector<std::size_t> places_among(const MeasuredScene& scene,
-                                      std::span<const CalculationPoint> points,
+                                      std::span<const CalculationPoint> points, Quantity quantity,
                                       std::size_t wanted) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < std::min(points.size(), wanted); ++i) {
         const std::size_t point =
             (2 * i + 1) * points.size() / (2 * std::min(points.size(), wanted));
-        if (!inside_solid(scene.rays, scene.rays.from_world(points[point].position))) {
+        if (!inside_solid(scene.rays, place_of(scene, points[point], quantity))) {
             places.push_back(point);
         }
     }
@@ -153,9 +159,9 @@ std::vector<ZoneLuminaire> find_zone_luminaires(const MeasuredScene& scene,
     const std::size_t each =
         std::max<std::size_t>(light.lamps(), 1) * (direct ? 1 : 1 + paths_each);
     const std::size_t wanted = std::clamp<std::size_t>(most_shadow_rays / each, 4, most_places);
-    for (const std::size_t point : places_among(scene, points, wanted)) {
+    for (const std::size_t point : places_among(scene, points, quantity, wanted)) {
         const Receiver receiver(quantity, points[point].direction);
-        const glm::dvec3 position = scene.rays.from_world(points[point].position);
+        const glm::dvec3 position = place_of(scene, points[point], quantity);
         for (std::uint32_t path = 0; path < paths_each; ++path) {
             PixelSampler sampler(1, static_cast<std::uint32_t>(point), 0, path);
             if (path == 0) {

@@ -45,6 +45,25 @@ std::vector<ZoneLuminaire> found_in(const SceneBuilder& builder, double x0, bool
     return find_zone_luminaires(scene, grid(x0, 0.75, 8), Quantity::horizontal, direct);
 }
 
+/// Rounding does not decide whether the floor hides lamps from points on it, or just below.
+TEST(ZoneLuminaires, AreFoundFromTheFloorToo) {
+    SceneBuilder builder;
+    add_room(builder, 0.1F, 0.7F);
+    for (int i = 0; i < 9; ++i) {
+        add_lamp(builder,
+                 {0.8F + 1.3F * static_cast<float>(i % 3), 2.8F,
+                  0.7F + 1.3F * static_cast<float>(i / 3)},
+                 {0, -1, 0}, 1000.0F, "downlight");
+    }
+    const MeasuredScene scene(builder.scene, builder.mesh);
+    for (const double height : {0.0, -5e-4}) {
+        EXPECT_EQ(
+            find_zone_luminaires(scene, grid(0.1, height, 8), Quantity::horizontal, true).size(),
+            9U)
+            << height;
+    }
+}
+
 TEST(ZoneLuminaires, AreThoseOfTheRoomByWhateverWay) {
     SceneBuilder builder;
     add_room(builder, 0.0F, 0.7F);
