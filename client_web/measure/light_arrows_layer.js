@@ -30,6 +30,8 @@ export class LightArrowsLayer {
     #areas = [];
     /** The points that the server measures, or is asked to; empty: none. */
     #asked = '';
+    /** Number of those that were made: an answer counts if it is that of the last one. */
+    #requests = 0;
     /** @type {ReturnType<typeof lightArrows>} */
     #drawn = {arrows: [], most: 0};
 
@@ -50,6 +52,7 @@ export class LightArrowsLayer {
             this.#take(null);  // it went with the connection
             this.#areas = [];
             this.#asked = '';
+            ++this.#requests;
             this.#follow();
         });
         app.on('message', ({measured}) => {
@@ -77,31 +80,32 @@ export class LightArrowsLayer {
             return;
         }
         this.#asked = wanted;
+        ++this.#requests;
         const old = this.#result;
         this.#take(null);
         if (old) {
             this.app.client.request({removeMeasurement: {measurement: old.measurement}}).answer.catch(() => null);
         }
         if (wanted) {
-            this.#ask(points, wanted);
+            this.#ask(points);
         }
     }
 
     /**
      * @param {import('../net/scene_types.js').Vec3[]} points
-     * @param {string} wanted
      */
-    async #ask(points, wanted) {
+    async #ask(points) {
+        const request = this.#requests;
         this.#say('Measuring where light comes from …');
         try {
             const {measured} = await this.app.client.request({measure: arrowRequest(points)}).answer;
-            if (this.#asked === wanted) {
+            if (request === this.#requests) {
                 this.#take(measured ?? null);
             } else if (measured) {  // others are wanted since
                 this.app.client.request({removeMeasurement: {measurement: measured.measurement}}).answer.catch(() => null);
             }
         } catch (error) {
-            if (this.#asked === wanted) {
+            if (request === this.#requests) {
                 this.#say(error instanceof ServerError ? sentence(error.message) : 'The connection was lost.');
             }
         }

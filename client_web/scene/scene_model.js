@@ -366,6 +366,9 @@ export class SceneModel {
         for (const light of lights) {
             const old = this.lights.find(({id}) => id === light.id);
             if (old) {
+                // Where nothing is known of it any more, the message does not have it.
+                delete old.colourRendering;
+                delete old.colourRenderingMost;
                 Object.assign(old, light);
             } else {
                 this.lights.push({...light});

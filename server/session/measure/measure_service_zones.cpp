@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Zones and requirements that come from the project's log: of before a restart, or of its other
 // servers.
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -33,10 +34,11 @@ void MeasureService::note_number(std::uint32_t number) {
 /// False: it has no points to measure, or there are too many zones.
 bool MeasureService::take_up(v1::JournalZone zone) {
     MeasureRequest request = from_message(zone.measure());
-    if (request.task.points.empty() || count(true) >= most_zones) {
-        spdlog::warn(
-            "zone '{}' of the project {}: it is left out", zone.measure().name(),
-            request.problem.empty() ? "has no points, or there are too many" : request.problem);
+    const bool full = count(true) >= most_zones;
+    if (request.task.points.empty() || full) {
+        const std::string why = request.problem.empty() ? "it has no points" : request.problem;
+        spdlog::warn("zone '{}' of the project is left out: {}", zone.measure().name(),
+                     full ? fmt::format("there are {} zones already", most_zones) : why);
         return false;
     }
     const std::uint32_t number = zone.number();

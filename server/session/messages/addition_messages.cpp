@@ -228,7 +228,8 @@ v1::SceneChanged announced(const Scene& scene, const v1::SceneChanged& change) {
         describe_one_object(scene, change.add_object().object(), result);
     } else if (result.has_add_luminaire()) {
         describe_one_light(scene, change.add_luminaire().light(), result);
-    } else if (change.has_set_light() && change.set_light().has_photometry()) {
+    } else if (change.has_set_light() &&
+               (change.set_light().has_photometry() || change.set_light().has_colour_rendering())) {
         describe_one_light(scene, change.set_light().light(), result);
     }
     return result;
