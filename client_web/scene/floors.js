@@ -14,6 +14,8 @@ const MOST_THICK_SHARE = 0.25;
 const LEVEL = 0.05;
 /** A floor takes at least such a share of the area above it. */
 const LEAST_SHARE = 0.15;
+/** What lies on a slab is no thicker, metres. */
+const MOST_BUILT_UP = 0.3;
 /** The floor of a storey is no higher above its lowest part, metres; what is higher is a ceiling. */
 const MOST_ABOVE_FOOT = 1;
 
@@ -39,12 +41,12 @@ function shared(slab, bounds) {
 }
 
 /**
- * Heights of the floors below an area, the lowest first: tops of parts of the building that lie flat, and together take
+ * The floors below an area, the lowest first: tops of parts of the building that lie flat, and together take
  * a good part of the area.
  *
  * @param {readonly PlacedObject[]} objects
  * @param {Bounds} bounds
- * @returns {number[]} metres
+ * @returns {{height: number, area: number}[]} metres, square metres
  */
 function floorsIn(objects, bounds) {
     const slabs = objects
@@ -57,11 +59,12 @@ function floorsIn(objects, bounds) {
         const area = shared(slab, bounds);
         if (last && slab.max.y - last.height < LEVEL) {
             last.area += area;
+            last.height = slab.max.y;
         } else {
             levels.push({height: slab.max.y, area});
         }
     }
-    return levels.filter(({area}) => area >= LEAST_SHARE * areaOf(bounds)).map(({height}) => height);
+    return levels.filter(({area}) => area >= LEAST_SHARE * areaOf(bounds));
 }
 
 /**
@@ -73,7 +76,13 @@ function floorsIn(objects, bounds) {
  */
 export function lowestFloor(objects, bounds) {
     const highest = Math.min(bounds.min.y + MOST_ABOVE_FOOT, bounds.max.y - LEVEL);
-    return floorsIn(objects, bounds).find((height) => height < highest) ?? null;
+    const [lowest, ...others] = floorsIn(objects, bounds).filter(({height}) => height < highest);
+    let floor = lowest;
+    for (const other of others) {  // what lies on most of a slab is stood on: screed, a raised floor
+        const builtUp = floor && other.height - floor.height <= MOST_BUILT_UP && other.area >= 0.5 * floor.area;
+        floor = builtUp ? other : floor;
+    }
+    return floor?.height ?? null;
 }
 
 /**
@@ -85,7 +94,7 @@ export function lowestFloor(objects, bounds) {
  */
 export function floorBelow(objects, bounds) {
     const foot = lies(bounds) ? bounds.max.y : bounds.min.y;
-    return floorsIn(objects, bounds).findLast((height) => height <= foot + LEVEL) ?? null;
+    return floorsIn(objects, bounds).findLast(({height}) => height <= foot + LEVEL)?.height ?? null;
 }
 
 /**

@@ -31,7 +31,9 @@ constexpr std::array<std::string_view, 62> structure_words = {
 /// Compounds end so, too: "Trennwand", "Außenwände".
 constexpr std::array<std::string_view, 5> structure_endings = {"wand", "wände", "waende",
                                                                "partition", "partitions"};
-constexpr std::array<std::string_view, 2> no_structure = {"leinwand", "gewand"};
+constexpr std::array<std::string_view, 10> no_structure = {
+    "leinwand",  "gewand",     "schrankwand", "wohnwand",  "rückwand",
+    "rueckwand", "seitenwand", "pinnwand",    "stellwand", "fotowand"};
 
 constexpr std::array<std::string_view, 41> thing_words = {
     "lamp",    "lamps",   "light",     "lights",  "lighting", "luminaire", "sconce",

@@ -924,6 +924,13 @@ describe('floors', () => {
         assert.equal(lowestFloor(storey.slice(1), bounds), null, 'a ceiling is none');
     });
 
+    it('are the tops of what lies on slabs, but not of a platform', () => {
+        const screed = part('screed', [0.1, 0, 0.1, 7.9, 0.08, 5.9]);
+        assert.equal(lowestFloor([...storey, screed], bounds), 0.08);
+        assert.equal(lowestFloor([...storey, part('thin', [0, 0, 0, 8, 0.03, 6])], bounds), 0.03);
+        assert.equal(lowestFloor([...storey, part('platform', [0, 0, 0, 4, 0.2, 4])], bounds), 0);
+    });
+
     it('are made of several slabs, as round a stair', () => {
         const parts = [part('a', [-0.2, 2.7, 1.2, 8.2, 3, 6.2]), part('b', [-0.2, 2.7, 0, 1, 3, 1.2]), part('roof', [0, 5.7, 0, 8, 6, 6])];
         assert.equal(lowestFloor(parts, box([-0.2, 2.7, 0, 8.2, 6, 6.2])), 3);

@@ -192,9 +192,9 @@ TEST(ObjectKinds, AreToldByNames) {
           "IfcStairFlight", "Partition office left", "Trennwand 3", "IfcWall/Außenwände"}) {
         EXPECT_EQ(kind(part), ObjectKind::structure) << part;
     }
-    for (const char* thing :
-         {"floor lamp", "Wall clock", "ceiling light 2", "indoor plant", "outdoor chair", "Doris",
-          "sofa", "lintel above door", "Walter", "portable", "Leinwand"}) {
+    for (const char* thing : {"floor lamp", "Wall clock", "ceiling light 2", "indoor plant",
+                              "outdoor chair", "Doris", "sofa", "lintel above door", "Walter",
+                              "portable", "Leinwand", "Schrankwand", "Rückwand 2"}) {
         EXPECT_EQ(kind(thing), ObjectKind::thing) << thing;
     }
 }
