@@ -8,6 +8,7 @@
 
 #include "report/html_text.h"
 #include "report/report_sections.h"
+#include "scene/significant.h"
 
 namespace raybundle {
 namespace {
@@ -48,14 +49,21 @@ bool differ(const v1::Vec3& a, const v1::Vec3& b) {
 
 /// "100 → 50 %".
 std::string percents(double before, double after) {
-    return fmt::format("{:.3g} → {:.3g} %", 100.0 * before, 100.0 * after);
+    return significant(100.0 * before, 3) + " → " + significant(100.0 * after, 3) + " %";
 }
 
 /// Of the light that the file gives it, or in cd, lm … where the file gives none.
 std::string intensity_text(double before, double after, const v1::Light* light) {
     const double whole = light != nullptr ? static_cast<double>(light->loaded_intensity()) : 0.0;
-    return whole > 0.0 ? percents(before / whole, after / whole)
-                       : fmt::format("{:.3g} → {:.3g}", before, after);
+    if (whole > 0.0) {
+        return percents(before / whole, after / whole);
+    }
+    const char* const unit = light == nullptr                 ? ""
+                             : light->unit() == v1::Light::CD ? " cd"
+                             : light->unit() == v1::Light::LM ? " lm"
+                             : light->unit() == v1::Light::LX ? " lx"
+                                                              : " cd/m²";
+    return significant(before, 3) + " → " + significant(after, 3) + unit;
 }
 
 /// What has been done to a light, with old and new values, as far as both are known.

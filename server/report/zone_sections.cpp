@@ -163,7 +163,9 @@ std::string luminaire_text(const v1::Measured& found, const ReportWords& w) {
     std::string text;
     for (std::size_t i = 0; i < std::min(types.size(), most); ++i) {
         const auto& [type, count] = types[i];
-        text += fmt::format("{}{} × {}, {}", text.empty() ? "" : "; ", count, escaped(type.first),
+        text += fmt::format("{}{} × {}, {}", text.empty() ? "" : "; ", count,
+                            type.first.empty() ? w.of("lamp without a name", "Leuchte ohne Namen")
+                                               : escaped(type.first),
                             type.second.empty() ? w.of("Ra not stated", "Ra nicht angegeben")
                                                 : "Ra " + type.second);
     }
