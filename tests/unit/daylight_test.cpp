@@ -209,11 +209,11 @@ TEST(Daylight, OptionsWithoutTheirSkyAreNamed) {
     settings.daylight.sun_elevation = 30.0F;
     settings.daylight.environment_scale = 2.0F;
     const Scene dark = one_triangle().load(settings);
-    EXPECT_TRUE(has_notice(dark, "sunElevation change nothing: the scene has no standard sky"));
-    EXPECT_TRUE(has_notice(dark, "environmentScale change nothing"));
+    EXPECT_TRUE(has_notice(dark, "no effect: sunElevation. The scene has no standard sky"));
+    EXPECT_TRUE(has_notice(dark, "no effect: environmentScale"));
     EXPECT_FALSE(has_notice(lit_by({{"sky", "clear"}}).load(settings), "sunElevation"));
     settings.sky_luminance = 70.0F;
-    EXPECT_TRUE(has_notice(lit_by({{"sky", "clear"}}).load(settings), "sunElevation change"));
+    EXPECT_TRUE(has_notice(lit_by({{"sky", "clear"}}).load(settings), "no effect: sunElevation"));
 }
 
 TEST(Daylight, NonsenseIsRejected) {

@@ -100,11 +100,11 @@ struct NearField::Hierarchy {
     }
 
     void attach(const Scene& source) const {
-        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        set_triangles(geometry, source, triangles);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene.get(), geometry);
-        rtcReleaseGeometry(geometry);
+        const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry{
+            rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry};
+        set_triangles(geometry.get(), source, triangles);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometry(scene.get(), geometry.get());
     }
 
     [[nodiscard]] bool occluded(const glm::dvec3& origin, const glm::dvec3& direction,

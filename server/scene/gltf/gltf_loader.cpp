@@ -102,13 +102,13 @@ void note_unused_daylight(GltfDocument& document, const Daylight& options, bool 
     add("sunDiameter", options.sun_diameter.has_value(), sky);
     add("groundAlbedo", options.ground_albedo.has_value(), sky);
     if (!names.empty()) {
-        document.note(names + " change nothing: the scene has no standard sky (--sky clear)");
+        document.note("no effect: " + names + ". The scene has no standard sky (--sky clear)");
     }
     names.clear();
     add("environmentRotation", options.environment_rotation.has_value(), environment);
     add("environmentScale", options.environment_scale.has_value(), environment);
     if (!names.empty()) {
-        document.note(names + " change nothing: the scene has no image of its surroundings");
+        document.note("no effect: " + names + ". The scene has no image of its surroundings");
     }
 }
 
@@ -252,9 +252,10 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     if (const std::vector<std::string> open = thin_open_glass(scene); !open.empty()) {
         const std::string more =
             open.size() > 1 ? fmt::format(" and {} more", open.size() - 1) : std::string();
-        document.note(fmt::format(
-            "material '{}'{}: surfaces that have a thickness do not close: they are thin panes",
-            open.front(), more));
+        document.note(
+            fmt::format("material '{}'{}: it has a thickness, but its surfaces do not close: they "
+                        "are read as thin panes",
+                        open.front(), more));
     }
     scene.cameras = read_cameras(document, tree, scene.bounds);
     scene.removed.solid_insides = mark_solid_shells(scene);

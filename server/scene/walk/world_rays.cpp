@@ -33,18 +33,13 @@ struct WorldRays::Tree {
 };
 
 WorldRays::WorldRays(const Scene& scene) : scene_(scene), tree_(std::make_unique<Tree>()) {
-    RTCGeometry geometry = rtcNewGeometry(tree_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry{
+        rtcNewGeometry(tree_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry};
     std::vector<std::uint32_t> all(scene.triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    try {
-        set_triangles(geometry, scene, all);
-    } catch (...) {
-        rtcReleaseGeometry(geometry);
-        throw;
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree_->scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
+    set_triangles(geometry.get(), scene, all);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(tree_->scene.get(), geometry.get());
     rtcCommitScene(tree_->scene.get());
 }
 
