@@ -4,7 +4,7 @@
 // right corner.
 
 import {
-    UP, add, boundsOf, centre, clamp, cross, diagonal, dot, intersectBounds, length, mix, normalise, scale, sub, vec3,
+    UP, add, boundsOf, centre, clamp, contains, cross, diagonal, dot, intersectBounds, length, mix, normalise, scale, sub, vec3,
 } from '../ui/vector.js';
 
 /**
@@ -153,10 +153,6 @@ const WALL_MARGIN = {metres: 0.75, share: 0.12};
 const NEAREST_SHARE = 0.6;
 /** What is smaller than this in any direction is no room, metres. */
 const SMALLEST_ROOM = 1.5;
-
-/** @type {(bounds: Bounds, point: Vec3) => boolean} */
-const contains = ({min, max}, {x, y, z}) =>
-    x > min.x && x < max.x && y > min.y && y < max.y && z > min.z && z < max.z;
 
 /**
  * What is around an eye: the smallest of the parts of a building that it is inside of, or else the whole

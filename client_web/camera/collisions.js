@@ -5,7 +5,7 @@
 import {byId} from '../ui/elements.js';
 import {ServerError} from '../net/protocol.js';
 import {lowestFloor} from '../scene/floors.js';
-import {add, length, sub, vec3} from '../ui/vector.js';
+import {add, contains, length, sub, vec3} from '../ui/vector.js';
 import {WalkGrid, Walker} from './walk_grid.js';
 
 /**
@@ -102,10 +102,10 @@ export class Collisions {
         if (!scene) {
             return 0;
         }
-        const {min, max} = scene.storeys.get(storey) ?? scene.bounds;
-        const floor = lowestFloor(storey ? scene.objects.filter((object) => object.storey === storey) : scene.objects, {min, max});
-        const inside = eye.x > min.x && eye.x < max.x && eye.y > min.y && eye.y < max.y && eye.z > min.z && eye.z < max.z;
-        return floor ?? (inside ? Math.max(this.floorUnder(eye), min.y) : min.y);
+        const bounds = scene.storeys.get(storey) ?? scene.bounds;
+        const foot = bounds.min.y;
+        const floor = lowestFloor(storey ? scene.objects.filter((object) => object.storey === storey) : scene.objects, bounds);
+        return floor ?? (contains(bounds, eye) ? Math.max(this.floorUnder(eye), foot) : foot);
     }
 
     /**

@@ -28,6 +28,9 @@ function lies({min, max}) {
     return thick <= MOST_THICK && thick <= MOST_THICK_SHARE * Math.min(max.x - min.x, max.z - min.z);
 }
 
+/** @param {PlacedObject} object */
+const isSlab = ({kind, movable, bounds}) => (kind === 'STRUCTURE' || !movable) && lies(bounds);
+
 /**
  * Of a slab, what of it lies below or above an area.
  *
@@ -50,7 +53,7 @@ function shared(slab, bounds) {
  */
 function floorsIn(objects, bounds) {
     const slabs = objects
-        .filter(({kind, movable, bounds: own}) => (kind === 'STRUCTURE' || !movable) && lies(own) && shared(own, bounds) > 0)
+        .filter((object) => isSlab(object) && shared(object.bounds, bounds) > 0)
         .sort((a, b) => a.bounds.max.y - b.bounds.max.y);
     /** @type {{height: number, area: number}[]} */
     const levels = [];
@@ -106,7 +109,7 @@ export function floorBelow(objects, bounds) {
  */
 export function ceilingAbove(objects, {x, y, z}) {
     const undersides = objects
-        .filter(({kind, movable, bounds}) => (kind === 'STRUCTURE' || !movable) && lies(bounds))
+        .filter(isSlab)
         .filter(({bounds: {min, max}}) => min.y > y && x >= min.x && x <= max.x && z >= min.z && z <= max.z)
         .map(({bounds}) => bounds.min.y);
     return undersides.length > 0 ? Math.min(...undersides) : null;

@@ -4,7 +4,7 @@
 import {ceilingAbove} from './floors.js';
 import {byId, fieldNews, fieldNote} from '../ui/elements.js';
 import {threeDigits} from '../ui/units.js';
-import {add, length, scale, vec3} from '../ui/vector.js';
+import {add, centre, contains, length, scale, vec3} from '../ui/vector.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -56,15 +56,15 @@ export function luminaireRequest({photometry, position, columns, rows, spacing, 
  * @param {(from: Vec3, to: Vec3) => Vec3} reached  how far one comes before a wall is in the way
  * @returns {Vec3}
  */
-export function likelyPlace({bounds: {min, max}, objects}, {eye, target}, reached) {
-    const inside = eye.x > min.x && eye.x < max.x && eye.y > min.y && eye.y < max.y && eye.z > min.z && eye.z < max.z;
-    if (!inside) {
-        return vec3((min.x + max.x) / 2, max.y - BELOW_CEILING, (min.z + max.z) / 2);
+export function likelyPlace({bounds, objects}, {eye, target}, reached) {
+    const top = bounds.max.y;
+    if (!contains(bounds, eye)) {
+        return {...centre(bounds), y: top - BELOW_CEILING};
     }
     const ahead = vec3(target.x - eye.x, 0, target.z - eye.z);
     const distance = length(ahead);
     const {x, z} = distance > 0 ? reached(eye, add(eye, scale(ahead, AHEAD / distance))) : eye;
-    return vec3(x, (ceilingAbove(objects, vec3(x, eye.y, z)) ?? max.y) - BELOW_CEILING, z);
+    return vec3(x, (ceilingAbove(objects, vec3(x, eye.y, z)) ?? top) - BELOW_CEILING, z);
 }
 
 export class Luminaires extends EventTarget {

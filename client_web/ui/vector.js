@@ -197,6 +197,10 @@ export function boundsOf(points) {
 /** @type {(bounds: Bounds) => Vec3} */
 export const centre = ({min, max}) => mix(min, max, 0.5);
 
+/** @type {(bounds: Bounds, point: Vec3) => boolean} */
+export const contains = ({min, max}, {x, y, z}) =>
+    x > min.x && x < max.x && y > min.y && y < max.y && z > min.z && z < max.z;
+
 /** @type {(bounds: Bounds) => number} */
 export const diagonal = ({min, max}) => length(sub(max, min));
 

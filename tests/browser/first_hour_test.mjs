@@ -103,12 +103,15 @@ describe('keys', () => {
         await page.waitForFunction(CONNECTED);
         const eye = () => page.evaluate(() => ({...window.raybundle.view.eye}));
         // Polled once a display frame, in which the eye makes one step as long as it walks.
-        const rests = () => page.waitForFunction(() => {
-            const {x, z} = window.raybundle.view.eye;
-            const before = window.eyeBefore;
-            window.eyeBefore = {x, z};
-            return before?.x === x && before?.z === z;
-        });
+        const rests = async () => {
+            await page.evaluate(() => delete window.eyeBefore);
+            await page.waitForFunction(() => {
+                const {x, z} = window.raybundle.view.eye;
+                const before = window.eyeBefore;
+                window.eyeBefore = {x, z};
+                return before?.x === x && before?.z === z;
+            });
+        };
         const walks = async () => {
             const before = await eye();
             await page.keyboard.down('w');

@@ -280,32 +280,29 @@ TEST(FirstReflection, OfTwoPlatesIsAGeometricSeries) {
     }
 }
 
+/// Irradiance of the first of two plates of 1 m² that emit 1 and have one ray to each other, of
+/// this area.
+float of_two_plates(float albedo, float ray_area) {
+    const std::vector<ExchangeRay> rays = {{0, 1, ray_area, {}}, {1, 0, ray_area, {}}};
+    const FirstReflection reflection(
+        single_patches(2), rays, std::vector<glm::vec3>(2, glm::vec3(albedo)),
+        std::vector<float>(2, 1.0F), std::vector<double>(2, 1.0 / static_cast<double>(ray_area)));
+    const std::vector<glm::vec4> light =
+        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
+    EXPECT_FLOAT_EQ(light[1].g, light[0].g);
+    return light[0].g;
+}
+
 /// The slowest mode of a furnace of albedo 0.99 is far from its end after the reflections that are
 /// followed.
 TEST(FirstReflection, WhatIsLeftOfTheSeriesIsAddedUp) {
-    const std::vector<ExchangeRay> rays = {{0, 1, 1.0F, {}}, {1, 0, 1.0F, {}}};
-    const std::vector<float> areas = {1.0F, 1.0F};
-    const std::vector<double> density = {1.0, 1.0};
-    const std::vector<glm::vec3> colour(2, glm::vec3(0.99F));
-    const FirstReflection reflection(single_patches(2), rays, colour, areas, density);
-    const std::vector<glm::vec4> light =
-        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
-    EXPECT_NEAR(light[0].g, 99.0F, 0.1F);
-    EXPECT_NEAR(light[1].g, 99.0F, 0.1F);
+    EXPECT_NEAR(of_two_plates(0.99F, 1.0F), 99.0F, 0.1F);
 }
 
 /// Few rays may tell of more light than a surface has room for. Here they have three times its
 /// area, and what both plates sent each other would double with each reflection.
 TEST(FirstReflection, IsBoundedWhereFewRaysSayTooMuch) {
-    const std::vector<ExchangeRay> rays = {{0, 1, 3.0F, {}}, {1, 0, 3.0F, {}}};
-    const std::vector<float> areas = {1.0F, 1.0F};
-    const std::vector<double> density(2, 1.0 / 3.0);
-    const std::vector<glm::vec3> colour(2, glm::vec3(0.8F));
-    const FirstReflection reflection(single_patches(2), rays, colour, areas, density);
-    const std::vector<glm::vec4> light =
-        reflection.irradiance(std::vector<glm::vec4>(2, glm::vec4(1.0F)), 1.0);
-    EXPECT_NEAR(light[0].g, 4.0F, 0.02F);
-    EXPECT_NEAR(light[1].g, 4.0F, 0.02F);
+    EXPECT_NEAR(of_two_plates(0.8F, 3.0F), 4.0F, 0.02F);
 }
 
 /// What belongs to no zone gets its light, too.
