@@ -4,6 +4,7 @@
 
 import {sameView} from '../camera/camera.js';
 import {Samples} from '../measure/meters.js';
+import {drawer} from '../picture/drawer.js';
 import {FrameThrottle} from '../picture/frame_throttle.js';
 import {DrawnExposure} from './drawn_exposure.js';
 import {LiveLight} from './live_light.js';
@@ -31,7 +32,7 @@ const FOLLOW_MS = 400;
 export class LocalDrawing extends EventTarget {
     /** @type {LiveLight | null} */
     light = null;
-    /** @type {WebGL2RenderingContext | null} */
+    /** Made when it is first needed. @type {WebGL2RenderingContext | null | undefined} */
     #gl;
     #exposure = new DrawnExposure();
     #throttle = new FrameThrottle(() => this.#draw());
@@ -69,14 +70,30 @@ export class LocalDrawing extends EventTarget {
         this.canvas.className = 'drawn';
         this.canvas.hidden = true;
         app.picture.canvas.after(this.canvas);
+        app.client.settings.light = () => this.wanted && this.possible;
+        this.#start();
+    }
+
+    /** Makes the context, if the page is to draw. */
+    #start() {
+        if (!this.wanted || this.#gl !== undefined) {
+            return;
+        }
         this.#gl = this.canvas.getContext('webgl2', {alpha: false, antialias: true, powerPreference: 'high-performance'});
-        app.client.settings.light = () => this.#gl !== null && this.#choice !== 'pictures';
         if (this.#gl) {
             this.#follow(this.#gl);
         }
     }
 
-    /** Whether this browser could draw. */
+    /**
+     * Whether the page is to draw, where it can. Without a GPU only if somebody asks for it: to measure how fast the
+     * processor draws would stop the page for seconds, and it has the server's pictures to unpack.
+     */
+    get wanted() {
+        return this.#choice === 'here' || (this.#choice === 'auto' && drawer() !== 'processor');
+    }
+
+    /** Whether this browser could draw, as far as it is known. */
     get possible() {
         return this.#gl !== null;
     }
@@ -93,8 +110,9 @@ export class LocalDrawing extends EventTarget {
     set choice(choice) {
         const comes = this.app.client.settings.light?.() && !this.light?.ignored;
         this.#choice = choice;
+        this.#start();
         this.#decide();
-        if (!comes && this.possible && choice !== 'pictures') {
+        if (!comes && this.possible && this.wanted) {
             this.app.client.connect();  // light is asked for in the greeting
         }
     }
@@ -106,8 +124,7 @@ export class LocalDrawing extends EventTarget {
 
     /** Whether the page draws when something moves. */
     get draws() {
-        return (this.light?.complete ?? false) &&
-            (this.#choice === 'here' || (this.#choice === 'auto' && !this.slow));
+        return (this.light?.complete ?? false) && this.wanted && (this.#choice === 'here' || !this.slow);
     }
 
     /** For people: who draws, and why. */
@@ -117,6 +134,9 @@ export class LocalDrawing extends EventTarget {
         }
         if (this.#choice === 'pictures') {
             return 'Drawn by the server.';
+        }
+        if (!this.wanted) {
+            return 'Drawn by the server: this browser has no GPU to draw with.';
         }
         if (this.light?.problem) {
             return `Drawn by the server: ${this.light.problem}`;

@@ -4,6 +4,7 @@
 
 import {axes} from '../camera/camera.js';
 import {add, dot, scale, sub} from '../ui/vector.js';
+import {noteDrawer} from './drawer.js';
 
 /**
  * @typedef {import('../net/scene_types.js').View} View
@@ -86,20 +87,6 @@ export function gridTriangles(columns, rows) {
     return indices;
 }
 
-/** Names of drawing without a GPU, as browsers know it. */
-const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
-
-/**
- * Whether the processor draws what a context is told to. Chromium says only by the renderer's name that
- * SwiftShader does.
- *
- * @param {WebGL2RenderingContext} gl
- */
-function drawnByProcessor(gl) {
-    const info = gl.getExtension('WEBGL_debug_renderer_info');
-    return SOFTWARE.test(String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
-}
-
 /** One canvas that shows warped pictures. Needs WebGL 2, and a GPU. */
 export class DepthWarp {
     /** @type {WebGL2RenderingContext} */
@@ -117,7 +104,8 @@ export class DepthWarp {
         this.canvas = canvas;
         // A processor would take the time that the next picture needs.
         const gl = canvas.getContext('webgl2', {antialias: false, failIfMajorPerformanceCaveat: true});
-        if (!gl || drawnByProcessor(gl)) {
+        if (!gl || noteDrawer(gl) === 'processor') {
+            gl?.getExtension('WEBGL_lose_context')?.loseContext();
             throw new Error('This browser offers no WebGL 2 that a GPU draws.');
         }
         this.#gl = gl;

@@ -305,8 +305,13 @@ describe('drawing here', () => {
         await context.close();
     });
 
-    it('is left to the server where the user wants that, and comes back', async () => {
-        const {page, context} = await open();
+    it('is left to the server without a GPU, or where the user wants that, and comes back', async () => {
+        const {page, context} = await openClient(browser, `${daemon.url}#draw=auto`, OPTIONS);
+        await page.waitForFunction(() => window.raybundle?.frame && window.raybundle.client.state === 'connected');
+        assert.match(await page.textContent('#drawing-state'), /by the server: this browser has no GPU/);
+        assert.equal(await page.evaluate(() => window.raybundleParts.drawing.light), null, 'a context that nobody needs');
+        await page.evaluate(() => window.raybundleParts.drawing.choice = 'here');
+        await page.waitForFunction(() => window.raybundleParts.drawing.draws && window.raybundle.client.state === 'connected');
         await page.evaluate(() => window.raybundleParts.drawing.choice = 'pictures');
         await page.evaluate(() => window.raybundle.camera.turn(0.1, 0));
         assert.equal(await page.evaluate(() => window.raybundleParts.drawing.visible), false);
