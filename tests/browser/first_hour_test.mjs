@@ -98,6 +98,15 @@ describe('who walks', () => {
 });
 
 describe('a field of luminaires', () => {
+    it('is refused with its reason where the server has no folder for photometric files', async () => {
+        const {page} = await openPage(server());
+        await page.waitForFunction(CONNECTED);
+        await page.click('#tab-light');
+        await page.click('#add-luminaire summary');
+        assert.match(await page.innerText('#add-luminaire'), /--scenes FOLDER/);
+        assert.ok(await page.isHidden('#upload-photometry') && await page.isHidden('#luminaire-none'));
+    });
+
     it('has room for its numbers beside their words', async () => {
         const {page} = await openPage(server({}, {...WELCOME, canOpenScenes: true}), {viewport: {width: 1100, height: 900}});
         await page.waitForFunction(CONNECTED);
