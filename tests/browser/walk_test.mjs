@@ -213,3 +213,37 @@ async function moveAndCompare({name, left, upwards, forwards, rightwards}) {
         depthBytes,
     };
 }
+
+describe('a plan', () => {
+    it('hatches what it cuts through, whatever light there is', async (t) => {
+        const browser = await launchBrowser();
+        t.after(() => browser.close());
+        const daemon = await Daemon.start('tests/cases/places/pin_point.gltf');
+        t.after(() => daemon.stop());
+        const {page, faults} = await openClient(browser, daemon.url, OPTIONS);
+        await page.waitForFunction(() => window.raybundle?.frame);
+        await page.evaluate(async () => {
+            const {client, scene} = window.raybundle;
+            const board = scene.objects.find(({movable}) => movable);
+            const {scale} = board.transform;
+            // 0.1 m thick: the plan's cut, 1.2 m above the floor, is in its middle.
+            await client.request({moveObject: {object: board.id, transform: {translation: {x: 2.2, y: 1.15, z: 2.2}, scale}}}).answer;
+        });
+        await page.click('#plans-details summary');
+        await page.click('#plans button');
+        // Grey of both tones, 0.42 and 0.62; light of a lamp is nowhere both.
+        await page.waitForFunction(() => {
+            const canvas = document.getElementById('canvas');
+            const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            const seen = {107: 0, 158: 0};
+            for (let i = 0; i < data.length; i += 4) {
+                for (const tone of [107, 158]) {
+                    seen[tone] += [0, 1, 2].every((k) => Math.abs(data[i + k] - tone) < 8) ? 1 : 0;
+                }
+            }
+            return seen[107] > 500 && seen[158] > 100;
+        });
+        await keepScreenshot(page, 'plan_cut');
+        assert.deepEqual(faults, []);
+    });
+});
