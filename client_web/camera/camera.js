@@ -342,6 +342,19 @@ export function atHeight(view, y) {
 }
 
 /**
+ * The same view straight ahead, neither up nor down. One along the vertical stays as it is.
+ *
+ * @param {View} view
+ * @returns {View}
+ */
+export function levelled(view) {
+    const {x, y, z} = sub(view.target, view.eye);
+    const across = Math.hypot(x, z);
+    const longer = across > 0 ? Math.hypot(across, y) / across : 0;
+    return longer > 0 ? {...view, target: add(view.eye, vec3(x * longer, 0, z * longer)), up: UP} : view;
+}
+
+/**
  * View on the way from one to another.
  *
  * @param {View} from

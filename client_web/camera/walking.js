@@ -2,7 +2,7 @@
 // Moving through the scene by other means than keys and dragging: mouse look, a stick for the thumb,
 // a game controller, a double click, and standing up at eye height.
 
-import {EYE_HEIGHT, atHeight, goTo} from './camera.js';
+import {EYE_HEIGHT, atHeight, goTo, levelled} from './camera.js';
 import {noMotion} from './camera_control.js';
 import {byId, returnFocus, showValue, whileAsked} from '../ui/elements.js';
 import {metres} from '../ui/format.js';
@@ -61,8 +61,6 @@ export class Walking {
             const pressed = /** @type {HTMLElement} */ (button).dataset.mode === mode;
             button.setAttribute('aria-pressed', String(pressed));
         }
-        this.#eye.hidden = mode !== 'walk';
-        this.#stick.hidden = mode !== 'walk' || !this.#touch;
         this.#showEye();
     }
 
@@ -71,10 +69,15 @@ export class Walking {
         this.setMode(this.app.camera.mode === 'orbit' ? 'walk' : 'orbit');
     }
 
-    /** Stands on the floor. */
+    /** Stands on the floor. Who comes from far above or below looks straight ahead there, not at the ground; nobody stands in a plan. */
     stand() {
         const {view} = this.app;
-        this.app.camera.flyTo(atHeight(view, this.collisions.floorUnder(view.eye) + EYE_HEIGHT));
+        if (view.near) {
+            return;
+        }
+        const height = this.collisions.floorUnder(view.eye) + EYE_HEIGHT;
+        const there = atHeight(view, height);
+        this.app.camera.flyTo(Math.abs(height - view.eye.y) > EYE_HEIGHT ? levelled(there) : there);
     }
 
     /** Looks with the mouse until Esc. */
@@ -190,8 +193,12 @@ export class Walking {
         this.#polling = requestAnimationFrame(() => this.#poll());
     }
 
+    /** In a plan nobody stands. */
     #showEye() {
-        const {eye} = this.app.view;
+        const {eye, near} = this.app.view;
+        const walks = this.app.camera.mode === 'walk' && !near;
+        this.#eye.hidden = !walks;
+        this.#stick.hidden = !walks || !this.#touch;
         showValue('eyeHeight', metres(eye.y - this.collisions.floorUnder(eye)));
     }
 }

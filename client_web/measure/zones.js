@@ -86,17 +86,32 @@ export function renderingText({colourRendering, colourRenderingMost}) {
 }
 
 /**
- * The luminaires that light a zone, types with their number and Ra, the strongest first.
+ * What lights a zone, types with their number and Ra, the strongest first. A glowing material is one light on
+ * however many luminaires: it has no number.
  *
  * @param {Measured} zone
- * @returns {string[]} e.g. ["12 × panel, Ra 80 to 89", "1 × spot, Ra not stated"]
+ * @param {(light: number) => boolean} [isMaterial]  whether the light of this number is one
+ * @returns {string[]} e.g. ["12 × panel, Ra 80 to 89", "all surfaces of LED, Ra not stated"]
  */
-export function luminaireLines({luminaires = []}) {
+export function luminaireLines({luminaires = []}, isMaterial = () => false) {
     /** @type {Map<string, number>} */
     const types = new Map();
     for (const luminaire of luminaires) {
-        const type = `${luminaire.name || 'a lamp without a name'}, Ra ${renderingText(luminaire)}`;
-        types.set(type, (types.get(type) ?? 0) + 1);
+        const material = isMaterial(luminaire.light);
+        const name = luminaire.name || (material ? 'a material without a name' : 'a lamp without a name');
+        const type = `${material ? `all surfaces of ${name}` : name}, Ra ${renderingText(luminaire)}`;
+        types.set(type, (types.get(type) ?? 0) + (material ? 0 : 1));
     }
-    return [...types].map(([type, count]) => `${count} × ${type}`);
+    return [...types].map(([type, count]) => count > 0 ? `${count} × ${type}` : type);
+}
+
+/**
+ * @param {Measured} zone
+ * @param {(light: number) => boolean} [isMaterial]  as above
+ * @returns {string} e.g. "Lit by 2 luminaires and 1 glowing material"
+ */
+export function litBy({luminaires = []}, isMaterial = () => false) {
+    const materials = luminaires.filter(({light}) => isMaterial(light)).length;
+    const count = (/** @type {number} */ number, /** @type {string} */ what) => number > 0 ? [`${number} ${what}${number === 1 ? '' : 's'}`] : [];
+    return `Lit by ${[...count(luminaires.length - materials, 'luminaire'), ...count(materials, 'glowing material')].join(' and ')}`;
 }

@@ -2,7 +2,7 @@
 // Zones: planes that are kept with the project under a name, what is required of them, and whether they meet it.
 
 import {byId, fieldNote, replaceRows, smallButton} from '../ui/elements.js';
-import {checkText, luminaireLines, verdictSign, verdictWords, zoneValues} from './zones.js';
+import {checkText, litBy, luminaireLines, verdictSign, verdictWords, zoneValues} from './zones.js';
 
 /**
  * @typedef {import('../app/app.js').RaybundleApp} RaybundleApp
@@ -139,7 +139,7 @@ export class ZonesPanel {
             line.textContent = `${verdictSign(check.verdict)} ${checkText(check, this.measuring.unit)}`;
             body.append(line);
         }
-        const lamps = luminaireLines(zone);
+        const lamps = luminaireLines(zone, this.#isMaterial);
         if (lamps.length > 0) {
             body.append(this.#lampList(zone, lamps));
         }
@@ -155,6 +155,8 @@ export class ZonesPanel {
         return item;
     }
 
+    #isMaterial = (/** @type {number} */ light) => this.app.scene?.lights.some(({id, kind}) => id === light && kind === 'AREA') ?? false;
+
     /**
      * @param {Measured} zone
      * @param {string[]} lines
@@ -164,8 +166,7 @@ export class ZonesPanel {
         details.open = this.#unfolded.has(zone.measurement);
         details.addEventListener('toggle', () => this.#unfolded[details.open ? 'add' : 'delete'](zone.measurement));
         const title = document.createElement('summary');
-        const count = zone.luminaires?.length ?? 0;
-        title.textContent = `Lit by ${count} luminaire${count === 1 ? '' : 's'}`;
+        title.textContent = litBy(zone, this.#isMaterial);
         const list = document.createElement('ul');
         list.className = 'zone-lamps';
         list.append(...lines.map((line) => {

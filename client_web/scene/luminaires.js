@@ -108,9 +108,13 @@ export class Luminaires extends EventTarget {
     }
 
     async #welcomed() {
-        const may = this.app.mayEdit && this.app.client.welcome?.canOpenScenes === true;
-        this.#section.hidden = !may;
-        if (!may) {
+        const folder = this.app.client.welcome?.canOpenScenes === true;  // photometric files are in it
+        this.#section.hidden = !this.app.mayEdit;
+        byId('luminaire-folder', HTMLElement).hidden = folder;
+        for (const id of ['luminaire-none', 'luminaire-form', 'luminaire-upload']) {
+            byId(id, HTMLElement).hidden = !folder;
+        }
+        if (!this.app.mayEdit || !folder) {
             return;
         }
         this.#placed = false;

@@ -30,6 +30,7 @@ struct ReportData {
     double made_at_ms = 0.0;              ///< Unix time
     std::optional<double> picture_error;  ///< relative, of the best picture that somebody sees
     std::vector<ReportZone> zones;
+    double floor_area = 0.0;  ///< of the rooms with luminaires, m²; 0: not known
     std::vector<v1::Requirement> requirements;
     std::vector<v1::PinChanged> pins;
     v1::ChangeHistory changes;
@@ -40,6 +41,7 @@ struct ReportOptions {
     bool german = false;
     bool foot_candles = false;  ///< of illuminance, else lx
     double since_ms = 0.0;      ///< Unix time from which on changes are listed
+    double area = 0.0;          ///< m², that power is divided by; 0: ReportData::floor_area
     double hours = 2500.0;      ///< that lights burn in a year, for LENI: an office's of EN 15193-1
 };
 

@@ -47,14 +47,8 @@ ReportPower power_of(const ReportData& data) {
     return power;
 }
 
-double lit_area(const ReportData& data) {
-    double area = 0.0;
-    for (const ReportZone& zone : data.zones) {
-        const bool counts = zone.measure.quantity() == v1::Measure::HORIZONTAL &&
-                            zone.measure.surrounding() == 0.0F;
-        area += counts ? zone.area : 0.0;
-    }
-    return area;
+double lit_area(const ReportData& data, const ReportOptions& options) {
+    return options.area > 0.0 ? options.area : data.floor_area;
 }
 
 std::string project_section(const ReportData& data, const ReportWords& w) {
@@ -116,7 +110,7 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
                     w.of("MF", "WF"), w.of("Group", "Gruppe"), w.of("Light now", "Licht jetzt")},
                    rows);
     const ReportPower power = power_of(data);
-    const double area = lit_area(data);
+    const double area = lit_area(data, w.options());
     html += fmt::format(
         "<p>{}: {:.0f} lm",
         w.of("All together, as they are switched", "Zusammen, wie sie geschaltet sind"), flux);
@@ -125,13 +119,18 @@ std::string luminaire_section(const ReportData& data, const ReportWords& w) {
                                 "; – W, W/m² und LENI: keine Datei nennt eine Leistung");
     if (area > 0.0 && power.stated) {
         html += fmt::format(
-            fmt::runtime(w.of(
-                "; {:.2f} W/m² and LENI {:.1f} kWh/(m² a) with {:.0f} h a year, of {:.1f} m² of "
-                "zones of horizontal illuminance",
-                "; {:.2f} W/m² und LENI {:.1f} kWh/(m² a) bei {:.0f} h im Jahr, auf {:.1f} m² "
-                "Zonen horizontaler Beleuchtungsstärke")),
+            fmt::runtime(w.of("; {:.2f} W/m² and LENI {:.1f} kWh/(m² a) with {:.0f} h a year, on "
+                              "{:.1f} m² of floor ({})",
+                              "; {:.2f} W/m² und LENI {:.1f} kWh/(m² a) bei {:.0f} h im Jahr, auf "
+                              "{:.1f} m² Grundfläche ({})")),
             power.watts / area, power.watts * w.options().hours / 1000.0 / area, w.options().hours,
-            area);
+            area,
+            w.options().area > 0.0
+                ? w.of("as stated", "wie angegeben")
+                : w.of("rooms with luminaires, by the model", "Räume mit Leuchten, laut Modell"));
+    } else if (power.stated) {
+        html += w.of("; no W/m² and LENI: no luminaire is in a room with a floor and a ceiling",
+                     "; keine W/m² und LENI: keine Leuchte ist in einem Raum mit Boden und Decke");
     }
     html += ".</p>\n";
     if (glowing) {

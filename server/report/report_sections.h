@@ -30,7 +30,8 @@ struct ReportPower {
     bool stated = false;  ///< by one lamp at least: else the sum means nothing
 };
 ReportPower power_of(const ReportData& data);
-/// Of all zones of horizontal illuminance that are not strips around others, m².
-double lit_area(const ReportData& data);
+/// What power is divided by, m²: as asked for, else the floor of rooms with luminaires; 0: not
+/// known. Never the zones: a desk is lit by the power of a room.
+double lit_area(const ReportData& data, const ReportOptions& options);
 
 }  // namespace raybundle

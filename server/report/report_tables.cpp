@@ -74,7 +74,7 @@ std::string report_csv(const ReportData& data, const ReportOptions& options) {
 
 std::string report_json(const ReportData& data, const ReportOptions& options) {
     const ReportPower power = power_of(data);
-    const double area = lit_area(data);
+    const double area = lit_area(data, options);
     Json json = {{"server", data.server},
                  {"epoch", data.epoch},
                  {"madeAtMs", data.made_at_ms},

@@ -142,19 +142,28 @@ std::string glare_text(const v1::Measured& found, const ReportWords& w) {
     return html;
 }
 
-/// What lights it, and how well colours look in that light: types with their number.
-std::string luminaire_text(const v1::Measured& found, const ReportWords& w) {
+bool is_material(const v1::Scene& scene, std::uint32_t number) {
+    return std::any_of(scene.lights().begin(), scene.lights().end(), [&](const v1::Light& light) {
+        return light.id() == number && light.kind() == v1::Light::AREA;
+    });
+}
+
+/// What lights it, and how well colours look in that light: types with their number. A glowing
+/// material, on however many luminaires, has none: 0.
+std::string luminaire_text(const v1::Measured& found, const v1::Scene& scene,
+                           const ReportWords& w) {
     constexpr std::size_t most = 12;
     std::vector<std::pair<std::pair<std::string, std::string>, int>> types;
     for (const v1::Measured::Luminaire& luminaire : found.luminaires()) {
+        const int one = is_material(scene, luminaire.light()) ? 0 : 1;
         const std::pair<std::string, std::string> type(luminaire.name(),
                                                        w.colour_rendering(luminaire));
         const auto known = std::find_if(types.begin(), types.end(),
-                                        [&](const auto& one) { return one.first == type; });
+                                        [&](const auto& other) { return other.first == type; });
         if (known == types.end()) {
-            types.emplace_back(type, 1);
+            types.emplace_back(type, one);
         } else {
-            ++known->second;
+            known->second += one;
         }
     }
     if (types.empty()) {
@@ -163,7 +172,9 @@ std::string luminaire_text(const v1::Measured& found, const ReportWords& w) {
     std::string text;
     for (std::size_t i = 0; i < std::min(types.size(), most); ++i) {
         const auto& [type, count] = types[i];
-        text += fmt::format("{}{} × {}, {}", text.empty() ? "" : "; ", count,
+        text += fmt::format("{}{}{}, {}", text.empty() ? "" : "; ",
+                            count > 0 ? fmt::format("{} × ", count)
+                                      : w.of("all surfaces of ", "allen Flächen von "),
                             type.first.empty() ? w.of("lamp without a name", "Leuchte ohne Namen")
                                                : escaped(type.first),
                             type.second.empty() ? w.of("Ra not stated", "Ra nicht angegeben")
@@ -175,7 +186,7 @@ std::string luminaire_text(const v1::Measured& found, const ReportWords& w) {
     return std::string("<p>") + w.of("Lit by ", "Beleuchtet von ") + text + ".</p>\n";
 }
 
-std::string zone_section(const ReportZone& zone, const ReportWords& w) {
+std::string zone_section(const ReportZone& zone, const v1::Scene& scene, const ReportWords& w) {
     const v1::Measured& found = zone.found;
     std::string html = "<div class=\"zone\"><h3>" + escaped(found.name()) + "</h3>\n<p>" +
                        w.quantity(found.quantity()) + ". " + grid_text(zone, w) + ". ";
@@ -207,7 +218,7 @@ std::string zone_section(const ReportZone& zone, const ReportWords& w) {
         html += std::string("<p class=\"quiet\">") +
                 w.of("Nothing is known yet.", "Noch nichts bekannt.") + "</p>\n";
     }
-    html += luminaire_text(found, w);
+    html += luminaire_text(found, scene, w);
     if (!found.requirement().empty()) {
         html += "<p>" + check_text(found, w) + "</p>\n";
     }
@@ -256,7 +267,7 @@ std::string zone_sections(const ReportData& data, const ReportWords& w) {
     }
     std::string html = std::string("<h2>") + w.of("Zones", "Zonen") + "</h2>\n";
     for (const ReportZone& zone : data.zones) {
-        html += zone_section(zone, w);
+        html += zone_section(zone, data.scene, w);
     }
     return html;
 }

@@ -29,7 +29,8 @@ void FrameComposer::compose(const GpuScene& scene, const ViewPrograms& programs,
     const bool photo = look.mode == DisplayMode::photo;
     const float factor =
         photo ? display_factor(look.exposure) * scene.radiance_unit() : look.scale.maximum;
-    pixels.set_display({scene.radiance_unit(), factor, 0.0F, look.scale.isolines});
+    pixels.set_display(
+        {scene.radiance_unit(), factor, look.cut ? 1.0F : 0.0F, look.scale.isolines});
     frame_size = glm::clamp(frame_size, glm::uvec2(1), pixels.size());
     const bool whole = frame_size == pixels.size();
     const auto index = static_cast<std::size_t>(look.mode);

@@ -32,6 +32,7 @@ struct PictureLook {
     float exposure = 0.0F;
     ColourScale scale;
     bool automatic = false;  ///< the picture's own automatic exposure comes to `exposure`
+    bool cut = false;        ///< a plan or section: what is cut through is hatched, not black
 };
 
 /// Makes frames for people of what pixels show, and brings them, and depths, from the GPU.

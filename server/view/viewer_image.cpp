@@ -303,8 +303,8 @@ void ViewerImage::end_special(float bundles_noise, float most_weight) {
 void ViewerImage::compose(DisplayMode mode, float exposure, glm::uvec2 frame_size,
                           const ColourScale& scale) {
     light_pixels();
-    composer_.compose(scene_, programs_, pixels_, *edges_, {mode, exposure, scale, false},
-                      frame_size);
+    composer_.compose(scene_, programs_, pixels_, *edges_,
+                      {mode, exposure, scale, false, camera_.near > 0.0F}, frame_size);
     check_picture();
 }
 

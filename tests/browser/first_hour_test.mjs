@@ -61,6 +61,69 @@ describe('a floor', () => {
     });
 });
 
+describe('who walks', () => {
+    it('has no height in a plan, and has it again behind it', async () => {
+        const {page} = await openPage(server({getWalkMap: mapWith(0)}), {hasTouch: true, isMobile: true});
+        await page.waitForFunction(CONNECTED);
+        await page.click('[data-mode="walk"]');
+        assert.ok(await page.isVisible('#eye') && await page.isVisible('#stick'));
+        await page.click('#plans-details summary');
+        await page.click('#plans button');
+        await page.waitForFunction(() => window.raybundle.view.near > 0);
+        assert.ok(await page.isHidden('#eye') && await page.isHidden('#stick'));
+        await page.keyboard.press('KeyH');
+        assert.ok(await page.evaluate(() => window.raybundle.view.near > 0), 'nobody stands in a plan');
+        await page.click('#leave-plan');
+        await page.waitForSelector('#eye', {state: 'visible'});
+    });
+
+    it('and stands up from high above looks ahead, who bends looks on', async () => {
+        const [camera] = WELCOME.scene.cameras;
+        const high = {...camera, eye: {x: 2, y: 9, z: 8}, target: {x: 2, y: 3, z: 0}};
+        const scene = {...WELCOME.scene, cameras: [high, camera]};
+        const {page} = await openPage(server({getWalkMap: mapWith(0)}, {...WELCOME, scene}));
+        await page.waitForFunction(CONNECTED);
+        await page.waitForFunction(() => window.raybundleParts.collisions.floorUnder(window.raybundle.view.eye) === 0);
+        await page.keyboard.press('KeyH');
+        await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.y - 1.6) < 1e-6);
+        assert.ok(await page.evaluate(() => Math.abs(window.raybundle.view.target.y - 1.6) < 1e-6));
+        await page.evaluate(() => {
+            const {view, camera: control} = window.raybundle;
+            control.set({...view, eye: {...view.eye, y: 1}, target: {...view.target, y: 0}});
+        });
+        await page.keyboard.press('KeyH');
+        await page.waitForFunction(() => Math.abs(window.raybundle.view.eye.y - 1.6) < 1e-6);
+        assert.ok(await page.evaluate(() => window.raybundle.view.target.y < 1));
+    });
+});
+
+describe('a field of luminaires', () => {
+    it('is refused with its reason where the server has no folder for photometric files', async () => {
+        const {page} = await openPage(server());
+        await page.waitForFunction(CONNECTED);
+        await page.click('#tab-light');
+        await page.click('#add-luminaire summary');
+        assert.match(await page.innerText('#add-luminaire'), /--scenes FOLDER/);
+        assert.ok(await page.isHidden('#upload-photometry') && await page.isHidden('#luminaire-none'));
+    });
+
+    it('has room for its numbers beside their words', async () => {
+        const {page} = await openPage(server({}, {...WELCOME, canOpenScenes: true}), {viewport: {width: 1100, height: 900}});
+        await page.waitForFunction(CONNECTED);
+        await page.click('#tab-light');
+        await page.evaluate(() => {
+            document.getElementById('add-luminaire').open = true;
+            document.getElementById('luminaire-fields').hidden = false;
+            document.getElementById('luminaire-spacing').value = '2.125';
+        });
+        await keepScreenshot(page, 'luminaire_field');
+        for (const id of ['columns', 'rows', 'spacing']) {
+            const room = await page.locator(`#luminaire-${id}`).evaluate((input) => input.clientWidth);
+            assert.ok(room >= 60, `${id}: ${room} pixels`);
+        }
+    });
+});
+
 describe('what is awaited', () => {
     it('after a click is marked where it was, until the answer is there', async () => {
         const answers = [];

@@ -23,7 +23,7 @@ import {likelyPlace} from '../../client_web/scene/luminaires.js';
 import {sunText} from '../../client_web/scene/daylight_panel.js';
 import {groupState, groupsOf} from '../../client_web/lights/light_groups.js';
 import {areaOver, outlineOver, planeCsv, planeState, valueText, withInterval} from '../../client_web/measure/work_plane.js';
-import {checkText, verdictSign, zoneValues} from '../../client_web/measure/zones.js';
+import {checkText, litBy, luminaireLines, verdictSign, zoneValues} from '../../client_web/measure/zones.js';
 import {aimAt, aimOf, anglesOf} from '../../client_web/lights/light_place.js';
 import {dimmerPosition, dimmerShare, intensityProblem, lightFigures} from '../../client_web/lights/light_values.js';
 import {lightState} from '../../client_web/lights/light_state.js';

@@ -213,3 +213,38 @@ async function moveAndCompare({name, left, upwards, forwards, rightwards}) {
         depthBytes,
     };
 }
+
+describe('a plan', () => {
+    it('hatches what it cuts through, whatever light there is', async (t) => {
+        const browser = await launchBrowser();
+        t.after(() => browser.close());
+        const daemon = await Daemon.start('tests/cases/places/pin_point.gltf');
+        t.after(() => daemon.stop());
+        const {page, faults} = await openClient(browser, daemon.url, OPTIONS);
+        await page.waitForFunction(() => window.raybundle?.frame);
+        await page.evaluate(async () => {
+            const {client, scene} = window.raybundle;
+            const board = scene.objects.find(({movable}) => movable);
+            const {scale} = board.transform;
+            // 0.1 m thick: the plan's cut, 1.2 m above the floor, is in its middle.
+            await client.request({moveObject: {object: board.id, transform: {translation: {x: 2.2, y: 1.15, z: 2.2}, scale}}}).answer;
+        });
+        await page.click('#plans-details summary');
+        await page.click('#plans button');
+        // Grey of both tones, 0.42 and 0.62, in turn, eight pixels on the same again.
+        await page.waitForFunction(() => {
+            const canvas = document.getElementById('canvas');
+            const {width, height} = canvas;
+            const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
+            const isTone = (/** @type {number} */ pixel, /** @type {number} */ tone) =>
+                [0, 1, 2].every((k) => Math.abs(data[4 * pixel + k] - tone) < 25);
+            let stripes = 0;
+            for (let i = 0; i + 8 < width * height; ++i) {
+                stripes += isTone(i, 158) && isTone(i + 4, 107) && isTone(i + 8, 158) ? 1 : 0;
+            }
+            return stripes > 500;
+        });
+        await keepScreenshot(page, 'plan_cut');
+        assert.deepEqual(faults, []);
+    });
+});

@@ -66,6 +66,7 @@ ReportData data_of() {
     lamp.set_flux(4000.0F);
     lamp.set_watts(36.0F);
     lamp.set_maintenance_factor(0.8F);
+    data.floor_area = 40.0;
     data.zones.push_back(zone_of("=desk, \"A\""));
     v1::PinChanged& pin = data.pins.emplace_back();
     pin.set_pin(1);
@@ -143,14 +144,23 @@ TEST(Report, SpeaksGermanAndFootcandles) {
     EXPECT_EQ(html.find("Zones at a glance"), std::string::npos);
 }
 
-/// 36 W dimmed to a half on 12 m²: 1.5 W/m², and 3.75 kWh/(m² a) in 2500 h.
+/// 36 W dimmed to a half on 40 m² of floor, whatever zones cover: 0.45 W/m², and 1.125 kWh/(m² a)
+/// in 2500 h. Who knows the floor says it: 10 m².
 TEST(Report, AddsUpPower) {
     const ReportData data = data_of();
     EXPECT_NEAR(power_of(data).watts, 18.0, 1e-6);
-    EXPECT_NEAR(lit_area(data), 12.0, 1e-12);
     const auto json = nlohmann::json::parse(report_json(data, {}));
-    EXPECT_NEAR(json["power"]["wattsPerSquareMetre"], 1.5, 1e-6);
-    EXPECT_NEAR(json["power"]["leni"], 3.75, 1e-6);
+    EXPECT_NEAR(json["power"]["area"], 40.0, 1e-12);
+    EXPECT_NEAR(json["power"]["wattsPerSquareMetre"], 0.45, 1e-6);
+    EXPECT_NEAR(json["power"]["leni"], 1.125, 1e-6);
+    ReportOptions stated;
+    stated.area = 10.0;
+    EXPECT_NEAR(nlohmann::json::parse(report_json(data, stated))["power"]["leni"], 4.5, 1e-6);
+    EXPECT_NE(report_html(data, stated).find("10.0 m² of floor (as stated)"), std::string::npos);
+    ReportData nowhere = data;
+    nowhere.floor_area = 0.0;
+    EXPECT_FALSE(nlohmann::json::parse(report_json(nowhere, {}))["power"].contains("leni"));
+    EXPECT_NE(report_html(nowhere, {}).find("no luminaire is in a room"), std::string::npos);
     EXPECT_EQ(json["zones"][0]["points"].size(), 12U);
     EXPECT_EQ(json["pins"][0]["replies"][0]["text"], "Seen");
     ReportOptions later;

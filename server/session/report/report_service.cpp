@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "report/bcf.h"
+#include "report/floor_area.h"
 #include "report/print_pdf.h"
 #include "report/report_html.h"
 #include "scene/gltf/gltf_loader.h"
@@ -91,6 +92,17 @@ DocumentResult write_scene(const SceneToSave& scene) {
     }
 }
 
+/// Of the rooms in which luminaires of a stated power are, m².
+double floor_of_luminaires(const Scene& scene, const v1::Scene& described) {
+    std::vector<glm::vec3> places;
+    for (const v1::Light& light : described.lights()) {
+        if (light.has_watts() && light.has_position()) {
+            places.push_back(from_message(light.position()));
+        }
+    }
+    return floor_area(scene, places);
+}
+
 }  // namespace
 
 ReportOptions report_options(const std::string& query) {
@@ -110,6 +122,10 @@ ReportOptions report_options(const std::string& query) {
             double hours = 0.0;
             std::from_chars(value.data(), value.data() + value.size(), hours);
             options.hours = hours > 0.0 && hours <= 8784.0 ? hours : options.hours;
+        } else if (key == "area") {
+            double area = 0.0;
+            std::from_chars(value.data(), value.data() + value.size(), area);
+            options.area = area > 0.0 && area <= 1e9 ? area : 0.0;
         }
     }
     return options;
@@ -218,6 +234,7 @@ std::shared_ptr<const ReportData> ReportService::collect() const {
     for (const Object& object : parts_.scene.scene().objects) {
         data->objects[object.id] = object.name;
     }
+    data->floor_area = floor_of_luminaires(parts_.scene.scene(), data->scene);
     parts_.lighting.describe(&data->scene);
     data->epoch = parts_.scene.epoch();
     data->made_at_ms = unix_ms();

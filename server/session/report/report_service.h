@@ -82,8 +82,8 @@ class ReportService {
     std::thread thread_;
 };
 
-/// Options of a query as "lang=de&unit=fc&since=2026-06-21&hours=2500"; what is not known is left
-/// out.
+/// Options of a query as "lang=de&unit=fc&since=2026-06-21&hours=2500&area=40"; what is not known
+/// is left out.
 ReportOptions report_options(const std::string& query);
 
 }  // namespace raybundle

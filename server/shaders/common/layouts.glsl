@@ -499,7 +499,7 @@ struct ViewParameters {
     vec4 up;            // scaled by tan(fov/2)
     vec4 forward;       // unit
     uvec4 size;         // width, height, probe columns, probe rows
-    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, unused, unit of the isolines
+    vec4 display;       // radiance unit (cd/m^2), exposure factor or top of the colour scale, 1: what is cut is hatched, unit of the isolines
     vec4 sky;           // background radiance, radiance units; w = factor of the environment's texels
     vec4 sun;           // to it, unit; w = cosine of its radius, above 1: none is drawn
     vec4 sun_radiance;  // cd/m^2

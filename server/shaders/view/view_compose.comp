@@ -16,6 +16,16 @@ layout(std430, binding = BINDING_FRAME) writeonly buffer FrameBuffer { uint fram
 uniform uint frame_width;
 uniform uint frame_height;
 
+/// Whether a pixel shows where a plan or section cuts through something: its inside has no light.
+bool cut_through(PixelSurface p) {
+    return view.display.z > 0.0 && p.side == NO_PATCH && (p.facet & PIXEL_BACK) != 0u;
+}
+
+/// What is cut is hatched, at any exposure, so that it is told from dark rooms and from the sky.
+vec3 hatching(uvec2 at) {
+    return vec3((at.x + at.y) % 8u < 2u ? 0.62 : 0.42);
+}
+
 #if defined(FALSE_LUMINANCE) || defined(FALSE_ILLUMINANCE)
 uniform float scale_begin;  // lower end of the colour scale, cd/m² or lx; 0: it is linear
 
@@ -44,6 +54,9 @@ bool isoline_between(float a, float b) {
 
 /// Displayed colour of a pixel, 0..1; dark where an isoline begins.
 vec3 shown(uvec2 at) {
+    if (cut_through(load_pixel(at.y * view.size.x + at.x))) {
+        return hatching(at);
+    }
     float value = quantity(at);
     vec3 colour = false_colour(value, scale_begin, view.display.y);
     if (view.display.w > 0.0) {
@@ -60,6 +73,9 @@ vec3 shown(uvec2 at) {
 vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
+    if (cut_through(p)) {
+        return hatching(at);
+    }
 #ifdef UNLIT
     if ((p.facet & PIXEL_UNLIT) != 0u && p.side != NO_PATCH
 #ifdef IES
