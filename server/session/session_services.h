@@ -17,6 +17,7 @@
 #include "session/session_state.h"
 #include "session/snapshots/snapshot_queue.h"
 #include "session/snapshots/snapshot_service.h"
+#include "session/solution_sharing.h"
 #include "session/solver_driver.h"
 #include "session/status_reporter.h"
 #include "session/viewers/arrival_service.h"
@@ -54,6 +55,7 @@ struct SessionServices {
     ReportService reports;
     SceneService scenes;
     ArrivalService arrivals;
+    SolutionSharing sharing;
     StatusReporter status;
     ProjectFollower follower;
 };
