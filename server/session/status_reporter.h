@@ -5,9 +5,9 @@
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
+#include "session/light/solution_sharing.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
-#include "session/solution_sharing.h"
 #include "session/viewers/viewer_pictures.h"
 #include "session/viewers/viewers.h"
 

@@ -116,6 +116,10 @@ void RedisExchange::exchange(RedisConnection& connection) {
     }
     if (round.state_number != working_on_) {
         working_on_ = round.state_number;
+        if (const auto old = read_estimate_head(own_);
+            old && old->state.epoch != round.state.epoch) {
+            connection.command({"PEXPIRE", key_of(old->state.epoch, settings_.worker), "0"});
+        }
         own_.clear();
         others_.clear();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/solution_sharing.h"
+#include "session/light/solution_sharing.h"
 
 #include <algorithm>
 #include <chrono>
