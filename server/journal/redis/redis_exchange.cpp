@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "journal/solution_estimate.h"
@@ -104,8 +106,9 @@ void RedisExchange::note_working(const std::string& problem) {
 
 RedisExchange::Round RedisExchange::take_round() {
     const std::lock_guard lock(mutex_);
+    std::optional<PatchMeans> own = std::exchange(next_.own, std::nullopt);
     Round round = next_;
-    next_.own.reset();
+    round.own = std::move(own);
     return round;
 }
 
@@ -114,25 +117,25 @@ void RedisExchange::exchange(RedisConnection& connection) {
     if (round.state_number == 0) {
         return;
     }
+    // Redis may go away at any command: what is known here is brought up to date before.
+    std::string old;
     if (round.state_number != working_on_) {
         working_on_ = round.state_number;
-        if (const auto old = read_estimate_head(own_);
-            old && old->state.epoch != round.state.epoch) {
-            connection.command({"PEXPIRE", key_of(old->state.epoch, settings_.worker), "0"});
-        }
-        own_.clear();
+        old = std::exchange(own_, {});
         others_.clear();
     }
     if (round.own) {
         own_ = encode_estimate({round.state, ++own_number_}, *round.own, round.unit);
         stored_ = false;
     }
+    if (const auto head = read_estimate_head(old); head && head->state.epoch != round.state.epoch) {
+        connection.command({"PEXPIRE", key_of(head->state.epoch, settings_.worker), "0"});
+    }
     if (!own_.empty()) {
         send(connection, round);
     }
-    if (read_others(connection, round)) {
-        merge(round);
-    }
+    read_others(connection, round);
+    merge(round);
 }
 
 /// Stores the own estimate, or says that it is still somebody's.
@@ -150,8 +153,7 @@ void RedisExchange::send(RedisConnection& connection, const Round& round) {
     connection.command({"SADD", prefix_ + "workers", settings_.worker});
 }
 
-/// False: they have what they had.
-bool RedisExchange::read_others(RedisConnection& connection, const Round& round) {
+void RedisExchange::read_others(RedisConnection& connection, const Round& round) {
     std::set<std::string> present;
     for (const RedisReply& member : connection.command({"SMEMBERS", prefix_ + "workers"}).list) {
         if (is_worker_name(member.text) && member.text != settings_.worker) {
@@ -162,21 +164,10 @@ bool RedisExchange::read_others(RedisConnection& connection, const Round& round)
         refuse(*present.rbegin(), "more than " + std::to_string(most_others) + " others are here");
         present.erase(std::prev(present.end()));
     }
-    bool changed = forget_absent(present);
+    std::erase_if(others_, [&](const auto& other) { return !present.contains(other.first); });
     for (const std::string& worker : present) {
-        changed |= read_other(connection, round, worker);
+        read_other(connection, round, worker);
     }
-    return changed;
-}
-
-bool RedisExchange::forget_absent(const std::set<std::string>& present) {
-    bool changed = false;
-    std::erase_if(others_, [&](const auto& other) {
-        const bool gone = !present.contains(other.first);
-        changed |= gone && !other.second.estimate.empty();
-        return gone;
-    });
-    return changed;
 }
 
 std::string RedisExchange::counted(std::string bytes) {
@@ -185,8 +176,7 @@ std::string RedisExchange::counted(std::string bytes) {
     return bytes;
 }
 
-/// False: it has what it had.
-bool RedisExchange::read_other(RedisConnection& connection, const Round& round,
+void RedisExchange::read_other(RedisConnection& connection, const Round& round,
                                const std::string& worker) {
     // One byte more than there may be, so that a longer value is not taken for a whole one.
     const auto read = [&](std::size_t bytes) {
@@ -198,20 +188,17 @@ bool RedisExchange::read_other(RedisConnection& connection, const Round& round,
     const std::string begin = read(estimate_head_bytes);
     if (begin.empty()) {  // it has ended, or has nothing of this state yet
         connection.command({"SREM", prefix_ + "workers", worker});
-        const auto known = others_.find(worker);
-        const bool had = known != others_.end() && !known->second.estimate.empty();
         others_.erase(worker);
-        return had;
+        return;
     }
     const std::optional<EstimateHead> head = read_estimate_head(begin);
     const std::uint32_t number = head ? head->number : 0;
     const auto known = others_.find(worker);
     if (known != others_.end() && known->second.number == number) {
-        return false;
+        return;
     }
     Other& other = others_[worker];
-    const bool had = !other.estimate.empty();
-    other = {number, {}};
+    other = {number, {}, false};
     std::string problem = problem_of_head(head, round.state);
     if (problem.empty()) {
         other.estimate = read(estimate_bytes(round.state.patches));
@@ -220,13 +207,12 @@ bool RedisExchange::read_other(RedisConnection& connection, const Round& round,
     if (!problem.empty()) {
         other.estimate.clear();
         refuse(worker, problem);
-        return had;
+        return;
     }
     other.number = read_estimate_head(other.estimate)->number;  // a newer one may have come
     refused_.erase(worker);
     const std::lock_guard lock(mutex_);
     ++figures_.received;
-    return true;
 }
 
 /// Says why once.
@@ -244,11 +230,22 @@ void RedisExchange::refuse(const std::string& worker, const std::string& reason)
     }
 }
 
+/// Where the others have something else than what was added up last.
 void RedisExchange::merge(const Round& round) {
-    EstimateSum sum(round.state.patches);
+    unsigned workers = 0;
+    bool fresh = false;
     for (const auto& [worker, other] : others_) {
+        workers += other.estimate.empty() ? 0 : 1;
+        fresh |= !other.estimate.empty() && !other.merged;
+    }
+    if (!fresh && workers == figures().workers) {
+        return;
+    }
+    EstimateSum sum(round.state.patches);
+    for (auto& [worker, other] : others_) {
         if (!other.estimate.empty()) {
             sum.add(other.estimate);
+            other.merged = true;
         }
     }
     MergedMeans merged = sum.means(round.unit);

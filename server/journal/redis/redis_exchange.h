@@ -6,7 +6,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -49,16 +48,16 @@ class RedisExchange final : public SolutionExchange {
     struct Other {
         std::uint32_t number = 0;  ///< of the estimate that was looked at last
         std::string estimate;      ///< empty: refused
+        bool merged = false;
     };
 
     void run();
     void exchange(RedisConnection& connection);
     Round take_round();
     void send(RedisConnection& connection, const Round& round);
-    bool read_others(RedisConnection& connection, const Round& round);
-    bool read_other(RedisConnection& connection, const Round& round, const std::string& worker);
+    void read_others(RedisConnection& connection, const Round& round);
+    void read_other(RedisConnection& connection, const Round& round, const std::string& worker);
     void refuse(const std::string& worker, const std::string& reason);
-    bool forget_absent(const std::set<std::string>& present);
     void merge(const Round& round);
     void note_working(const std::string& problem);
     [[nodiscard]] std::string key_of(std::uint32_t epoch, const std::string& worker) const;
