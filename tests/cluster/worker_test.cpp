@@ -42,7 +42,7 @@ void wait_for(const Daemon& server, int epoch, int workers) {
     }
 }
 
-TEST(Worker, SolvesForTheServerOfItsProject) {
+TEST(HeavyWorker, SolvesForTheServerOfItsProject) {
     const RedisServer redis;
     const std::string scene = scene_file("cornell_box.gltf");
     const std::vector<std::string> common{"--redis", redis.text(),   "--project",
