@@ -38,8 +38,9 @@ int list_gpus() {
 }
 
 int run(const Options& options, const CLI::App& app) {
-    const bool reloads =
-        options.command == Options::Command::serve || options.command == Options::Command::projects;
+    const bool reloads = options.command == Options::Command::serve ||
+                         options.command == Options::Command::projects ||
+                         options.command == Options::Command::work;
     if (!reloads) {
         raybundle::release_hangup();
     }
@@ -49,6 +50,8 @@ int run(const Options& options, const CLI::App& app) {
     switch (options.command) {
         case Options::Command::serve:
             return raybundle::run_serve(options);
+        case Options::Command::work:
+            return raybundle::run_work(options);
         case Options::Command::projects:
             return raybundle::run_projects(options);
         case Options::Command::render:

@@ -4,6 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdlib>
+#include <utility>
+
+#include "journal/redis/redis_exchange.h"
+#include "journal/redis/redis_setup.h"
+#include "options/config_file.h"
+#include "scene/mix_bits.h"
 
 namespace raybundle {
 
@@ -20,6 +26,14 @@ void warn(const JournalError& error) {
 std::string of_environment(const char* name, const std::string& otherwise) {
     const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
     return value == nullptr ? otherwise : value;
+}
+
+std::uint64_t hash_of(const std::string& text) {
+    std::uint64_t sum = text.size();
+    for (const char c : text) {
+        sum = mix_bits(sum ^ static_cast<unsigned char>(c));
+    }
+    return sum;
 }
 
 }  // namespace
@@ -82,6 +96,48 @@ void JournalChoice::remember_scene(ChangeLog& log, const std::string& started_wi
     } catch (const JournalError& error) {
         spdlog::error("after a restart another scene will be shown: {}", error.what());
     }
+}
+
+ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& loaded) {
+    if (const auto redis = journals.redis_for(loaded.digest)) {
+        return {"project " + redis->project + " of Redis at " + redis->address.text(),
+                [settings = *redis] { return std::make_unique<RedisLog>(settings); }};
+    }
+    JournalSettings settings;
+    settings.file = journals.file_for(loaded.digest);
+    if (settings.file.empty()) {
+        return {};
+    }
+    settings.scene_name = loaded.scene.name;
+    settings.scene_digest = loaded.digest;
+    return ChangeLog(settings);
+}
+
+WorkerExchange open_exchange(const JournalChoice& journals, const LoadedScene& loaded,
+                             const Options& options) {
+    const auto redis = journals.redis_for(loaded.digest);
+    if (!redis) {
+        return {};
+    }
+    RedisExchangeSettings settings;
+    settings.address = redis->address;
+    settings.project = redis->project;
+    settings.worker = random_name();
+    WorkerExchange workers;
+    workers.fingerprint =
+        hash_of(RAYBUNDLE_VERSION " " + loaded.digest + " " + light_options(options));
+    workers.seed = mix_bits(options.scene.seed ^ hash_of(settings.worker));
+    workers.exchange = std::make_unique<RedisExchange>(std::move(settings));
+    return workers;
+}
+
+RenderLoopSettings shared_by(const WorkerExchange& workers, RenderLoopSettings settings) {
+    if (workers.exchange) {
+        settings.exchange = workers.exchange.get();
+        settings.fingerprint = workers.fingerprint;
+        settings.solver.seed = workers.seed;
+    }
+    return settings;
 }
 
 std::string where_saved(const ChangeLog& log) {

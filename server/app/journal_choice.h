@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "app/load_scene.h"
 #include "journal/redis/redis_log.h"
+#include "journal/solution_exchange.h"
 #include "journal/state_folder.h"
 #include "options/cli_options.h"
 #include "session/changes/change_log.h"
+#include "session/render_loop_settings.h"
 
 namespace raybundle {
 
@@ -36,6 +41,20 @@ class JournalChoice {
     std::string file_;
     std::optional<StateFolder> folder_;
 };
+
+/// The log of a scene's changes, as the choice says.
+ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& loaded);
+
+/// What several workers of a project share of their light.
+struct WorkerExchange {
+    std::unique_ptr<SolutionExchange> exchange;  ///< null: each server is alone
+    std::uint64_t fingerprint = 0;  ///< of scene file, options that light depends on, and version
+    std::uint64_t seed = 0;         ///< of this worker alone
+};
+WorkerExchange open_exchange(const JournalChoice& journals, const LoadedScene& loaded,
+                             const Options& options);
+/// Settings with such an exchange, which must outlive whoever gets them.
+RenderLoopSettings shared_by(const WorkerExchange& workers, RenderLoopSettings settings);
 
 /// One line for whoever runs the server.
 std::string where_saved(const ChangeLog& log);

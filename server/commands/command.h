@@ -9,6 +9,7 @@ namespace raybundle {
 
 // Each runs one subcommand and returns its exit status.
 int run_serve(const Options& options);
+int run_work(const Options& options);
 int run_projects(const Options& options);
 int run_render(const Options& options);
 /// The part of run_render() that needs no GL context.

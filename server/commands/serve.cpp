@@ -20,7 +20,6 @@
 #include "app/span_export.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
-#include "journal/redis/redis_log.h"
 #include "net/server.h"
 #include "options/config_file.h"
 #include "options/log_settings.h"
@@ -50,21 +49,6 @@ void reload_settings(const Options& options, Server& server) {
     } catch (const std::exception& error) {
         spdlog::error("settings stay as they were: {}", error.what());
     }
-}
-
-ChangeLog open_change_log(const JournalChoice& journals, const LoadedScene& loaded) {
-    if (const auto redis = journals.redis_for(loaded.digest)) {
-        return {"project " + redis->project + " of Redis at " + redis->address.text(),
-                [settings = *redis] { return std::make_unique<RedisLog>(settings); }};
-    }
-    JournalSettings settings;
-    settings.file = journals.file_for(loaded.digest);
-    if (settings.file.empty()) {
-        return {};
-    }
-    settings.scene_name = loaded.scene.name;
-    settings.scene_digest = loaded.digest;
-    return ChangeLog(settings);
 }
 
 /// Why a loop ends: `leave` is set last.
@@ -102,13 +86,17 @@ class NetworkEnd {
 struct ServedScene {
     ServedScene(const JournalChoice& journals, LoadedScene loaded,
                 const std::shared_ptr<const SceneFolder>& folder,
-                const RenderLoopSettings& settings, Server& server, const SpanExporter* spans)
+                const RenderLoopSettings& settings, const Options& options, Server& server,
+                const SpanExporter* spans)
         : log(open_change_log(journals, loaded)),
+          workers(open_exchange(journals, loaded, options)),
           restored((loaded.scene.folder = folder, log.restore(loaded.scene, loaded.mesh), true)),
-          loop(std::move(loaded.scene), std::move(loaded.mesh), settings, server, log),
+          loop(std::move(loaded.scene), std::move(loaded.mesh), shared_by(workers, settings),
+               server, log),
           metrics(server, loop, log, spans) {}
 
     ChangeLog log;
+    WorkerExchange workers;
     bool restored;  // before anything is moved from
     RenderLoop loop;
     MetricsSource metrics;
@@ -251,7 +239,7 @@ class SceneServer {
     std::unique_ptr<ServedScene> serve_scene(LoadedScene loaded) {
         auto folder = control_.opener ? control_.opener->folder() : nullptr;
         return std::make_unique<ServedScene>(journals_, std::move(loaded), folder, settings_,
-                                             server_, spans_);
+                                             options_, server_, spans_);
     }
 
     /// Viewers that wait hear of it.

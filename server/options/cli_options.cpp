@@ -24,6 +24,8 @@ struct CommandRow {
 
 constexpr CommandRow command_table[] = {
     {"serve", "Serve a scene to browsers", Options::Command::serve, false},
+    {"work", "Solve for the servers of a project, without viewers of its own",
+     Options::Command::work, false},
     {"projects",
      "Serve many scenes at one address, each by a server that sleeps while nobody looks",
      Options::Command::projects, false},
@@ -122,10 +124,26 @@ void add_serve(CLI::App& app, Options& o) {
     }
 }
 
-/// Completes the options of `serve` from the configuration file.
+void add_work(CLI::App& app, Options& o) {
+    app.add_option("SCENE", o.scene.file, "glTF 2.0 file, .gltf or .glb");
+    app.add_option("--config", o.config.file,
+                   "JSON file of the servers, of which this command takes what it knows; options "
+                   "given here win");
+    for (const OptionRow& row : option_table()) {
+        for (const std::string_view key :
+             {"redis", "project", "scenes", "patchSize", "seed", "logFormat"}) {
+            if (row.key == key) {
+                add_row(app, o, row);
+            }
+        }
+    }
+}
+
+/// Completes the options of `serve` and `work` from the configuration file.
 void finish_serve(const CLI::App& app, Options& o) {
     for (const OptionRow& row : option_table()) {
-        if (app.get_option(flag_of(row.key))->count() > 0) {
+        const CLI::Option* const option = app.get_option_no_throw(flag_of(row.key));
+        if (option != nullptr && option->count() > 0) {
             o.config.on_command_line.insert(row.key);
         }
     }
@@ -136,7 +154,16 @@ void finish_serve(const CLI::App& app, Options& o) {
         apply_config_file(o.config.file, o);
     }
     if (o.scene.file.empty() && !o.config.print) {
-        throw UsageError("serve: needs a SCENE, on the command line or in the --config file");
+        throw UsageError(app.get_name() +
+                         ": needs a SCENE, on the command line or in the --config file");
+    }
+}
+
+void finish_work(const CLI::App& app, Options& o) {
+    finish_serve(app, o);
+    if (o.serve.redis.empty()) {
+        throw UsageError(
+            "work: needs --redis HOST:PORT, by which it works for the servers of a project");
     }
 }
 
@@ -299,6 +326,8 @@ void define_options(CLI::App& app, Options& options) {
             check_rows(*command, options);
             if (row.command == Options::Command::serve) {
                 finish_serve(*command, options);
+            } else if (row.command == Options::Command::work) {
+                finish_work(*command, options);
             } else if (row.command == Options::Command::projects) {
                 finish_projects(*command, options);
             }
@@ -314,6 +343,10 @@ void define_options(CLI::App& app, Options& options) {
         add_common(*command, options);
         if (row.command == Options::Command::serve) {
             add_serve(*command, options);
+            continue;
+        }
+        if (row.command == Options::Command::work) {
+            add_work(*command, options);
             continue;
         }
         if (row.command != Options::Command::selftest) {

@@ -224,6 +224,7 @@ struct Options {
     enum class Command {
         none,
         serve,
+        work,
         projects,
         render,
         export_scene,
@@ -244,7 +245,7 @@ struct Options {
     AirOptions air;
     LogOptions log;
 
-    // serve
+    // serve; of these work has config and what is said of Redis
     ConfigOptions config;
     NetworkOptions network;
     ServeOptions serve;

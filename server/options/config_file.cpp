@@ -351,4 +351,17 @@ std::string print_config(const Options& options) {
     }
 }
 
+std::string light_options(const Options& options) {
+    Json json;
+    for (const OptionRow& option : option_table()) {
+        const std::string_view key = option.key;
+        const bool elsewhere = key == "gpu" || key == "bundles" || key == "logLevel";
+        if (key == "patchSize" || (option.common && !elsewhere)) {
+            json[option.key] = std::visit(
+                [&](const auto& field) { return to_json(field(options)); }, option.field);
+        }
+    }
+    return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
 }  // namespace raybundle

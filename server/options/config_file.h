@@ -22,4 +22,7 @@ Options reread_config(const Options& options);
 /// The configuration in effect as JSON that apply_config_file() reads back.
 std::string print_config(const Options& options);
 
+/// Those of these options that the light of a scene depends on, as text.
+std::string light_options(const Options& options);
+
 }  // namespace raybundle

@@ -7,6 +7,27 @@
 
 namespace raybundle {
 
+namespace {
+
+void write_exchange(MetricsText& out, const ExchangeFigures& e) {
+    const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
+        out.counter(name, help, static_cast<double>(value));
+    };
+    out.gauge("raybundle_merged_workers", "Other workers whose light is merged", e.workers);
+    out.gauge("raybundle_exchange_working", "0 while light cannot be shared with other workers",
+              e.working ? 1.0 : 0.0);
+    count("raybundle_exchange_sent_total", "Estimates of light that were sent", e.published);
+    count("raybundle_exchange_received_total", "Estimates of other workers that were merged",
+          e.received);
+    count("raybundle_exchange_refused_total", "Workers whose estimates were refused, each once",
+          e.refused);
+    count("raybundle_exchange_sent_bytes_total", "Bytes of estimates sent", e.bytes_sent);
+    count("raybundle_exchange_received_bytes_total", "Bytes of estimates received",
+          e.bytes_received);
+}
+
+}  // namespace
+
 void LoopMetrics::count_frame(std::size_t bytes) {
     ++frames_;
     frame_bytes_ += bytes;
@@ -88,6 +109,9 @@ std::string LoopMetrics::text() const {
                 static_cast<double>(f.journal_failures));
     out.gauge("raybundle_journal_working", "0 after a change could not be saved",
               f.journal_working ? 1.0 : 0.0);
+    if (f.exchange) {
+        write_exchange(out, *f.exchange);
+    }
     return out.text();
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "journal/solution_exchange.h"
 #include "scheduling/clock.h"
 #include "stream/video_encoders.h"
 #include "transport/iteration_schedule.h"
@@ -26,6 +27,7 @@ struct LoopFigures {
     std::size_t gl_bytes = 0;      ///< buffers and textures
     std::uint64_t journal_failures = 0;
     bool journal_working = true;
+    std::optional<ExchangeFigures> exchange;  ///< absent: light is not shared with other workers
 };
 
 /// What /metrics says about the render loop. Written by its thread, read by any.

@@ -50,6 +50,7 @@ void RenderLoop::run(const std::atomic<bool>& stop) {
 bool RenderLoop::turn() {
     services_.follower.step();
     services_.changes.start_pending();
+    services_.sharing.step();
     const bool sent = services_.frames.send();
     send_solutions();
     services_.presence.hear_peers();

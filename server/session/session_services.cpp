@@ -41,7 +41,8 @@ SessionServices::SessionServices(SessionState& s, const RenderLoopSettings& sett
                 {settings.renderer, settings.software_rendering,
                  static_cast<bool>(settings.scene_requests)},
                 s.policy.clock()}),
-      status({s.live, s.viewers, s.pictures, s.policy, s.server, s.metrics}),
+      sharing({s.live, s.policy.clock(), settings.exchange, settings.fingerprint}),
+      status({s.live, s.viewers, s.pictures, s.policy, sharing, s.server, s.metrics}),
       follower({s.live, changes, lighting, review, views, measurements}) {}
 
 void SessionServices::forget(SessionState& state, ViewerId viewer) {

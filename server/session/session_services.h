@@ -7,6 +7,7 @@
 #include "session/changes/lighting_service.h"
 #include "session/changes/project_follower.h"
 #include "session/light/light_service.h"
+#include "session/light/solution_sharing.h"
 #include "session/measure/error_service.h"
 #include "session/measure/measure_service.h"
 #include "session/measure/probe_service.h"
@@ -54,6 +55,7 @@ struct SessionServices {
     ReportService reports;
     SceneService scenes;
     ArrivalService arrivals;
+    SolutionSharing sharing;
     StatusReporter status;
     ProjectFollower follower;
 };

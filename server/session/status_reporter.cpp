@@ -78,6 +78,7 @@ void StatusReporter::publish(TimePoint now) {
     }
     f.journal_failures = parts_.scene.log().failures();
     f.journal_working = parts_.scene.log().working();
+    f.exchange = parts_.sharing.figures();
     parts_.metrics.publish(f, now);
 }
 

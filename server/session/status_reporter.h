@@ -5,6 +5,7 @@
 
 #include "net/server.h"
 #include "scheduling/frame_policy.h"
+#include "session/light/solution_sharing.h"
 #include "session/live_scene.h"
 #include "session/loop_metrics.h"
 #include "session/viewers/viewer_pictures.h"
@@ -20,6 +21,7 @@ class StatusReporter {
         const Viewers& viewers;
         const ViewerPictures& pictures;
         const FramePolicy& policy;
+        const SolutionSharing& sharing;
         Server& server;
         LoopMetrics& metrics;
     };

@@ -242,7 +242,7 @@ bool Solver::start_is_completed() const {
 /// Weight of a sample in the mean since the last change, or since the start: rises, so that what
 /// the iterate had before fades like 1/n^2.
 float Solver::sample_weight() const {
-    const auto since = static_cast<float>((changes_ > 0 ? since_change_ : iterations_) + 1);
+    const auto since = static_cast<float>(samples() + 1);
     const float least = start_is_completed() ? completed_start : 0.0F;
     return std::min(std::max(since, least) / transient_, 1.0F) *
            (is_fine() ? fine_sample_weight : 1.0F);

@@ -106,6 +106,19 @@ class Solver {
     /// was made of. Requires !other.correcting().
     void continue_from(const Solver& other, const Scene& scene, const PatchMesh& mesh);
     [[nodiscard]] bool correcting() const { return phase_.has_value(); }
+
+    /// Iterations since the last change, or since the start.
+    [[nodiscard]] std::uint64_t samples() const {
+        return changes_ > 0 ? since_change_ : iterations_;
+    }
+    /// Mean irradiance that own iterations have brought since then, see RadianceStore::own_light(),
+    /// once what the iterate had before has next to no weight in it; null before, and where it is
+    /// not known.
+    [[nodiscard]] const Buffer* own_light() const {
+        return !correcting() && static_cast<float>(samples()) >= 2.0F * transient_
+                   ? store_.own_light()
+                   : nullptr;
+    }
     /// How further changes are worked in.
     void set_special(const SpecialSettings& special) { settings_.special = special; }
     /// Bundles of the last special phase's first stage, 0 before any.

@@ -43,6 +43,9 @@ def main():
         command, environment, _ = started(folder, "serve", "scene.gltf", "--listen=0.0.0.0:8080")
         if not command.endswith("raybundle serve scene.gltf --listen=0.0.0.0:8080") or PASSWORD not in environment:
             failures.append(f"a server is started as {command}, {environment}")
+        command, environment, _ = started(folder, "work", "scene.gltf")
+        if not command.endswith("raybundle work scene.gltf") or PASSWORD not in environment:
+            failures.append(f"a worker is started as {command}, {environment}")
     print("\n".join(failures), file=sys.stderr)
     return 1 if failures else 0
 

@@ -55,11 +55,14 @@ Daemon::Daemon(Unready /*unready*/, const std::string& scene,
     start(arguments);
 }
 
-Daemon::Daemon(const Command& command) {
+Daemon::Daemon(const Command& command) : Daemon(Unready{}, command) {
+    wait_for_address();
+}
+
+Daemon::Daemon(Unready /*unready*/, const Command& command) {
     std::vector<std::string> arguments{RAYBUNDLE_EXECUTABLE};
     arguments.insert(arguments.end(), command.arguments.begin(), command.arguments.end());
     start(arguments);
-    wait_for_address();
 }
 
 void Daemon::wait_for_address() {

@@ -26,6 +26,8 @@ class Daemon {
         std::vector<std::string> arguments;
     };
     explicit Daemon(const Command& command);
+    /// Another command that listens nowhere.
+    Daemon(Unready unready, const Command& command);
     void wait_for_address();
     ~Daemon();  ///< kills it if need be
     Daemon(const Daemon&) = delete;

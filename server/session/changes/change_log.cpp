@@ -173,13 +173,16 @@ void ChangeLog::restore(Scene& scene, PatchMesh& mesh) {
     for (const v1::SceneChanged& change : changes) {
         if (change.change_case() == v1::SceneChanged::CHANGE_NOT_SET) {
             spdlog::error("change {} of the journal cannot be read and is lost", change.epoch());
+            note_lost();
             continue;
         }
         if (!fits(scene, change)) {
             spdlog::warn("change {} of the journal does not fit the scene", change.epoch());
+            note_lost();
             continue;
         }
         if (grows(scene, change) && !grow(scene, mesh, change)) {
+            note_lost();
             continue;
         }
         apply(scene, change);

@@ -69,6 +69,10 @@ class ChangeLog {
     }
     /// Whether other servers have it, too.
     [[nodiscard]] bool shared() const { return journal_ && journal_->shared(); }
+    /// A change that is in the log could not be made here.
+    void note_lost() { lost_ = true; }
+    /// Whether other servers of the log have the scene as it is here, as far as is known.
+    [[nodiscard]] bool agrees() const { return shared() && working_ && !lost_; }
     /// See ProjectLog; nothing where nobody else has the log.
     void publish(const v1::ServerMessage& message, bool lasting);
     [[nodiscard]] std::vector<PeerNews> take_news();
@@ -141,6 +145,7 @@ class ChangeLog {
     ChangeRecords records_;
     std::vector<v1::AnimationStep> animation_steps_;
     std::uint64_t failures_ = 0;
+    bool lost_ = false;  ///< some change of the log
     MadeRequests made_;
 };
 

@@ -131,6 +131,7 @@ void ChangeRecorder::refuse(const PendingChange& pending, v1::Error::Code code,
     if (pending.recorded) {  // it keeps its number
         spdlog::error("change {} of another server does not fit the scene: {}",
                       pending.change.epoch(), reason);
+        parts_.scene.log().note_lost();
         if (!parts_.scene.log().accept(pending.change, {}, pending.keys)) {
             spdlog::error("change {} of another server is not the next one",
                           pending.change.epoch());

@@ -81,6 +81,7 @@
 #define BINDING_SHELTERED 52         // uint[]: see sky_openings.glsl; not in special phases
 #define BINDING_COMPLETION 50         // vec4[]: what patches emit, then the reflected light that the first group of bundles lacks
 #define BINDING_SINCE 51              // vec4[]: mean irradiance since then, w = weight
+#define BINDING_OTHERS 53             // vec4[]: mean irradiance since then by other workers' samples, w = weight; not in special phases
 #define BINDING_ZONE_ORDER 59         // uint[]: patches by zone in blocks of POWER_BLOCK, else NO_PATCH; or first blocks, or rays
 #define BINDING_ZONE_RAYS 60          // ZoneRay[]; FluxSums[] where BINDING_ZONES is in use
 #define BINDING_ZONE_SUMS 61          // vec4[]: of zones, then of pairs of zones, see solution/store/zone_balance.cpp
@@ -506,6 +507,7 @@ struct ViewParameters {
     vec4 weights;       // x: weight of all samples since the last resolve; since the scatter sums began, y: the same, z: sum of squared weights
     vec4 constant;      // rgb: irradiance by constant radiance terms, summed with these weights
     vec4 confidence;    // tiles in a row, 0: none, and in a column; z: a tile's edge, pixels; see view_confidence.glsl
-    vec4 gain;          // of low-discrepancy samples: the variance of a mean falls faster, x: by this exponent, y: from so many on
+    vec4 gain;          // of low-discrepancy samples: the variance of a mean falls faster, x: by this exponent, y: from so many on;
+                        // z: of so many independent sequences are the patches' means
     vec4 places[STAGGER_PERIOD * STAGGER_PERIOD / 2];  // of the pixels' samples, two each, see view_place.glsl
 };

@@ -88,7 +88,7 @@ float shown_variance(uint index, PixelSurface p, float independent, float weight
     // The sums may be younger than the mean that is shown.
     float own = independent * variance_of_mean * min(own_weight / weight, 1.0);
     float one = independent * own_weight * own_weight / max(view.weights.z, 1e-12);
-    float patches = min(one * variance_share(mean_irradiance[patch_of_side(p.side)].w), own);
+    float patches = min(one * variance_share_of_patch(mean_irradiance[patch_of_side(p.side)].w), own);
     float c = confidence(index, p.side, weight);
     float light = luminance(object_space_irradiance(p, false));
     float unresolved = local_light(index).y * light * light;

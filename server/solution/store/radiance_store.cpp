@@ -198,7 +198,8 @@ void RadianceStore::refresh_power(Levels levels) const {
     selection_.refresh();
 }
 
-void RadianceStore::adopt(const RadianceStore& other) const {
+void RadianceStore::adopt(const RadianceStore& other) {
+    kept_.adopt();
     const PatchGrowth growth(other.scene_, scene_);
     growth.copy(other.light_.radiance, light_.radiance);
     growth.copy(other.light_.irradiance, light_.irradiance);

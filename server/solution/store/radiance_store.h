@@ -120,7 +120,16 @@ class RadianceStore {
     /// Copies the solution of a store for the same patches, with what is left of its last change;
     /// glossy parts stay as they are. This store may have patches of more objects, see
     /// scene/mesh/mesh_growth.h: these stay as they are.
-    void adopt(const RadianceStore& other) const;
+    void adopt(const RadianceStore& other);
+    /// Mean irradiance that own samples have brought since the last change, radiance units, w =
+    /// weight; null where that is not known.
+    [[nodiscard]] const Buffer* own_light() const { return kept_.own(light_.irradiance); }
+    /// What other workers' samples have brought since the last change is served with what own ones
+    /// do, until the next change. others: of each patch, as own_light(). sequences: see
+    /// KeptMean::merge().
+    void merge(std::span<const glm::vec4> others, float sequences);
+    /// Of so many independent sequences of bundles the mean irradiance is made.
+    [[nodiscard]] float sequences() const { return kept_.sequences(); }
     /// What is served is from now on kept as it is, apart from what iterations bring: both means
     /// estimate the same light, so that what was kept can be judged (zones/kept_light.h).
     void keep_light();

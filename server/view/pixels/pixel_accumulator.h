@@ -65,7 +65,10 @@ class PixelAccumulator {
     /// light over from. whole: size of the picture that the camera sees, pixels. grid: see
     /// ViewerImage::refine(). near: distance of its plane, m.
     void look_from(const Camera& camera, glm::uvec2 whole, unsigned grid, float near);
-    void upload_view() { view_.upload(); }
+    void upload_view() {
+        view_.values.gain.z = store_.sequences();
+        view_.upload();
+    }
     /// Makes the pixels of what look_from() sees; light that is kept counts with this share of its
     /// weight.
     void renew(const VisibleSurfaces& surfaces, float kept_weight, Shows shows);

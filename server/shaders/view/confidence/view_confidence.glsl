@@ -24,11 +24,16 @@ float variance_share(float samples) {
     return pow(max(samples / view.gain.y, 1.0), -view.gain.x) / max(samples, 1e-6);
 }
 
+/// The same of a patch's mean, by sequences of several workers that know nothing of each other.
+float variance_share_of_patch(float samples) {
+    return variance_share(samples / view.gain.z) / view.gain.z;
+}
+
 /// 1/n - 1/N of a pixel whose own mean has this weight, for low-discrepancy samples. Nothing below a thousandth of 1/n.
 float patches_ahead(float weight, uint side) {
     float samples = effective_samples(weight);
     float ahead = samples * mean_irradiance[patch_of_side(side)].w / max(weight, 1e-12);
-    return ahead > 1.001 * samples ? max(variance_share(samples) - variance_share(ahead), 0.0) : 0.0;
+    return ahead > 1.001 * samples ? max(variance_share(samples) - variance_share_of_patch(ahead), 0.0) : 0.0;
 }
 
 vec2 light_of_tile(ivec2 tile, ivec2 tiles) {
