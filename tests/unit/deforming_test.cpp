@@ -81,8 +81,8 @@ class SkinnedStrip : public DeformingFile {
         std::vector<float> weights;
         for (int v = 0; v < 6; ++v) {
             joints.insert(joints.end(), {0, 1, 0, 0});
-            const float upper = 0.5F * static_cast<float>(v / 2);
-            weights.insert(weights.end(), {1.0F - upper, upper, 0.0F, 0.0F});
+            const float share = 0.5F * static_cast<float>(v / 2);
+            weights.insert(weights.end(), {1.0F - share, share, 0.0F, 0.0F});
         }
         const int joint = builder.add_accessor(builder.add_view_of(joints), 5121, 6, "VEC4");
         const int weight = floats(weights, "VEC4", 4);
@@ -115,8 +115,8 @@ class SkinnedStrip : public DeformingFile {
         const double above = p.y - 1.0;  // the upper joint
         const double share = 0.5 * double{p.y};
         const glm::dvec3 lower(p.x, p.y + 3.0, p.z);
-        const glm::dvec3 upper(p.x, 4.0 + above * std::cos(angle), above * std::sin(angle));
-        return glm::vec3((1.0 - share) * lower + share * upper);
+        const glm::dvec3 above_it(p.x, 4.0 + above * std::cos(angle), above * std::sin(angle));
+        return glm::vec3((1.0 - share) * lower + share * above_it);
     }
 
     std::vector<glm::vec3> rest;
@@ -395,7 +395,7 @@ TEST(DeformingFiles, OthersFilesDeform) {
                         ASSERT_TRUE(std::isfinite(glm::dot(vertex.normal, vertex.normal)));
                     }
                 }
-                EXPECT_TRUE(changed) << entry.path();
+                EXPECT_TRUE(changed || length == 0.0) << entry.path();
                 pose_shapes(scene, {});
             }
         }
