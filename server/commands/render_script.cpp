@@ -12,6 +12,7 @@
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "scene/animation_script.h"
+#include "scene/mesh/geometry_defects.h"
 #include "transport/solver.h"
 #include "view/image/image_file.h"
 #include "view/viewer_image.h"
@@ -40,22 +41,27 @@ void append(const std::vector<T>& more, std::vector<T>& to) {
 class Sequence {
   public:
     Sequence(LoadedScene loaded, const AnimationScript& script, const SolverSettings& settings,
-             glm::uvec2 size)
-        : loaded_(std::move(loaded)), script_(script), settings_(settings), size_(size) {
+             const TessellationSettings& tessellation, glm::uvec2 size)
+        : loaded_(std::move(loaded)),
+          script_(script),
+          settings_(settings),
+          tessellation_(tessellation),
+          size_(size) {
+        if (loaded_.scene.animations && !loaded_.scene.animations->shapes.empty()) {
+            all_triangles_ = loaded_.scene.triangles;
+        }
         solver_ = std::make_unique<Solver>(loaded_.scene, loaded_.mesh, settings_);
         make_image();
     }
 
     /// Brings everything to a time; `before` is that of the frame before, negative for the first.
     void go_to(double before, double time) {
+        if (deform(time)) {
+            begin_anew(before, time);
+            return;
+        }
         change_surfaces(before, time);
-        std::vector<ObjectMove> moves;
-        for (const std::uint32_t object : script_.moving_objects()) {
-            move(object, script_.transform_at(object, time), moves);
-        }
-        for (const auto& [object, transform] : script_.playback().objects_at(loaded_.scene, time)) {
-            move(object, transform, moves);
-        }
+        const std::vector<ObjectMove> moves = move_all(time);
         for (std::size_t first = 0; first < moves.size(); first += MOST_MOVED) {
             const std::size_t count = std::min<std::size_t>(moves.size() - first, MOST_MOVED);
             solver_->move_objects(std::span(moves).subspan(first, count), receivers());
@@ -111,6 +117,64 @@ class Sequence {
     }
 
   private:
+    /// Whether something is of another shape than before. Triangles that lose their area are left
+    /// out as long as they have none.
+    bool deform(double time) {
+        Scene& scene = loaded_.scene;
+        if (!scene.animations || scene.animations->shapes.empty()) {
+            return false;
+        }
+        std::vector<Triangle> shown = std::exchange(scene.triangles, all_triangles_);
+        if (!script_.playback().deform(scene, time)) {
+            scene.triangles = std::move(shown);
+            return false;
+        }
+        return true;
+    }
+
+    /// They are cut into patches anew, and all light begins anew, too.
+    void begin_anew(double before, double time) {
+        image_.reset();
+        programs_.reset();
+        solver_.reset();
+        for (const LightEdit& edit : light_edits(before, time)) {
+            apply(loaded_.scene, edit);
+        }
+        for (const MaterialEdit& edit : material_edits(before, time)) {
+            apply(loaded_.scene, edit);
+        }
+        move_all(time);
+        remove_degenerate_triangles(loaded_.scene);
+        loaded_.mesh = tessellate(loaded_.scene, tessellation_);
+        solver_ = std::make_unique<Solver>(loaded_.scene, loaded_.mesh, settings_);
+        make_image();
+        image_->set_camera(script_.camera_at(time));
+    }
+
+    [[nodiscard]] std::vector<LightEdit> light_edits(double before, double time) const {
+        std::vector<LightEdit> edits = script_.lights_between(before, time);
+        append(script_.playback().lights_between(loaded_.scene, before, time), edits);
+        return edits;
+    }
+
+    [[nodiscard]] std::vector<MaterialEdit> material_edits(double before, double time) const {
+        std::vector<MaterialEdit> edits = script_.materials_between(before, time);
+        append(script_.playback().materials_between(loaded_.scene, before, time), edits);
+        return edits;
+    }
+
+    /// Puts the objects where they are at a time; returns those that were elsewhere.
+    std::vector<ObjectMove> move_all(double time) {
+        std::vector<ObjectMove> moves;
+        for (const std::uint32_t object : script_.moving_objects()) {
+            move(object, script_.transform_at(object, time), moves);
+        }
+        for (const auto& [object, transform] : script_.playback().objects_at(loaded_.scene, time)) {
+            move(object, transform, moves);
+        }
+        return moves;
+    }
+
     void make_image() {
         programs_ = std::make_unique<ViewPrograms>(solver_->scene());
         image_ =
@@ -139,9 +203,7 @@ class Sequence {
         std::vector<std::uint32_t> reflecting;
         bool lights = false;
         const std::vector<float> cones = outer_cones(loaded_.scene);
-        std::vector<LightEdit> light_edits = script_.lights_between(before, time);
-        append(script_.playback().lights_between(loaded_.scene, before, time), light_edits);
-        for (const LightEdit& edit : light_edits) {
+        for (const LightEdit& edit : light_edits(before, time)) {
             lights = true;
             const std::uint32_t material = apply(loaded_.scene, edit);
             if (material != no_material) {
@@ -149,9 +211,7 @@ class Sequence {
             }
         }
         bool covered = same_cones(loaded_.scene, cones) && solver_->covers_lights(loaded_.scene);
-        std::vector<MaterialEdit> material_edits = script_.materials_between(before, time);
-        append(script_.playback().materials_between(loaded_.scene, before, time), material_edits);
-        for (const MaterialEdit& edit : material_edits) {
+        for (const MaterialEdit& edit : material_edits(before, time)) {
             const std::uint32_t material = apply(loaded_.scene, edit);
             materials.push_back(material);
             reflecting.push_back(material);
@@ -180,6 +240,8 @@ class Sequence {
     LoadedScene loaded_;
     const AnimationScript& script_;
     SolverSettings settings_;
+    TessellationSettings tessellation_;
+    std::vector<Triangle> all_triangles_;  // as loaded, where some deform
     glm::uvec2 size_;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<ViewPrograms> programs_;
@@ -228,7 +290,9 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
                                      {"device", context.renderer()},
                                      {"script", options.render.script},
                                      {"frames", nlohmann::ordered_json::array()}};
-    Sequence sequence(std::move(loaded), script, settings, size);
+    TessellationSettings tessellation;
+    tessellation.patch_size = options.scene.patch_size;
+    Sequence sequence(std::move(loaded), script, settings, tessellation, size);
     double before = -1.0;
     for (unsigned frame = 0; frame < script.frames(); ++frame) {
         const double time = script.time_of(frame);

@@ -98,6 +98,7 @@ std::string moved_by(const Scene& scene, const Animation& animation) {
     };
     add(animation.lights.size(), "light");
     add(animation.materials.size(), "material");
+    add(animation.shapes.size(), "deformed object");
     return text;
 }
 
@@ -248,9 +249,14 @@ Json animations_json(const Scene& scene) {
         for (const std::uint32_t object : animation.objects) {
             objects.push_back(object + 1);
         }
+        Json deformed = Json::array();
+        for (const std::uint32_t object : animation.shapes) {
+            deformed.push_back(object + 1);
+        }
         result.push_back({{"name", animation.name},
                           {"seconds", animation.seconds},
                           {"objects", objects},
+                          {"deforms", deformed},
                           {"lights", animation.lights},
                           {"materials", animation.materials}});
     }

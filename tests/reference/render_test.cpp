@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -123,6 +124,73 @@ TEST(Inspect, TakesOptionsOfTheAirWhereThereIsNone) {
     const std::string text = text_of(output);
     EXPECT_NE(text.find("fogAlbedo and fogAnisotropy change nothing"), std::string::npos) << text;
     fs::remove(output);
+}
+
+/// Frames of a file whose animation bends a flag, against files that have it so from the start.
+class ScriptedFlag : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) / "raybundle_scripted_flag";
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+        text_ = text_of(RAYBUNDLE_SCENES "/../tests/cases/animation/flag.gltf");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// Pictures of as many frames; `key` is added to a camera. rotation: of the joint in the file.
+    std::vector<std::vector<float>> frames(int count, const std::string& rotation,
+                                           const std::string& keys) {
+        std::string text = text_;
+        const std::string rest = "0.0, 0.0, 0.0, 1.0";
+        text.replace(text.find(rest), rest.size(), rotation);
+        std::ofstream(folder_ / "flag.gltf") << text;
+        std::ofstream(folder_ / "script.json")
+            << "{\"framesPerSecond\": 1, \"frames\": " << count
+            << ", \"keys\": [{\"time\": 0, \"camera\": {\"eye\": [1.5, 1.7, 6], \"target\": "
+               "[0, 1.2, 0], \"verticalFov\": 0.6}}"
+            << keys << "]}";
+        const std::string at = folder_.string();
+        const std::string command =
+            RAYBUNDLE_EXECUTABLE " render --log-level off " + at + "/flag.gltf --script " + at +
+            "/script.json --iterations 64 --patch-size 0.15 --size 40x30 -o " + at + "/f_%d.exr";
+        EXPECT_EQ(std::system(command.c_str()), 0);
+        std::vector<std::vector<float>> pictures;
+        for (int frame = 0; frame < count; ++frame) {
+            pictures.push_back(pixels_of(at + "/f_" + std::to_string(frame) + ".exr"));
+            EXPECT_FALSE(pictures.back().empty());
+        }
+        return pictures;
+    }
+
+    /// Root of the mean square, relative to that of the second; lamps, which all have, left out.
+    static double difference(const std::vector<float>& a, const std::vector<float>& b) {
+        double sum = 0.0;
+        double square = 0.0;
+        for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+            if (a[i] < 500.0F && b[i] < 500.0F) {
+                sum += double{a[i] - b[i]} * double{a[i] - b[i]};
+                square += double{b[i]} * double{b[i]};
+            }
+        }
+        return std::sqrt(sum / square);
+    }
+
+  private:
+    fs::path folder_;
+    std::string text_;
+};
+
+TEST_F(ScriptedFlag, IsLitAsInAFileInThatPose) {
+    const std::string rest = "0.0, 0.0, 0.0, 1.0";
+    const auto played = frames(3, rest,
+                               R"(, {"time": 1, "animation": "bow", "seconds": 1, "speed": 0},
+             {"time": 2, "animation": "bow", "seconds": 0, "speed": 0})");
+    const auto bent = frames(1, "0.38268343, 0.0, 0.0, 0.92387953", "");
+    const double apart = difference(played[0], bent[0]);
+    const double noise = difference(played[1], bent[0]);
+    EXPECT_GT(apart, 0.3);
+    EXPECT_LT(noise, 0.15 * apart);  // of two solutions: their vertices differ by rounding
+    EXPECT_EQ(played[2], played[0]);
 }
 
 }  // namespace

@@ -37,6 +37,11 @@ glm::vec4 KeyTrack::key(std::size_t index, std::size_t part) const {
     return result;
 }
 
+float KeyTrack::number(std::size_t index, std::size_t part, std::size_t component) const {
+    const std::size_t parts = interpolation == Interpolation::cubic_spline ? 3 : 1;
+    return values[(index * parts + part) * components + component];
+}
+
 glm::vec4 KeyTrack::value(std::size_t index) const {
     return key(index, interpolation == Interpolation::cubic_spline ? 1 : 0);
 }
@@ -60,6 +65,26 @@ glm::vec4 KeyTrack::at(double seconds) const {
     return interpolation == Interpolation::linear
                ? glm::mix(value(span.before), value(span.after), span.share)
                : spline(span);
+}
+
+float KeyTrack::component_at(double seconds, std::size_t component) const {
+    const Span span = span_at(seconds);
+    const bool cubic = interpolation == Interpolation::cubic_spline;
+    const float before = number(span.before, cubic ? 1 : 0, component);
+    if (span.before == span.after || interpolation == Interpolation::step) {
+        return before;
+    }
+    const float after = number(span.after, cubic ? 1 : 0, component);
+    const float t = span.share;
+    if (!cubic) {
+        return glm::mix(before, after, t);
+    }
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    const auto length = static_cast<float>(span.length);
+    return (2.0F * t3 - 3.0F * t2 + 1.0F) * before +
+           length * (t3 - 2.0F * t2 + t) * number(span.before, 2, component) +
+           (3.0F * t2 - 2.0F * t3) * after + length * (t3 - t2) * number(span.after, 0, component);
 }
 
 glm::quat KeyTrack::rotation_at(double seconds) const {

@@ -15,13 +15,15 @@ enum class Interpolation { linear, step, cubic_spline };
 /// key and behind the last it is that key's.
 struct KeyTrack {
     Interpolation interpolation = Interpolation::linear;
-    std::size_t components = 1;  ///< 1 to 4
+    std::size_t components = 1;  ///< 1 to 4, of morph weights any number
     std::vector<float> times;
     /// components of each key, in order; of a cubic spline in-tangent, value, out-tangent.
     std::vector<float> values;
 
-    /// Component by component; 0 where there are fewer than four.
+    /// Component by component, of at most four; 0 where there are fewer.
     [[nodiscard]] glm::vec4 at(double seconds) const;
+    /// One of any number of components.
+    [[nodiscard]] float component_at(double seconds, std::size_t component) const;
     /// Of a track of four components that are x, y, z, w: unit, on the shorter way.
     [[nodiscard]] glm::quat rotation_at(double seconds) const;
 
@@ -36,6 +38,7 @@ struct KeyTrack {
     [[nodiscard]] glm::vec4 key(std::size_t index, std::size_t part) const;
     [[nodiscard]] glm::vec4 value(std::size_t index) const;
     [[nodiscard]] glm::vec4 spline(const Span& span) const;
+    [[nodiscard]] float number(std::size_t index, std::size_t part, std::size_t component) const;
 };
 
 }  // namespace raybundle

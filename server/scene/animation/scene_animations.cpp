@@ -80,6 +80,7 @@ class Pose {
         }
     }
 
+    [[nodiscard]] std::vector<glm::dmat4> take_worlds() { return std::move(world_); }
     [[nodiscard]] const glm::dmat4& world(std::size_t node) const { return world_[node]; }
 
     [[nodiscard]] Transform place(const Object& object, const CarriedByNode& carried) const {
@@ -240,6 +241,11 @@ void merge(const LightEdit& from, LightEdit& into) {
 }
 
 }  // namespace
+
+std::vector<glm::dmat4> node_worlds(const SceneAnimations& all,
+                                    std::span<const AnimationPlace> places) {
+    return Pose(all, places).take_worlds();
+}
 
 std::vector<std::pair<std::uint32_t, Transform>> object_places(
     const Scene& scene, std::span<const AnimationPlace> places) {

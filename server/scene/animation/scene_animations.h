@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/animation/deforming_shape.h"
 #include "scene/animation/key_track.h"
 #include "scene/edit/surface_edit.h"
 #include "scene/scene.h"
@@ -28,12 +29,14 @@ enum class AnimatedValue {
     metallic,
     emissive_factor,
     emissive_strength,
+    morph_weights,  ///< of a node: as many as its mesh has targets
 };
 
 /// A channel of an animation: what goes by its track.
 struct AnimationChannel {
     AnimatedValue value = AnimatedValue::translation;
-    /// Index into SceneAnimations::nodes, Scene::punctual_lights or Scene::materials.
+    /// Index into SceneAnimations::nodes, Scene::punctual_lights, Scene::materials or
+    /// SceneAnimations::morph_weights.
     std::size_t target = 0;
     std::size_t track = 0;  ///< index into SceneAnimations::tracks
 };
@@ -43,9 +46,11 @@ struct Animation {
     std::string name;  ///< unlike all others
     double seconds = 0.0;
     std::vector<AnimationChannel> channels;
-    std::vector<std::uint32_t> objects;    ///< that it moves: Scene::objects; sorted
-    std::vector<std::uint32_t> lights;     ///< changes or moves, LightEdit::light; sorted
-    std::vector<std::uint32_t> materials;  ///< changes, MaterialEdit::material; sorted
+    std::vector<AnimationChannel> weights;  ///< those of morph_weights
+    std::vector<std::uint32_t> shapes;      ///< objects that it deforms; sorted
+    std::vector<std::uint32_t> objects;     ///< that it moves: Scene::objects; sorted
+    std::vector<std::uint32_t> lights;      ///< changes or moves, LightEdit::light; sorted
+    std::vector<std::uint32_t> materials;   ///< changes, MaterialEdit::material; sorted
 };
 
 /// A node that an animation moves, or one between such a node and what it carries. Matrices in
@@ -91,6 +96,10 @@ struct SceneAnimations {
     std::vector<CarriedByNode> lights;
     std::vector<FileLight> file_lights;        ///< of each of Scene::punctual_lights, suns aside
     std::vector<FileEmission> file_emissions;  ///< of each of Scene::materials
+    std::vector<DeformingShape> shapes;        ///< see scene/animation/shape_pose.h
+    std::vector<RestShape> rests;
+    std::vector<ShapeSkin> skins;
+    std::vector<std::vector<float>> morph_weights;  ///< of nodes, as the file has them
 };
 
 /// Where an animation stands.
@@ -98,6 +107,15 @@ struct AnimationPlace {
     std::size_t animation = 0;  ///< index into SceneAnimations::animations
     double seconds = 0.0;
 };
+
+/// Whether it does nothing but deform.
+inline bool only_deforms(const Animation& animation) {
+    return animation.objects.empty() && animation.lights.empty() && animation.materials.empty();
+}
+
+/// World from node of SceneAnimations::nodes while animations stand at their places.
+std::vector<glm::dmat4> node_worlds(const SceneAnimations& all,
+                                    std::span<const AnimationPlace> places);
 
 /// Where the objects that places.back() moves are, with what the others have moved of the nodes
 /// above them; of two that move one node the later one counts.

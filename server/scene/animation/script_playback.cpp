@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "scene/animation/shape_pose.h"
+
 namespace raybundle {
 namespace {
 
@@ -119,6 +121,10 @@ std::map<std::uint32_t, Transform> ScriptPlayback::objects_at(const Scene& scene
         }
     }
     return result;
+}
+
+bool ScriptPlayback::deform(Scene& scene, double time) const {
+    return pose_shapes(scene, places(scene, time));
 }
 
 std::vector<LightEdit> ScriptPlayback::lights_between(const Scene& scene, double before,

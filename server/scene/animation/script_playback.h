@@ -31,6 +31,8 @@ class ScriptPlayback {
     [[nodiscard]] std::vector<std::uint32_t> objects(const Scene& scene) const;
     [[nodiscard]] std::map<std::uint32_t, Transform> objects_at(const Scene& scene,
                                                                 double time) const;
+    /// Puts what is deformed to where it is at a time, see pose_shapes().
+    bool deform(Scene& scene, double time) const;
     /// Lights and materials that are not what they were at the time `before`; all where that is
     /// negative.
     [[nodiscard]] std::vector<LightEdit> lights_between(const Scene& scene, double before,

@@ -19,11 +19,6 @@ constexpr std::size_t max_scene_triangles = 4'000'000;
 // Derived: so many boxes of 12 triangles have as many as there may be.
 constexpr std::size_t max_scene_instances = max_scene_triangles / 12;
 
-std::vector<float> read_morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
-    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
-    return {weights.begin(), weights.end()};
-}
-
 /// An attribute of EXT_mesh_gpu_instancing; empty if absent.
 std::vector<float> read_instance_attribute(const GltfDocument& document,
                                            const tinygltf::Value& attributes, const char* name,
@@ -187,6 +182,11 @@ class GeometryReader {
 };
 
 }  // namespace
+
+std::vector<float> read_morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    return {weights.begin(), weights.end()};
+}
 
 std::size_t NodeGeometry::triangle_count() const {
     std::size_t count = 0;

@@ -25,6 +25,9 @@ struct NodeGeometry {
     static constexpr std::uint32_t no_vertex = 0xffffffffU;
 };
 
+/// Of the morph targets of a node's mesh; empty where nothing says any.
+std::vector<float> read_morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh);
+
 /// Reads the meshes of all visible nodes of the shown scene, rest pose. Throws SceneError, also if
 /// there is no triangle at all.
 std::vector<NodeGeometry> read_geometry(GltfDocument& document, const GltfNodeTree& tree,

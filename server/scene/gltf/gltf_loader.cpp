@@ -11,6 +11,7 @@
 
 #include "scene/contact/solid_shells.h"
 #include "scene/gltf/animation/animation_links.h"
+#include "scene/gltf/animation/shape_links.h"
 #include "scene/gltf/file/gltf_bake.h"
 #include "scene/gltf/file/gltf_container.h"
 #include "scene/gltf/file/gltf_document.h"
@@ -230,7 +231,9 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
         read_placed_geometry(document, tree, settings.metres_per_unit, scene);
     const FileAnimations animations = read_animations(document, tree);
     std::vector<ObjectPlan> plans = plan_objects(document, tree, geometries, animations.moved);
-    bake_objects(document, tree, geometries, plans, default_material, scene);
+    const std::vector<BakedPrimitive> baked =
+        bake_objects(document, tree, geometries, plans, default_material,
+                     find_deforming(document, tree, geometries, animations), scene);
     const std::vector<LightSource> light_sources =
         read_punctual_lights(document, tree, plans, animations.moved, scene);
     for (const std::string& choice : settings.ies) {
@@ -261,7 +264,8 @@ Scene load_checked(GltfDocument& document, SceneSettings settings, const FileMar
     scene.removed.solid_insides = mark_solid_shells(scene);
     measure_lights(scene);
     link_animations(document, animations,
-                    {tree, settings.metres_per_unit, geometries, plans, light_sources}, scene);
+                    {tree, settings.metres_per_unit, geometries, plans, light_sources, baked},
+                    scene);
     note_materials(document, scene);
     restore_area_lights(document.saved(), scene);
     set_sky(document, settings, scene);

@@ -175,21 +175,29 @@ void check_lengths(const GltfDocument& document, const PrimitiveData& data,
     check(data.weights.size(), "WEIGHTS_0");
 }
 
-template <typename Vector>
-void add_weighted(const GltfDocument& document, std::vector<Vector>& base,
+/// Empty where the target has none, or the mesh itself.
+std::vector<glm::vec3> read_offsets(const GltfDocument& document, const AccessorMap& target,
+                                    const char* semantic, std::size_t count,
+                                    const std::string& path) {
+    const int accessor = accessor_or_none(target, semantic);
+    if (accessor < 0 || count == 0) {
+        return {};
+    }
+    std::vector<glm::vec3> offsets =
+        as_vectors<glm::vec3>(read_floats(document, accessor, 3, path + "." + semantic));
+    if (offsets.size() != count) {
+        document.fail(path + "." + semantic,
+                      fmt::format("has {} elements, the mesh has {}", offsets.size(), count));
+    }
+    return offsets;
+}
+
+void add_weighted(const GltfDocument& document, std::vector<glm::vec3>& base,
                   const AccessorMap& target, const char* semantic, float weight,
                   const std::string& path) {
-    const int accessor = accessor_or_none(target, semantic);
-    if (accessor < 0 || base.empty()) {
-        return;
-    }
-    const std::vector<Vector> offsets =
-        as_vectors<Vector>(read_floats(document, accessor, 3, path + "." + semantic));
-    if (offsets.size() != base.size()) {
-        document.fail(path + "." + semantic,
-                      fmt::format("has {} elements, the mesh has {}", offsets.size(), base.size()));
-    }
-    for (std::size_t i = 0; i < base.size(); ++i) {
+    const std::vector<glm::vec3> offsets =
+        read_offsets(document, target, semantic, base.size(), path);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
         base[i] += weight * offsets[i];
     }
 }
@@ -198,7 +206,7 @@ void apply_morph_targets(GltfDocument& document, const std::vector<AccessorMap>&
                          const std::vector<float>& weights, const std::string& path,
                          PrimitiveData& data) {
     if (!targets.empty()) {
-        document.note("morph targets are read in their rest pose");
+        document.note("morph targets are read in the rest pose that the file's weights give");
     }
     for (std::size_t i = 0; i < std::min({targets.size(), weights.size(), max_morph_targets});
          ++i) {
@@ -251,6 +259,20 @@ void check_meshes(const GltfDocument& document) {
             }
         }
     }
+}
+
+std::vector<MorphTarget> read_morph_targets(const GltfDocument& document,
+                                            const tinygltf::Primitive& primitive,
+                                            const std::string& json_path,
+                                            const PrimitiveData& data) {
+    std::vector<MorphTarget> targets;
+    for (std::size_t i = 0; i < std::min(primitive.targets.size(), max_morph_targets); ++i) {
+        const std::string path = json_path + "." + item_path("targets", i);
+        const AccessorMap& target = primitive.targets[i];
+        targets.push_back({read_offsets(document, target, "POSITION", data.positions.size(), path),
+                           read_offsets(document, target, "NORMAL", data.normals.size(), path)});
+    }
+    return targets;
 }
 
 PrimitiveData read_primitive(GltfDocument& document, const tinygltf::Primitive& primitive,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/animation/deforming_shape.h"
 #include "scene/gltf/file/gltf_document.h"
 
 namespace raybundle {
@@ -29,5 +30,11 @@ void check_meshes(const GltfDocument& document);
 /// give no triangles and a notice. Throws SceneError.
 PrimitiveData read_primitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                              const std::vector<float>& morph_weights, const std::string& json_path);
+
+/// Of a primitive whose vertices are `data`. Throws SceneError where their numbers differ.
+std::vector<MorphTarget> read_morph_targets(const GltfDocument& document,
+                                            const tinygltf::Primitive& primitive,
+                                            const std::string& json_path,
+                                            const PrimitiveData& data);
 
 }  // namespace raybundle

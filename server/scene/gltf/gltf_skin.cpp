@@ -3,16 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <glm/gtc/matrix_inverse.hpp>
-
+#include "scene/animation/deforming_shape.h"
 #include "scene/gltf/file/gltf_accessor.h"
 
 namespace raybundle {
-namespace {
-
-/// World from bind pose, for each joint.
-std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, const GltfNodeTree& tree,
-                                       int skin, float metres_per_unit) {
+std::vector<glm::dmat4> read_joint_binds(const GltfDocument& document, int skin,
+                                         float metres_per_unit) {
     const tinygltf::Skin& source = item(document.model().skins, skin);
     const std::vector<int>& joints = source.joints;
     const std::string path = item_path("skins", skin) + ".inverseBindMatrices";
@@ -36,7 +32,20 @@ std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, const GltfN
         }
         joint_from_bind[3] =
             glm::dvec4(glm::dvec3(joint_from_bind[3]) * double{metres_per_unit}, 1.0);
-        matrices.push_back(item(tree.nodes, joints[j]).world_from_node * joint_from_bind);
+        matrices.push_back(joint_from_bind);
+    }
+    return matrices;
+}
+
+namespace {
+
+/// World from bind pose, for each joint.
+std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, const GltfNodeTree& tree,
+                                       int skin, float metres_per_unit) {
+    std::vector<glm::dmat4> matrices = read_joint_binds(document, skin, metres_per_unit);
+    const std::vector<int>& joints = item(document.model().skins, skin).joints;
+    for (std::size_t j = 0; j < matrices.size(); ++j) {
+        matrices[j] = item(tree.nodes, joints[j]).world_from_node * matrices[j];
     }
     return matrices;
 }
@@ -45,29 +54,17 @@ void skin_primitive(const GltfDocument& document, const std::vector<glm::dmat4>&
                     const glm::dmat4& world_from_node, const std::string& path,
                     PrimitiveData& data) {
     for (std::size_t v = 0; v < data.positions.size(); ++v) {
-        glm::dmat4 blended(0.0);
-        double sum = 0.0;
         for (int k = 0; k < 4; ++k) {
-            const auto weight = static_cast<double>(data.weights[v][k]);
-            if (weight <= 0.0) {
-                continue;
-            }
             const std::size_t joint = data.joints[v][k];
-            if (joint >= joints.size()) {
+            if (data.weights[v][k] > 0.0F && joint >= joints.size()) {
                 document.fail(path + ".attributes.JOINTS_0",
                               fmt::format("vertex {} refers to joint {}, there are {}", v, joint,
                                           joints.size()));
             }
-            blended += weight * joints[joint];
-            sum += weight;
         }
         // A vertex without weights stays with its node.
-        const glm::dmat4 matrix = sum > 0.0 ? blended / sum : world_from_node;
-        data.positions[v] = glm::vec3(matrix * glm::dvec4(data.positions[v], 1.0));
-        if (!data.normals.empty()) {
-            data.normals[v] =
-                glm::vec3(glm::inverseTranspose(glm::dmat3(matrix)) * glm::dvec3(data.normals[v]));
-        }
+        move_vertex(blended_joints(joints, data.joints[v], data.weights[v], world_from_node),
+                    data.positions[v], data.normals.empty() ? nullptr : &data.normals[v]);
     }
 }
 
@@ -81,7 +78,7 @@ bool apply_skin(GltfDocument& document, const GltfNodeTree& tree, int skin, int 
             return false;
         }
     }
-    document.note("skins are read in their rest pose");
+    document.note("skins are read in the rest pose that the file gives their joints");
     const std::vector<glm::dmat4> joints = joint_matrices(document, tree, skin, metres_per_unit);
     const glm::dmat4& world_from_node = item(tree.nodes, node).world_from_node;
     const std::string mesh_path = item_path("meshes", geometry.mesh);

@@ -73,6 +73,21 @@ bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return !(glm::length(glm::cross(ab, ac)) > degenerate_height * longest);
 }
 
+void remove_degenerate_triangles(Scene& scene) {
+    std::vector<glm::dmat4> placements;
+    for (const Object& object : scene.objects) {
+        placements.emplace_back(object.placement());
+    }
+    std::erase_if(scene.triangles, [&](const Triangle& triangle) {
+        glm::dvec3 p[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = glm::dvec3(placements[triangle.object] *
+                              glm::dvec4(scene.vertices[triangle.vertex[k]].position, 1.0));
+        }
+        return is_degenerate(p[0], p[1], p[2]);
+    });
+}
+
 std::size_t remove_duplicate_faces(Scene& scene) {
     PointIndex points;
     SeenFaces seen(scene.triangles.size());

@@ -12,6 +12,9 @@ namespace raybundle {
 /// resolve (2e-7 of its longest edge), so that its normal would be rounding error.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// Removes triangles that have no area, where their objects are; of removed objects none.
+void remove_degenerate_triangles(Scene& scene);
+
 /// Removes faces that repeat an earlier one of the same object: same three positions, same side.
 /// Of two such faces only one can be seen, and which would be chance. Faces back to back stay: they
 /// are the two sides of a wall. Returns how many were removed.

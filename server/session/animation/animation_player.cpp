@@ -69,6 +69,10 @@ v1::Error AnimationPlayer::problem_of(const v1::PlayAnimation& request) const {
         problem.set_code(v1::Error::NOT_FOUND);
         problem.set_message("playAnimation.animation: no animation '" + request.animation() +
                             "'; there are: " + animation_names(scene_));
+    } else if (only_deforms(animation(index_of(request)))) {
+        problem.set_code(v1::Error::NOT_FOUND);
+        problem.set_message("playAnimation.animation: '" + request.animation() +
+                            "' does nothing but deform objects, which keep their shape here");
     }
     return problem;
 }
@@ -314,6 +318,9 @@ v1::PlayAnimation AnimationPlayer::state_of(std::size_t index) const {
 
 void AnimationPlayer::describe(v1::Scene* message) const {
     for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (only_deforms(animation(i))) {
+            continue;
+        }
         v1::Animation* const out = message->add_animations();
         out->set_name(animation(i).name);
         out->set_seconds(static_cast<float>(animation(i).seconds));

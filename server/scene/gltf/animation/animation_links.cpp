@@ -7,6 +7,8 @@
 #include <memory>
 #include <unordered_map>
 
+#include "scene/gltf/animation/shape_links.h"
+
 namespace raybundle {
 namespace {
 
@@ -23,7 +25,15 @@ void sort_once(std::vector<T>& items) {
 class Linker {
   public:
     Linker(GltfDocument& document, const FileAnimations& file, const NodeUses& uses, Scene& scene)
-        : document_(document), file_(file), uses_(uses), scene_(scene) {}
+        : document_(document),
+          file_(file),
+          uses_(uses),
+          scene_(scene),
+          shape_links_(document, uses.tree, uses.geometries, uses.metres_per_unit,
+                       [this](int node) {
+                           const auto n = static_cast<std::size_t>(node);
+                           return carried_[n] ? animated_node(n) : ShapeJoint::none;
+                       }) {}
 
     void link() {
         result_.tracks = file_.tracks;
@@ -31,6 +41,8 @@ class Linker {
         find_carried_nodes();
         add_objects();
         add_lights();
+        shape_links_.add(uses_.baked, file_.morphed, result_);
+        find_shape_objects();
         note_idle_nodes();
         result_.file_emissions.resize(scene_.materials.size());
         for (std::size_t m = 0; m < document_.model().materials.size(); ++m) {
@@ -132,7 +144,27 @@ class Linker {
         result_.nodes.push_back(result);
     }
 
-    /// Cameras, joints, parts of what moves as a whole.
+    /// Parts of a lone object have become objects since their vertices were made.
+    void find_shape_objects() {
+        constexpr std::uint32_t none = 0xffffffffU;
+        std::vector<std::uint32_t> shape_of(result_.shapes.empty() ? 0 : scene_.vertices.size(),
+                                            none);
+        for (std::size_t s = 0; s < result_.shapes.size(); ++s) {
+            const DeformingShape& shape = result_.shapes[s];
+            std::fill_n(shape_of.begin() + shape.first_vertex, shape.from.size(),
+                        static_cast<std::uint32_t>(s));
+        }
+        shape_objects_.resize(result_.shapes.size());
+        for (const Triangle& triangle : scene_.triangles) {
+            const std::uint32_t shape = shape_of.empty() ? none : shape_of[triangle.vertex[0]];
+            if (shape != none && (shape_objects_[shape].empty() ||
+                                  shape_objects_[shape].back() != triangle.object)) {
+                shape_objects_[shape].push_back(triangle.object);
+            }
+        }
+    }
+
+    /// Cameras, parts of what moves as a whole.
     void note_idle_nodes() {
         std::string names;
         std::size_t count = 0;
@@ -149,7 +181,7 @@ class Linker {
         }
         if (count > 0) {
             document_.note(
-                fmt::format("{} animated nodes move nothing by themselves (joints of skins, "
+                fmt::format("{} animated nodes move nothing by themselves ("
                             "cameras, parts of what moves as a whole): {}",
                             count, names));
         }
@@ -172,6 +204,8 @@ class Linker {
         for (const FileChannel& channel : source.channels) {
             if (channel.value <= AnimatedValue::scale) {
                 add_node_channel(channel, animation);
+            } else if (channel.value == AnimatedValue::morph_weights) {
+                add_morph_channel(channel, animation);
             } else if (channel.value <= AnimatedValue::outer_cone) {
                 add_light_channel(channel, animation);
             } else {
@@ -179,15 +213,22 @@ class Linker {
             }
         }
         find_carried(animation);
+        sort_once(animation.shapes);
         sort_once(animation.objects);
         sort_once(animation.lights);
         sort_once(animation.materials);
-        if (animation.objects.empty() && animation.lights.empty() && animation.materials.empty()) {
+        if (only_deforms(animation) && animation.shapes.empty()) {
             document_.note(
                 fmt::format("animation '{}' moves nothing that can be moved: it is "
                             "left out",
                             animation.name));
             return;
+        }
+        if (!animation.shapes.empty()) {
+            document_.note(
+                fmt::format("animation '{}' deforms objects: render --script shows it, "
+                            "to viewers of a server they keep their rest pose",
+                            animation.name));
         }
         result_.animations.push_back(std::move(animation));
     }
@@ -197,6 +238,24 @@ class Linker {
         if (known != indices_.end()) {
             animation.channels.push_back({channel.value, known->second, channel.track});
         }
+    }
+
+    void add_morph_channel(const FileChannel& channel, Animation& animation) {
+        const std::size_t morph = shape_links_.morph_of(channel.target);
+        if (morph == DeformingShape::none) {
+            return;
+        }
+        animation.weights.push_back({channel.value, morph, channel.track});
+        for (std::size_t s = 0; s < result_.shapes.size(); ++s) {
+            if (result_.shapes[s].morph == morph) {
+                add_shape(s, animation);
+            }
+        }
+    }
+
+    void add_shape(std::size_t shape, Animation& animation) const {
+        const std::vector<std::uint32_t>& objects = shape_objects_[shape];
+        animation.shapes.insert(animation.shapes.end(), objects.begin(), objects.end());
     }
 
     [[nodiscard]] std::uint32_t number_of(std::size_t punctual) const {
@@ -262,6 +321,19 @@ class Linker {
                 animation.lights.push_back(number_of(light.item));
             }
         }
+        for (std::size_t s = 0; s < result_.shapes.size(); ++s) {
+            const std::size_t skin = result_.shapes[s].skin;
+            if (skin != DeformingShape::none && moves_any(moved, result_.skins[skin])) {
+                add_shape(s, animation);
+            }
+        }
+    }
+
+    static bool moves_any(const std::vector<bool>& moved, const ShapeSkin& skin) {
+        const auto is_moved = [&moved](const ShapeJoint& joint) {
+            return joint.node != ShapeJoint::none && moved[joint.node];
+        };
+        return std::any_of(skin.joints.begin(), skin.joints.end(), is_moved) || is_moved(skin.own);
     }
 
     GltfDocument& document_;
@@ -269,8 +341,10 @@ class Linker {
     const NodeUses& uses_;
     Scene& scene_;
     SceneAnimations result_;
-    std::vector<bool> carried_;                             // of each node of the file
-    std::unordered_map<std::size_t, std::size_t> indices_;  // into nodes, by node of the file
+    ShapeLinks shape_links_;
+    std::vector<std::vector<std::uint32_t>> shape_objects_;  // of each of SceneAnimations::shapes
+    std::vector<bool> carried_;                              // of each node of the file
+    std::unordered_map<std::size_t, std::size_t> indices_;   // into nodes, by node of the file
 };
 
 }  // namespace

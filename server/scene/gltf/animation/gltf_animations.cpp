@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "scene/gltf/animation/animation_pointer.h"
 #include "scene/gltf/file/gltf_accessor.h"
@@ -42,6 +43,7 @@ class AnimationReader {
     AnimationReader(GltfDocument& document, const GltfNodeTree& tree)
         : document_(document), tree_(tree) {
         result_.moved.resize(tree.nodes.size());
+        result_.morphed.resize(tree.nodes.size());
         if (const Json* extension = document.extension("KHR_lights_punctual")) {
             lights_ = array_or_empty(*extension, "lights").size();
         }
@@ -82,6 +84,9 @@ class AnimationReader {
                 if (channel.value <= AnimatedValue::scale) {
                     result_.moved[channel.target] = true;
                 }
+                if (channel.value == AnimatedValue::morph_weights) {
+                    result_.morphed[channel.target] = true;
+                }
             }
             result_.animations.push_back(std::move(animation));
         } catch (const SceneError& error) {
@@ -107,7 +112,7 @@ class AnimationReader {
             const auto target = target_of(channels[c], channel_path);
             if (target) {
                 FileChannel channel{target->value, target->index, 0};
-                channel.track = track_of(source, path, channels[c], channel_path, channel.value);
+                channel.track = track_of(source, path, channels[c], channel_path, *target);
                 animation.seconds =
                     std::max(animation.seconds, double{result_.tracks[channel.track].times.back()});
                 animation.channels.push_back(channel);
@@ -171,14 +176,11 @@ class AnimationReader {
         } else {
             const std::size_t node =
                 index_of(*target, path + ".target", "node", tree_.nodes.size());
-            found = node_value(name, node);
+            found = name == "weights" ? weights_of(node) : node_value(name, node);
             if (!found && name != "weights") {
                 document_.fail(
                     path + ".target.path",
                     fmt::format("'{}' is none of translation, rotation, scale, weights", name));
-            }
-            if (!found) {
-                document_.note("animations of morph targets are left out: the rest pose is used");
             }
         }
         if (found && found->value <= AnimatedValue::scale &&
@@ -188,6 +190,23 @@ class AnimationReader {
                 fmt::format("node {} has a matrix, which cannot be animated", found->index));
         }
         return found;
+    }
+
+    /// Nothing for a node that has nothing to morph.
+    [[nodiscard]] std::optional<PointerTarget> weights_of(std::size_t node) const {
+        return target_count(node) == 0
+                   ? std::nullopt
+                   : std::optional(PointerTarget{AnimatedValue::morph_weights, node});
+    }
+
+    /// Morph targets of a node's mesh, which glTF wants to be the same for all primitives.
+    [[nodiscard]] std::size_t target_count(std::size_t node) const {
+        const int mesh = document_.model().nodes[node].mesh;
+        if (mesh < 0) {
+            return 0;
+        }
+        const auto& primitives = item(document_.model().meshes, mesh).primitives;
+        return primitives.empty() ? 0 : primitives.front().targets.size();
     }
 
     std::optional<PointerTarget> pointed(const Json& target, const std::string& path) {
@@ -221,31 +240,38 @@ class AnimationReader {
     }
 
     std::size_t track_of(const Json& animation, const std::string& path, const Json& channel,
-                         const std::string& channel_path, AnimatedValue value) {
+                         const std::string& channel_path, const PointerTarget& target) {
+        const std::size_t components = target.value == AnimatedValue::morph_weights
+                                           ? target_count(target.index)
+                                           : components_of(target.value);
         const Json& samplers = array_of(animation, path, "samplers");
         const std::size_t index = index_of(channel, channel_path, "sampler", samplers.size());
-        const auto known = tracks_of_samplers_.find({index, value});
+        const auto known = tracks_of_samplers_.find({index, target.value, components});
         if (known != tracks_of_samplers_.end()) {
             return known->second;
         }
-        result_.tracks.push_back(
-            read_track(samplers[index], path + "." + item_path("samplers", index), value));
-        return tracks_of_samplers_[{index, value}] = result_.tracks.size() - 1;
+        result_.tracks.push_back(read_track(
+            samplers[index], path + "." + item_path("samplers", index), target.value, components));
+        return tracks_of_samplers_[{index, target.value, components}] = result_.tracks.size() - 1;
     }
 
-    KeyTrack read_track(const Json& sampler, const std::string& path, AnimatedValue value) {
+    KeyTrack read_track(const Json& sampler, const std::string& path, AnimatedValue value,
+                        std::size_t components) {
         if (!sampler.is_object()) {
             document_.fail(path, "must be an object");
         }
         KeyTrack track;
-        track.components = components_of(value);
+        track.components = components;
         track.interpolation = interpolation_of(sampler, path);
         const std::size_t accessors = document_.model().accessors.size();
         const auto input = static_cast<int>(index_of(sampler, path, "input", accessors));
         const auto output = static_cast<int>(index_of(sampler, path, "output", accessors));
         const std::size_t keys = item(document_.model().accessors, input).count;
-        const std::size_t parts = track.interpolation == Interpolation::cubic_spline ? 3 : 1;
-        keys_ += keys;
+        // Morph weights are single numbers in a row.
+        const bool single = value == AnimatedValue::morph_weights;
+        const std::size_t parts = (track.interpolation == Interpolation::cubic_spline ? 3 : 1) *
+                                  (single ? components : 1);
+        keys_ += single ? keys * components : keys;
         if (keys_ > most_track_keys) {
             document_.fail(path + ".input",
                            fmt::format("more than {} keys in all", most_track_keys));
@@ -258,7 +284,7 @@ class AnimationReader {
         }
         track.times = read_floats(document_, input, 1, path + ".input");
         check_times(track.times, path + ".input", track.interpolation);
-        track.values = read_floats(document_, output, track.components, path + ".output");
+        track.values = read_floats(document_, output, single ? 1 : components, path + ".output");
         if (value == AnimatedValue::rotation) {
             check_rotations(track, path + ".output");
         }
@@ -314,7 +340,7 @@ class AnimationReader {
     std::size_t lights_ = 0;
     std::size_t channels_ = 0, keys_ = 0;  // so far
     std::set<std::string> names_;
-    std::map<std::pair<std::size_t, AnimatedValue>, std::size_t> tracks_of_samplers_;
+    std::map<std::tuple<std::size_t, AnimatedValue, std::size_t>, std::size_t> tracks_of_samplers_;
 };
 
 }  // namespace

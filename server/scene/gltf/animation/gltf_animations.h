@@ -14,7 +14,8 @@ namespace raybundle {
 /// A channel as the file has it.
 struct FileChannel {
     AnimatedValue value = AnimatedValue::translation;
-    std::size_t target = 0;  ///< a node, an entry of KHR_lights_punctual's lights, or a material
+    std::size_t target = 0;  ///< a node (of morph_weights, too), an entry of KHR_lights_punctual's
+                             ///< lights, or a material
     std::size_t track = 0;   ///< index into FileAnimations::tracks
 };
 
@@ -28,7 +29,8 @@ struct FileAnimation {
 struct FileAnimations {
     std::vector<FileAnimation> animations;
     std::vector<KeyTrack> tracks;
-    std::vector<bool> moved;  ///< of each node: whether a channel moves it
+    std::vector<bool> moved;    ///< of each node: whether a channel moves it
+    std::vector<bool> morphed;  ///< likewise: whether a channel changes its morph weights
 };
 
 /// Reads "animations" with KHR_animation_pointer. One that is malformed is left out with a notice

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "scene/mesh/baked_vertex.h"
 #include "scene/mesh/geometry_defects.h"
 #include "scene/neighbourhood.h"
 
@@ -15,24 +16,16 @@ namespace {
 // A light-second is 3e8 m; beyond this fp32 areas overflow.
 constexpr double max_coordinate = 1e9;
 
-/// Transforms normals like an inverse transpose (up to a positive factor), singular matrices too.
-glm::dmat3 normal_matrix(const glm::dmat4& matrix) {
-    const glm::dmat3 m(matrix);
-    const double sign = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
-    return sign *
-           glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
-
-glm::vec3 unit_or_zero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 1e-30 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0.0F);
-}
-
 class Baker {
   public:
     Baker(GltfDocument& document, const GltfNodeTree& tree,
-          const std::vector<NodeGeometry>& geometries, std::uint32_t default_material, Scene& scene)
-        : document_(document), tree_(tree), default_material_(default_material), scene_(scene) {
+          const std::vector<NodeGeometry>& geometries, std::uint32_t default_material,
+          const std::vector<bool>& followed, Scene& scene)
+        : document_(document),
+          tree_(tree),
+          default_material_(default_material),
+          followed_(followed),
+          scene_(scene) {
         Bounds all;
         for (const NodeGeometry& geometry : geometries) {
             all.add(geometry.world_bounds.min);
@@ -46,7 +39,7 @@ class Baker {
         const std::size_t first_triangle = scene_.triangles.size();
         begin_object(plan);
         for (const std::size_t geometry : plan.geometries) {
-            add_geometry(geometries[geometry]);
+            add_geometry(geometries[geometry], geometry);
         }
         if (scene_.triangles.size() == first_triangle) {
             return false;
@@ -67,6 +60,8 @@ class Baker {
                             bad_normals_));
         }
     }
+
+    std::vector<BakedPrimitive> take_baked() { return std::move(baked_); }
 
   private:
     [[nodiscard]] const GltfNode& node(int index) const {
@@ -110,7 +105,7 @@ class Baker {
         }
     }
 
-    void add_geometry(const NodeGeometry& geometry) {
+    void add_geometry(const NodeGeometry& geometry, std::size_t index) {
         for (const glm::dmat4& node_from_mesh : geometry.node_from_mesh) {
             const glm::dmat4 object_from_mesh =
                 geometry.in_world ? object_from_world()
@@ -118,7 +113,12 @@ class Baker {
             for (std::size_t i = 0; i < geometry.primitives.size(); ++i) {
                 path_ =
                     fmt::format("meshes[{}].primitives[{}].attributes.POSITION", geometry.mesh, i);
+                sources_.clear();
+                const auto first = static_cast<std::uint32_t>(scene_.vertices.size());
                 add_primitive(geometry.primitives[i], object_from_mesh);
+                if (followed_[index] && scene_.vertices.size() > first) {
+                    baked_.push_back({index, i, first, sources_, object_from_mesh});
+                }
             }
         }
     }
@@ -185,6 +185,7 @@ class Baker {
                 vertex.colour = data.colours[v];
             }
             scene_.vertices.push_back(vertex);
+            sources_.push_back(static_cast<std::uint32_t>(v));
         }
     }
 
@@ -207,6 +208,8 @@ class Baker {
                                            object_points[2] - object_points[0]));
         for (std::uint32_t& index : triangle.vertex) {
             if (flat) {
+                sources_.push_back(
+                    std::uint32_t{sources_[index - (scene_.vertices.size() - sources_.size())]});
                 scene_.vertices.push_back(scene_.vertices[index]);
                 index = static_cast<std::uint32_t>(scene_.vertices.size() - 1);
                 scene_.vertices.back().normal = face_normal;
@@ -242,6 +245,9 @@ class Baker {
     GltfDocument& document_;
     const GltfNodeTree& tree_;
     std::uint32_t default_material_;
+    const std::vector<bool>& followed_;
+    std::vector<BakedPrimitive> baked_;
+    std::vector<std::uint32_t> sources_;  // of the present primitive's vertices
     Scene& scene_;
     Object object_;
     glm::dmat4 world_from_object_{1.0};
@@ -253,10 +259,12 @@ class Baker {
 
 }  // namespace
 
-void bake_objects(GltfDocument& document, const GltfNodeTree& tree,
-                  const std::vector<NodeGeometry>& geometries, std::vector<ObjectPlan>& plans,
-                  std::uint32_t default_material, Scene& scene) {
-    Baker baker(document, tree, geometries, default_material, scene);
+std::vector<BakedPrimitive> bake_objects(GltfDocument& document, const GltfNodeTree& tree,
+                                         const std::vector<NodeGeometry>& geometries,
+                                         std::vector<ObjectPlan>& plans,
+                                         std::uint32_t default_material,
+                                         const std::vector<bool>& followed, Scene& scene) {
+    Baker baker(document, tree, geometries, default_material, followed, scene);
     std::erase_if(plans, [&](const ObjectPlan& plan) {
         return !baker.add_object(plan, geometries);  // each once, in order
     });
@@ -264,6 +272,7 @@ void bake_objects(GltfDocument& document, const GltfNodeTree& tree,
     if (scene.triangles.empty()) {
         document.fail("", "the scene has no triangles with an area");
     }
+    return baker.take_baked();
 }
 
 }  // namespace raybundle
