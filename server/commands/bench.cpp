@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "commands/bench_changes.h"
 #include "commands/bench_moves.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
@@ -85,6 +86,7 @@ class SceneBench {
           seed_(options.scene.seed),
           seconds_(options.stop.seconds),
           json_file_(options.output.json_file),
+          changes_only_(options.bench.changes),
           loaded_(load_scene(options)) {
         report_["scene"] = loaded_.scene.name;
         report_["patches"] = loaded_.mesh.patch_count();
@@ -93,6 +95,10 @@ class SceneBench {
     }
 
     void run() {
+        if (changes_only_) {
+            report_["changes"] = bench_changes(loaded_, seed_);
+            return;
+        }
         iterations("perspective iteration, 512-pixel hemicube", {0, 0, 1}, false);
         iterations("layered iteration, 800-pixel window", {1, 0, 0}, false);
         iterations("plane iteration, 800-pixel window", {0, 1, 0}, false);
@@ -101,6 +107,7 @@ class SceneBench {
         walkthrough();
         beside_frames();
         moves();
+        report_["changes"] = bench_changes(loaded_, seed_);
         const std::string svg = json_file_.empty() ? "" : json_file_ + ".moves.svg";
         report_["moveCurves"] = bench_moves(loaded_, seed_, seconds_, svg);
         convergence();
@@ -357,6 +364,7 @@ class SceneBench {
     std::uint64_t seed_;
     std::optional<double> seconds_;
     std::string json_file_;
+    bool changes_only_;
     LoadedScene loaded_;
 };
 

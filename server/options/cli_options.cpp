@@ -392,6 +392,8 @@ void define_options(CLI::App& app, Options& options) {
                                  "How long moves are followed (default: 3, and fewer variants)")
                     ->check(number_that([](double value) { return value >= 0.5 && value <= 600.0; },
                                         "a number of 0.5 to 600"));
+                command->add_flag("--changes", options.bench.changes,
+                                  "Only the time from a change to its corrected frame");
             }
         }
     }

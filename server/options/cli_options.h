@@ -176,6 +176,10 @@ struct RenderOptions {
     std::string script;    ///< file
 };
 
+struct BenchOptions {
+    bool changes = false;  ///< nothing else
+};
+
 struct ExportOptions {
     bool force = false;
 };
@@ -256,6 +260,7 @@ struct Options {
     StopOptions stop;      // render, export, accuracy, inspect, bench, measure
     OutputOptions output;  // render, export, save, accuracy, bench, selftest
     RenderOptions render;
+    BenchOptions bench;
     ExportOptions export_scene;
     AccuracyOptions accuracy;
     InspectOptions inspect;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a change of lamps or places makes of the light of many lamps.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "solution/direct/many_lamps.h"
 #include "trace/facet_tracer.h"
@@ -35,11 +39,104 @@ bool lamps_differ(const layout::PunctualData& a, const layout::PunctualData& b) 
            a.profile != b.profile;
 }
 
+/// Whether a way from a point of a box to a lamp (LampQuestion::lamps) may meet another box: at
+/// time t all ways together are a box, whose sides move evenly.
+bool ways_meet(const Bounds& from, const glm::vec4& lamp, const Bounds& other) {
+    if (from.empty() || other.empty()) {
+        return false;
+    }
+    const bool distant = lamp.w == 0.0F;
+    float enter = 0.0F;
+    float leave = distant ? std::numeric_limits<float>::infinity() : 1.0F;
+    // least + t * step <= 0 holds from the time on, or up to it, where both are equal.
+    const auto below = [&](float least, float step) {
+        if (step > 0.0F) {
+            leave = std::min(leave, -least / step);
+        } else if (step < 0.0F) {
+            enter = std::max(enter, -least / step);
+        } else if (least > 0.0F) {
+            leave = -1.0F;
+        }
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const float to = lamp[axis];
+        below(from.min[axis] - other.max[axis], distant ? to : to - from.min[axis]);
+        below(other.min[axis] - from.max[axis], distant ? -to : from.max[axis] - to);
+    }
+    return enter <= leave;
+}
+
 }  // namespace
+
+/// Boxes round the points of each cell's patches, as run() will have them for the present row.
+/// Returns of the order which patches are on objects that have moved.
+std::vector<bool> ManyLamps::enclose_points(std::vector<Bounds>& cells) {
+    cells.assign(order_.cells(), Bounds{});
+    std::vector<bool> moved(patch_order_.size(), false);
+    const std::size_t most = most_points_ / patch_points;
+    for (std::size_t first = 0; first < patch_order_.size(); first += most) {
+        const std::size_t end = std::min(first + most, patch_order_.size());
+        const std::size_t points = make_points(first, end, patch_points);
+        for (std::size_t i = 0; i < points; ++i) {
+            const LampPoint& point = points_[i];
+            if ((point.cell & LampPoint::moved) != 0) {
+                moved[first + i / patch_points] = true;
+            } else {
+                cells[point.cell].add(point.position);
+            }
+        }
+    }
+    return moved;
+}
+
+/// Which cells have a way to a lamp of a row that may meet a box, where that is now or was before.
+std::vector<std::uint8_t> ManyLamps::cells_behind(std::span<const std::uint32_t> row,
+                                                  std::span<const Bounds> cells,
+                                                  std::span<const Bounds> boxes) const {
+    std::vector<Bounds> wider(boxes.begin(), boxes.end());
+    for (Bounds& box : wider) {  // than what rounding makes of them
+        if (!box.empty()) {
+            const float margin = 1e-5F * scene_.diameter();
+            box.min -= margin;
+            box.max += margin;
+        }
+    }
+    std::vector<std::uint8_t> behind(cells.size(), 0);
+    tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t cell) {
+        const auto slots = row.subspan(cell * LAMP_SLOTS, LAMP_SLOTS);
+        const auto meets = [&](const glm::vec4& lamp) {
+            return std::any_of(wider.begin(), wider.end(), [&](const Bounds& box) {
+                return ways_meet(cells[cell], lamp, box);
+            });
+        };
+        behind[cell] = std::any_of(slots.begin(), slots.end(), [&](std::uint32_t lamp) {
+            return lamp != no_lamp && (meets(places_[lamp]) || meets(places_before_[lamp]));
+        });
+    });
+    return behind;
+}
+
+/// run_all() for some patches of the order alone.
+void ManyLamps::run_some(std::span<const std::uint32_t> row, const Pass& pass,
+                         std::vector<std::uint32_t> patches) {
+    if (patches.empty()) {
+        return;
+    }
+    patch_order_.swap(patches);
+    order_buffer_.write<std::uint32_t>(patch_order_, 0);
+    run_all(row, pass);
+    patch_order_.swap(patches);
+    order_buffer_.write<std::uint32_t>(patch_order_, 0);
+}
 
 /// Some lamps are others: what they brought goes, and what they bring comes. What has moved looks
 /// at all of them in add_moves().
 void ManyLamps::add_changes(Buffer& lights, std::span<const layout::PunctualData> now) {
+    const bool in_place = scene_.moved_objects().x == NO_PATCH &&
+                          std::all_of(changed_.begin(), changed_.end(), [&](std::uint32_t lamp) {
+                              return places_[lamp] == places_before_[lamp];
+                          });
+    std::vector<std::vector<std::uint32_t>> reached(changed_.size() / LAMP_SLOTS + 1);
     for (const bool before : {true, false}) {
         if (!before) {
             lights.write(now, 0);
@@ -50,6 +147,10 @@ void ManyLamps::add_changes(Buffer& lights, std::span<const layout::PunctualData
             pass.before = before;
             pass.sign = before ? -1.0F : 1.0F;
             pass.but_moved = true;
+            if (in_place) {  // the same points are reached
+                std::vector<std::uint32_t>& row = reached[first / LAMP_SLOTS];
+                (before ? pass.keep : pass.known) = &row;
+            }
             run_all(row_of(std::span(changed_).subspan(first, count)), pass);
         }
     }
@@ -73,17 +174,34 @@ void ManyLamps::follow_moved() {
 /// everything on the objects themselves.
 void ManyLamps::add_moves(std::span<const Bounds> boxes) {
     const std::size_t end = std::min(near_lamps, lamps_);
+    std::vector<Bounds> cells;
+    std::vector<bool> moved;
     for (rank_ = 0; rank_ < end; rank_ += LAMP_SLOTS) {
-        std::vector<std::uint32_t> row = rank_row(rank_);
+        if (rank_ <= LAMP_SLOTS) {  // other points, but for the first row always the same
+            moved = enclose_points(cells);
+        }
+        const std::vector<std::uint32_t> row = rank_row(rank_);
+        const std::vector<std::uint8_t> behind = cells_behind(row, cells, boxes);
+        std::vector<std::uint32_t> own;
+        std::vector<std::uint32_t> others;
+        for (std::size_t i = 0; i < patch_order_.size(); ++i) {
+            const std::uint32_t patch = patch_order_[i];
+            if (moved[i]) {
+                own.push_back(patch);
+            } else if (behind[order_.cell_of()[patch]] != 0) {
+                others.push_back(patch);
+            }
+        }
         Pass pass;
         pass.boxes = boxes;
+        run_some(row, pass, others);
         pass.chances = rank_ + LAMP_SLOTS >= end;
-        run_all(row, pass);
+        run_some(row, pass, std::move(own));
         pass.chances = false;
         pass.before = true;
         pass.sign = -1.0F;
         pass.but_moved = true;
-        run_all(row, pass);
+        run_some(row, pass, std::move(others));
     }
 }
 
