@@ -36,8 +36,9 @@ TEST(UsageMessage, NamesTheWordThatIsNotKnownAndWhatIsMeant) {
     begins(message_of({"srve", "a.glb"}),
            "raybundle: there is no command 'srve'; is 'serve' meant?\n"
            "raybundle --help lists what there is\n");
-    begins(message_of({"office.glb"}),
-           "raybundle: there is no command 'office.glb'; there are serve, work, projects, render, ");
+    begins(
+        message_of({"office.glb"}),
+        "raybundle: there is no command 'office.glb'; there are serve, work, projects, render, ");
     begins(message_of({"serve", "a.glb", "--listn", "127.0.0.1:1"}),
            "raybundle: serve: there is no option '--listn'; is '--listen' meant?\n"
            "raybundle serve --help lists what there is\n");
