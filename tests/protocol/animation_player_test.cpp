@@ -30,9 +30,15 @@ Scene two_boxes() {
                    {Interpolation::linear, 3, {0.0F, 4.0F}, {0, 0, 0, 0, 4, 0}}};
     all->nodes.resize(2);
     all->objects = {{0, 0, true}, {1, 1, true}};
-    Animation both{"both", 4.0, {}, {0, 1}, {}, {}};
+    Animation both;
+    both.name = "both";
+    both.seconds = 4.0;
+    both.objects = {0, 1};
     both.channels = {{AnimatedValue::translation, 0, 0}, {AnimatedValue::translation, 1, 0}};
-    Animation second{"second", 4.0, {}, {1}, {}, {}};
+    Animation second;
+    second.name = "second";
+    second.seconds = 4.0;
+    second.objects = {1};
     second.channels = {{AnimatedValue::translation, 1, 1}};
     all->animations = {both, second};
     scene.animations = all;
