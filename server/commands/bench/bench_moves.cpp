@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/bench_moves.h"
+#include "commands/bench/bench_moves.h"
 
 #include <fmt/core.h>
 

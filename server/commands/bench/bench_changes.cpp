@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/bench_changes.h"
+#include "commands/bench/bench_changes.h"
 
 #include <fmt/core.h>
 

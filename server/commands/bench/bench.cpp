@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "commands/bench_changes.h"
-#include "commands/bench_moves.h"
+#include "commands/bench/bench_changes.h"
+#include "commands/bench/bench_moves.h"
 #include "commands/command.h"
 #include "gpu/egl_context.h"
 #include "gpu/gl_scope.h"
