@@ -82,6 +82,12 @@ void set_air(Scene& scene, const AirOptions& air) {
 
 }  // namespace
 
+TessellationSettings tessellation_settings(const Options& options) {
+    TessellationSettings settings;
+    settings.patch_size = options.scene.patch_size;
+    return settings;
+}
+
 LoadedScene load_scene(const Options& options) {
     return load_scene(options, [] {});
 }
@@ -102,9 +108,7 @@ LoadedScene load_scene(const Options& options, const std::function<void()>& acce
     }
     loaded.digest = file_digest(options.scene.file).value_or("");
     accepted();
-    TessellationSettings tessellation;
-    tessellation.patch_size = options.scene.patch_size;
-    loaded.mesh = tessellate(loaded.scene, tessellation);
+    loaded.mesh = tessellate(loaded.scene, tessellation_settings(options));
     loaded.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const std::string& notice : loaded.scene.notices) {

@@ -10,6 +10,9 @@
 
 namespace raybundle {
 
+/// How the options want scenes to be cut into patches.
+TessellationSettings tessellation_settings(const Options& options);
+
 /// A scene read and tessellated as the options say, notices and progress in the log. Throws
 /// SceneError.
 struct LoadedScene {

@@ -290,9 +290,7 @@ int run_render_script(const StrategyProbabilities& probabilities, glm::uvec2 siz
                                      {"device", context.renderer()},
                                      {"script", options.render.script},
                                      {"frames", nlohmann::ordered_json::array()}};
-    TessellationSettings tessellation;
-    tessellation.patch_size = options.scene.patch_size;
-    Sequence sequence(std::move(loaded), script, settings, tessellation, size);
+    Sequence sequence(std::move(loaded), script, settings, tessellation_settings(options), size);
     double before = -1.0;
     for (unsigned frame = 0; frame < script.frames(); ++frame) {
         const double time = script.time_of(frame);

@@ -39,10 +39,10 @@ struct Gap {
 /// Vertical lines on a grid.
 class Columns {
   public:
-    explicit Columns(const Bounds& bounds) : corner_(bounds.min.x, bounds.min.z) {
+    /// most: along each side.
+    Columns(const Bounds& bounds, int most) : corner_(bounds.min.x, bounds.min.z), most_(most) {
         const glm::vec3 extent = bounds.extent();
-        width_ =
-            std::max(std::max(extent.x, extent.z) / static_cast<float>(most_columns), least_width);
+        width_ = std::max(std::max(extent.x, extent.z) / static_cast<float>(most), least_width);
         along_x_ = count(extent.x);
         along_z_ = count(extent.z);
     }
@@ -97,10 +97,11 @@ class Columns {
 
   private:
     [[nodiscard]] int count(float extent) const {
-        return std::clamp(static_cast<int>(std::ceil(extent / width_)), 1, most_columns);
+        return std::clamp(static_cast<int>(std::ceil(extent / width_)), 1, most_);
     }
 
     glm::vec2 corner_;
+    int most_;
     float width_;
     int along_x_ = 1, along_z_ = 1;
 };
@@ -197,8 +198,15 @@ double floor_area(const Scene& scene, std::span<const glm::vec3> places) {
     if (places.empty() || scene.triangles.empty()) {
         return 0.0;
     }
-    const Columns columns(scene.bounds);
-    const std::vector<Gap> gaps = gaps_between(all_hits(scene, columns));
+    int most = most_columns;
+    Columns columns(scene.bounds, most);
+    std::vector<Hit> hits = all_hits(scene, columns);
+    while (hits.size() >= most_hits && most > 1) {  // some are missing
+        most /= 2;
+        columns = Columns(scene.bounds, most);
+        hits = all_hits(scene, columns);
+    }
+    const std::vector<Gap> gaps = gaps_between(hits);
     std::vector<std::size_t> first(static_cast<std::size_t>(columns.size()) + 1, gaps.size());
     for (std::size_t i = gaps.size(); i-- > 0;) {
         first[gaps[i].column] = i;

@@ -974,6 +974,18 @@ describe('zones', () => {
         assert.equal(zoneValues({...zone, quantity: 'UGR', points: [outside]}, 'lx'), 'UGR outside of the method');
     });
 
+    it('say what lights them; a glowing material, on however many luminaires, has no number', () => {
+        const lit = {...zone, luminaires: [
+            {light: 1, name: 'LED', power: 1, share: 0.6}, {light: 2, name: 'spot', share: 0.3}, {light: 3, name: 'spot', share: 0.1},
+        ]};
+        const isMaterial = (/** @type {number} */ light) => light === 1;
+        assert.deepEqual(luminaireLines(/** @type {any} */ (lit), isMaterial),
+            ['all surfaces of LED, Ra not stated', '2 × spot, Ra not stated']);
+        assert.equal(litBy(/** @type {any} */ (lit), isMaterial), 'Lit by 2 luminaires and 1 glowing material');
+        assert.equal(litBy(/** @type {any} */ (lit)), 'Lit by 3 luminaires');
+        assert.equal(litBy(/** @type {any} */ ({...zone, luminaires: lit.luminaires.slice(0, 1)}), isMaterial), 'Lit by 1 glowing material');
+    });
+
     it('say what is required, and whether it is met, without colour', () => {
         assert.equal(checkText({what: 'Em', required: 500, atMost: false, verdict: 'MET'}, 'lx'), 'Em ≥ 500 lx: met');
         assert.equal(checkText({what: 'UGR', required: 19, atMost: true, verdict: 'NOT_YET_KNOWN'}, 'fc'), 'UGR ≤ 19: not yet known');

@@ -135,6 +135,22 @@ TEST(Report, SaysWhereLightIsDirectAlone) {
     EXPECT_NE(report_html(data, {}).find("Direct light only."), std::string::npos);
 }
 
+/// A glowing material is one light on however many luminaires: it has no number.
+TEST(Report, CountsLuminairesAndNoMaterials) {
+    ReportData data = data_of();
+    v1::Light& material = *data.scene.add_lights();
+    material.set_id(2);
+    material.set_kind(v1::Light::AREA);
+    for (const auto& [light, name] : {std::pair(2U, "LED"), std::pair(1U, "panel")}) {
+        v1::Measured::Luminaire& luminaire = *data.zones.front().found.add_luminaires();
+        luminaire.set_light(light);
+        luminaire.set_name(name);
+    }
+    EXPECT_NE(report_html(data, {}).find(
+                  "Lit by all surfaces of LED, Ra not stated; 1 × panel, Ra not stated."),
+              std::string::npos);
+}
+
 TEST(Report, SpeaksGermanAndFootcandles) {
     const std::string html = report_html(data_of(), {true, true});
     for (const char* text : {"lang=\"de\"", "Leuchten", "Zonen auf einen Blick", "nicht erfüllt",

@@ -2,6 +2,7 @@
 // What skins and morph targets make vertices of.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -14,6 +15,13 @@ namespace raybundle {
 struct MorphTarget {
     std::vector<glm::vec3> positions, normals;
 };
+
+/// For places and normals alike; without offsets they stay.
+inline void add_offsets(std::span<const glm::vec3> offsets, float weight, std::span<glm::vec3> to) {
+    for (std::size_t v = 0; v < std::min(offsets.size(), to.size()); ++v) {
+        to[v] += weight * offsets[v];
+    }
+}
 
 /// Vertices of a mesh primitive as the file has them, before morph targets and skin, in its units.
 struct RestShape {

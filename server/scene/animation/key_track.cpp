@@ -28,45 +28,20 @@ KeyTrack::Span KeyTrack::span_at(double seconds) const {
     return {next - 1, next, length, static_cast<float>((seconds - begun) / length)};
 }
 
-glm::vec4 KeyTrack::key(std::size_t index, std::size_t part) const {
-    const std::size_t parts = interpolation == Interpolation::cubic_spline ? 3 : 1;
-    glm::vec4 result(0.0F);
-    for (std::size_t c = 0; c < components; ++c) {
-        result[static_cast<int>(c)] = values[(index * parts + part) * components + c];
-    }
-    return result;
-}
-
 float KeyTrack::number(std::size_t index, std::size_t part, std::size_t component) const {
     const std::size_t parts = interpolation == Interpolation::cubic_spline ? 3 : 1;
     return values[(index * parts + part) * components + component];
 }
 
-glm::vec4 KeyTrack::value(std::size_t index) const {
-    return key(index, interpolation == Interpolation::cubic_spline ? 1 : 0);
-}
-
-/// glTF 2.0, appendix C.5: a Hermite spline whose tangents are per second.
-glm::vec4 KeyTrack::spline(const Span& span) const {
-    const float t = span.share;
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    const auto length = static_cast<float>(span.length);
-    return (2.0F * t3 - 3.0F * t2 + 1.0F) * key(span.before, 1) +
-           length * (t3 - 2.0F * t2 + t) * key(span.before, 2) +
-           (3.0F * t2 - 2.0F * t3) * key(span.after, 1) + length * (t3 - t2) * key(span.after, 0);
-}
-
 glm::vec4 KeyTrack::at(double seconds) const {
-    const Span span = span_at(seconds);
-    if (span.before == span.after || interpolation == Interpolation::step) {
-        return value(span.before);
+    glm::vec4 result(0.0F);
+    for (std::size_t c = 0; c < std::min<std::size_t>(components, 4); ++c) {
+        result[static_cast<int>(c)] = component_at(seconds, c);
     }
-    return interpolation == Interpolation::linear
-               ? glm::mix(value(span.before), value(span.after), span.share)
-               : spline(span);
+    return result;
 }
 
+/// A spline as in glTF 2.0, appendix C.5: of Hermite, tangents per second.
 float KeyTrack::component_at(double seconds, std::size_t component) const {
     const Span span = span_at(seconds);
     const bool cubic = interpolation == Interpolation::cubic_spline;
@@ -90,8 +65,9 @@ float KeyTrack::component_at(double seconds, std::size_t component) const {
 glm::quat KeyTrack::rotation_at(double seconds) const {
     const Span span = span_at(seconds);
     if (span.before != span.after && interpolation == Interpolation::linear) {
-        return glm::normalize(glm::slerp(unit_quaternion(value(span.before)),
-                                         unit_quaternion(value(span.after)), span.share));
+        return glm::normalize(glm::slerp(unit_quaternion(at(double{times[span.before]})),
+                                         unit_quaternion(at(double{times[span.after]})),
+                                         span.share));
     }
     return unit_quaternion(at(seconds));
 }

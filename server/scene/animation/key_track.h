@@ -35,9 +35,6 @@ struct KeyTrack {
     };
     [[nodiscard]] Span span_at(double seconds) const;
     /// part: of a cubic spline 0 for the in-tangent, 1 the value, 2 the out-tangent.
-    [[nodiscard]] glm::vec4 key(std::size_t index, std::size_t part) const;
-    [[nodiscard]] glm::vec4 value(std::size_t index) const;
-    [[nodiscard]] glm::vec4 spline(const Span& span) const;
     [[nodiscard]] float number(std::size_t index, std::size_t part, std::size_t component) const;
 };
 

@@ -48,14 +48,8 @@ class ShapePose {
             if (weights[t] == 0.0F) {
                 continue;
             }
-            const MorphTarget& target = rest.targets[t];
-            for (std::size_t v = 0; v < target.positions.size(); ++v) {
-                result.positions[v] += weights[t] * target.positions[v];
-            }
-            for (std::size_t v = 0; v < std::min(target.normals.size(), result.normals.size());
-                 ++v) {
-                result.normals[v] += weights[t] * target.normals[v];
-            }
+            add_offsets(rest.targets[t].positions, weights[t], result.positions);
+            add_offsets(rest.targets[t].normals, weights[t], result.normals);
         }
     }
 

@@ -192,16 +192,6 @@ std::vector<glm::vec3> read_offsets(const GltfDocument& document, const Accessor
     return offsets;
 }
 
-void add_weighted(const GltfDocument& document, std::vector<glm::vec3>& base,
-                  const AccessorMap& target, const char* semantic, float weight,
-                  const std::string& path) {
-    const std::vector<glm::vec3> offsets =
-        read_offsets(document, target, semantic, base.size(), path);
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        base[i] += weight * offsets[i];
-    }
-}
-
 void apply_morph_targets(GltfDocument& document, const std::vector<AccessorMap>& targets,
                          const std::vector<float>& weights, const std::string& path,
                          PrimitiveData& data) {
@@ -212,8 +202,12 @@ void apply_morph_targets(GltfDocument& document, const std::vector<AccessorMap>&
          ++i) {
         if (weights[i] != 0.0F) {
             const std::string target_path = path + "." + item_path("targets", i);
-            add_weighted(document, data.positions, targets[i], "POSITION", weights[i], target_path);
-            add_weighted(document, data.normals, targets[i], "NORMAL", weights[i], target_path);
+            add_offsets(
+                read_offsets(document, targets[i], "POSITION", data.positions.size(), target_path),
+                weights[i], data.positions);
+            add_offsets(
+                read_offsets(document, targets[i], "NORMAL", data.normals.size(), target_path),
+                weights[i], data.normals);
         }
     }
 }

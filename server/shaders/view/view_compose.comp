@@ -18,7 +18,7 @@ uniform uint frame_height;
 
 /// Whether a pixel shows where a plan or section cuts through something: its inside has no light.
 bool cut_through(PixelSurface p) {
-    return view.display.z > 0.0 && p.side == NO_PATCH && (p.facet & PIXEL_BACK) != 0u;
+    return p.side == NO_PATCH && (p.facet & PIXEL_BACK) != 0u;
 }
 
 /// What is cut is hatched, at any exposure, so that it is told from dark rooms and from the sky.
@@ -54,7 +54,7 @@ bool isoline_between(float a, float b) {
 
 /// Displayed colour of a pixel, 0..1; dark where an isoline begins.
 vec3 shown(uvec2 at) {
-    if (cut_through(load_pixel(at.y * view.size.x + at.x))) {
+    if (view.display.z > 0.0 && cut_through(load_pixel(at.y * view.size.x + at.x))) {
         return hatching(at);
     }
     float value = quantity(at);
@@ -73,7 +73,7 @@ vec3 shown(uvec2 at) {
 vec3 shown(uvec2 at) {
     uint index = at.y * view.size.x + at.x;
     PixelSurface p = load_pixel(index);
-    if (cut_through(p)) {
+    if (view.display.z > 0.0 && cut_through(p)) {
         return hatching(at);
     }
 #ifdef UNLIT

@@ -232,13 +232,6 @@ void ManyLamps::run(std::span<const std::uint32_t> row, const Pass& pass, std::s
     const std::size_t most = most_points_ / pass.parts;
     for (; first < end; first += most) {
         const std::size_t last = std::min(first + most, end);
-        if (pass.known != nullptr) {
-            write_points(first, last, pass.parts);
-            masks_.write<std::uint32_t>(
-                std::span(*pass.known).subspan(first * pass.parts, (last - first) * pass.parts), 0);
-            add_masks(pass, first, last);
-            continue;
-        }
         make_points(first, last, pass.parts);
         add_points(row, pass, first, last);
     }
@@ -250,21 +243,12 @@ void ManyLamps::add_points(std::span<const std::uint32_t> row, const Pass& pass,
     const std::size_t points = (end - first) * pass.parts;
     ask(std::span(points_).first(points), row, pass, std::span(lit_).first(points));
     masks_.write<std::uint32_t>(std::span(lit_).first(points), 0);
-    if (pass.keep != nullptr) {
-        pass.keep->insert(pass.keep->end(), lit_.begin(),
-                          lit_.begin() + static_cast<std::ptrdiff_t>(points));
-    }
     if (pass.note) {
         note_dark(row, points);
     }
     if (pass.chances) {
         draw_chances(end - first, pass, first);
     }
-    add_masks(pass, first, end);
-}
-
-/// The same where the masks are known and bound, too.
-void ManyLamps::add_masks(const Pass& pass, std::size_t first, std::size_t end) {
     order_buffer_.bind_storage(BINDING_LAMP_ORDER);
     add_.set("first_patch", static_cast<unsigned>(first));
     add_.set("end_patch", static_cast<unsigned>(end));

@@ -85,8 +85,6 @@ class ManyLamps {
         bool note = false;  // what reaches no patch of a cell
         bool but_moved = false;
         std::span<const Bounds> boxes;
-        std::vector<std::uint32_t>* keep = nullptr;   // gets the masks of all points
-        std::vector<std::uint32_t>* known = nullptr;  // has them: no rays
     };
     void order_patches();
     void restart();
@@ -107,7 +105,6 @@ class ManyLamps {
     std::size_t make_points(std::size_t first, std::size_t end, unsigned parts);
     void add_points(std::span<const std::uint32_t> row, const Pass& pass, std::size_t first,
                     std::size_t end);
-    void add_masks(const Pass& pass, std::size_t first, std::size_t end);
     void request_slice(std::size_t points);
     void draw_chances(std::size_t patches, const Pass& pass, std::size_t first);
     void note_dark(std::span<const std::uint32_t> row, std::size_t points);

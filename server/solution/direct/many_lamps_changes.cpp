@@ -132,11 +132,6 @@ void ManyLamps::run_some(std::span<const std::uint32_t> row, const Pass& pass,
 /// Some lamps are others: what they brought goes, and what they bring comes. What has moved looks
 /// at all of them in add_moves().
 void ManyLamps::add_changes(Buffer& lights, std::span<const layout::PunctualData> now) {
-    const bool in_place = scene_.moved_objects().x == NO_PATCH &&
-                          std::all_of(changed_.begin(), changed_.end(), [&](std::uint32_t lamp) {
-                              return places_[lamp] == places_before_[lamp];
-                          });
-    std::vector<std::vector<std::uint32_t>> reached(changed_.size() / LAMP_SLOTS + 1);
     for (const bool before : {true, false}) {
         if (!before) {
             lights.write(now, 0);
@@ -147,10 +142,6 @@ void ManyLamps::add_changes(Buffer& lights, std::span<const layout::PunctualData
             pass.before = before;
             pass.sign = before ? -1.0F : 1.0F;
             pass.but_moved = true;
-            if (in_place) {  // the same points are reached
-                std::vector<std::uint32_t>& row = reached[first / LAMP_SLOTS];
-                (before ? pass.keep : pass.known) = &row;
-            }
             run_all(row_of(std::span(changed_).subspan(first, count)), pass);
         }
     }

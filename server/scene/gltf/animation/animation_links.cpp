@@ -38,7 +38,7 @@ class Linker {
     void link() {
         result_.tracks = file_.tracks;
         result_.metres_per_unit = uses_.metres_per_unit;
-        find_carried_nodes();
+        carried_ = carried_nodes(uses_.tree, file_);
         add_objects();
         add_lights();
         shape_links_.add(uses_.baked, file_.morphed, result_);
@@ -60,17 +60,6 @@ class Linker {
 
   private:
     [[nodiscard]] const GltfNode& node(std::size_t index) const { return uses_.tree.nodes[index]; }
-
-    /// Those that an animation moves, and all below them.
-    void find_carried_nodes() {
-        carried_.resize(uses_.tree.nodes.size());
-        for (const int index : uses_.tree.order) {
-            const auto n = static_cast<std::size_t>(index);
-            const int parent = node(n).parent;
-            carried_[n] =
-                file_.moved[n] || (parent >= 0 && carried_[static_cast<std::size_t>(parent)]);
-        }
-    }
 
     void add_objects() {
         for (std::size_t i = 0; i < uses_.plans.size(); ++i) {

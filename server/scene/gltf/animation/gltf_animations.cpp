@@ -345,6 +345,17 @@ class AnimationReader {
 
 }  // namespace
 
+std::vector<bool> carried_nodes(const GltfNodeTree& tree, const FileAnimations& animations) {
+    std::vector<bool> carried(tree.nodes.size());
+    for (const int node : tree.order) {
+        const auto n = static_cast<std::size_t>(node);
+        const int parent = tree.nodes[n].parent;
+        carried[n] =
+            animations.moved[n] || (parent >= 0 && carried[static_cast<std::size_t>(parent)]);
+    }
+    return carried;
+}
+
 FileAnimations read_animations(GltfDocument& document, const GltfNodeTree& tree) {
     return AnimationReader(document, tree).read();
 }

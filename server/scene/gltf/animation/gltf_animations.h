@@ -33,6 +33,9 @@ struct FileAnimations {
     std::vector<bool> morphed;  ///< likewise: whether a channel changes its morph weights
 };
 
+/// Of each node, whether animations move it or one above it.
+std::vector<bool> carried_nodes(const GltfNodeTree& tree, const FileAnimations& animations);
+
 /// Reads "animations" with KHR_animation_pointer. One that is malformed is left out with a notice
 /// that names place and reason; so are channels that change what cannot be changed while a scene is
 /// shown.

@@ -16,13 +16,7 @@ constexpr std::size_t most_offsets = 8'000'000;
 std::vector<bool> find_deforming(const GltfDocument& document, const GltfNodeTree& tree,
                                  const std::vector<NodeGeometry>& geometries,
                                  const FileAnimations& animations) {
-    std::vector<bool> carried(tree.nodes.size());
-    for (const int node : tree.order) {
-        const auto n = static_cast<std::size_t>(node);
-        const int parent = tree.nodes[n].parent;
-        carried[n] =
-            animations.moved[n] || (parent >= 0 && carried[static_cast<std::size_t>(parent)]);
-    }
+    const std::vector<bool> carried = carried_nodes(tree, animations);
     std::vector<bool> deforming;
     for (const NodeGeometry& geometry : geometries) {
         bool any = animations.morphed[static_cast<std::size_t>(geometry.node)];
